@@ -1,0 +1,12 @@
+# What every target of ours is compiled with. Third-party headers are SYSTEM includes, so these spare them.
+add_library(traygauge_options INTERFACE)
+target_compile_options(traygauge_options INTERFACE
+  -Wall -Wextra -Wconversion -Wsign-conversion -Wshadow -Wnon-virtual-dtor -Wold-style-cast -Werror
+  -ffp-contract=off)  # no fused multiply-add: the same bits on every processor
+target_include_directories(traygauge_options INTERFACE ${PROJECT_SOURCE_DIR})
+
+if(TRAYGAUGE_SANITIZERS)
+  target_compile_options(traygauge_options INTERFACE
+    -fsanitize=${TRAYGAUGE_SANITIZERS} -fno-sanitize-recover=all -fno-omit-frame-pointer)
+  target_link_options(traygauge_options INTERFACE -fsanitize=${TRAYGAUGE_SANITIZERS})
+endif()

@@ -1,0 +1,43 @@
+// Points, motions and planes. Camera axes as in OpenCV: x right, y down, z forward.
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+namespace traygauge {
+
+using Vec2 = Eigen::Vector2d;
+using Vec3 = Eigen::Vector3d;
+using Mat3 = Eigen::Matrix3d;
+
+// A rigid motion between two frames, named target_from_source: x_target = rotation * x_source + translation.
+struct Pose {
+  Mat3 rotation = Mat3::Identity();
+  Vec3 translation = Vec3::Zero();
+
+  Vec3 operator*(const Vec3& point) const { return rotation * point + translation; }
+  Pose inverse() const { return {rotation.transpose(), -(rotation.transpose() * translation)}; }
+};
+
+// Signed height of a point: normal · point − offset; `normal` has unit length and points up, to the camera.
+struct Plane {
+  Vec3 normal = Vec3::UnitZ();
+  double offset = 0.0;
+
+  double height(const Vec3& point) const { return normal.dot(point) - offset; }
+  // The parallel plane `distance` higher.
+  Plane raised(double distance) const { return {normal, offset + distance}; }
+};
+
+inline Mat3 skew(const Vec3& v) {
+  Mat3 m;
+  m << 0.0, -v.z(), v.y(), v.z(), 0.0, -v.x(), -v.y(), v.x(), 0.0;
+  return m;
+}
+
+// Essential matrix of second_from_first: x2ᵀ E x1 = 0 for rays x1, x2 (Hartley & Zisserman 9.12).
+inline Mat3 essential_matrix(const Pose& second_from_first) {
+  return skew(second_from_first.translation) * second_from_first.rotation;
+}
+
+}  // namespace traygauge

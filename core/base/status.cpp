@@ -1,0 +1,83 @@
+#include "core/base/status.hpp"
+
+#include <array>
+#include <cstddef>
+
+namespace traygauge {
+namespace {
+
+struct Text {
+  const char* name;
+  const char* sentence;
+};
+
+// In the order of StatusCode.
+constexpr auto kTexts = std::to_array<Text>({
+    {"ok", "Measured."},
+    {"partial", "Some items could not be measured; see the status of each."},
+    {"invalid_configuration",
+     "The configuration holds a value outside its range; run `traygauge measure` on a capture whose camera, "
+     "card and dish are plausible."},
+    {"out_of_memory",
+     "The memory reserved at start is too small for this configuration; see `traygauge memory`."},
+    {"frame_missing", "A view is missing; two pictures of the dish are needed."},
+    {"frame_size_mismatch", "The picture does not have the size that the camera's calibration was made for."},
+    {"labels_size_mismatch", "The label image does not have the size of its picture."},
+    {"frame_too_dark", "The picture is almost black; check the light, the lens cap and the exposure."},
+    {"frame_too_bright", "The picture is burnt out; lower the exposure or remove the glare."},
+    {"no_dish_label", "No pixel is labelled as dish; outline the dish in both views."},
+    {"no_food_label", "No food item is labelled in both views; outline at least one item."},
+    {"dish_cut_off", "The dish is cut off by the edge of the picture; move it into the middle."},
+    {"too_few_features",
+     "The picture has too little texture to find corresponding points; check focus and light."},
+    {"too_few_matches",
+     "Too few points correspond between the two pictures; they may show different scenes or lie too far "
+     "apart."},
+    {"views_identical", "Both pictures are the same; move the camera between them."},
+    {"views_too_close",
+     "The camera moved too little between the pictures; aim for an angle of 15 to 20 degrees."},
+    {"views_too_far_apart",
+     "The camera moved too far between the pictures; aim for an angle of 15 to 20 degrees."},
+    {"pose_not_found",
+     "No camera motion explains the corresponding points; keep the scene still between the pictures."},
+    {"pose_contradicts_card",
+     "The camera motion found from the scene contradicts the reference card; card and dish must not move "
+     "between the pictures."},
+    {"card_not_found",
+     "The reference card was not found in both pictures; lay it flat beside the dish, fully visible and "
+     "without glare."},
+    {"scale_not_found",
+     "The reference card gave no consistent scale; check that it is flat and that its size in the "
+     "configuration is right."},
+    {"labels_inconsistent",
+     "The outlines of the two views contradict each other; check that each label image belongs to its "
+     "picture."},
+    {"rectification_failed",
+     "The two views could not be aligned for dense matching; one camera stands in the other's picture of the "
+     "dish."},
+    {"disparity_range_too_large",
+     "The depth range of the scene exceeds the configured number of disparities; take the views closer "
+     "together."},
+    {"rim_not_found", "The rim of the dish was not found; it must be visible in both pictures."},
+    {"table_not_found",
+     "The plane of the table was not found from the card; lay the card flat on the table."},
+    {"too_little_depth", "Too few pixels could be matched densely; check focus, light and reflections."},
+    {"item_too_small", "The item covers too few pixels to be measured."},
+    {"item_hidden", "The item is not visible in both pictures."},
+    {"item_below_dish",
+     "The item came out below the bottom of the dish; check the dish's height in the configuration."},
+});
+
+static_assert(kTexts.size() == static_cast<std::size_t>(StatusCode::item_below_dish) + 1);
+
+}  // namespace
+
+const char* name(StatusCode code) {
+  return kTexts[static_cast<std::size_t>(code)].name;
+}
+
+const char* sentence(StatusCode code) {
+  return kTexts[static_cast<std::size_t>(code)].sentence;
+}
+
+}  // namespace traygauge

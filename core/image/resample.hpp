@@ -1,0 +1,38 @@
+// Grey pictures from frames, and every change of scale. Pixel centres lie at integers.
+#pragma once
+
+#include <cstdint>
+
+#include "core/image/camera.hpp"
+#include "core/image_view/image_view.hpp"
+
+namespace traygauge {
+
+// The only place where a coordinate changes scale: x' = s (x + 0.5) − 0.5.
+constexpr double scale_coordinate(double x, double scale) {
+  return scale * (x + 0.5) - 0.5;
+}
+
+// Grey by the weights of ITU-R BT.601 in integers, as OpenCV's cvtColor. Equal sizes.
+void convert_to_gray(const FrameView& frame, ImageView<std::uint8_t> gray);
+
+// Shrinks by averaging the covered area exactly (any factor ≥ 1 in each direction), as OpenCV's INTER_AREA.
+void reduce_area(ImageView<const std::uint8_t> source, ImageView<std::uint8_t> target);
+
+// An undistorted, scaled cut-out of a frame.
+struct Cutout {
+  PinholeCamera camera;  // of the cut-out
+  int width = 0;
+  int height = 0;
+};
+
+// Samples `frame` through the lens into `gray` (size of the cut-out): bilinear, averaged over a sub-grid that
+// matches the reduction so that nothing aliases. Pixels outside the frame become 0.
+void resample_undistorted(const FrameView& frame, const LensModel& lens, const Cutout& cutout,
+                          ImageView<std::uint8_t> gray);
+
+// The same for labels, by nearest neighbour only. Pixels outside become 0.
+void resample_labels_undistorted(ImageView<const std::uint8_t> labels, const LensModel& lens,
+                                 const Cutout& cutout, ImageView<std::uint8_t> target);
+
+}  // namespace traygauge

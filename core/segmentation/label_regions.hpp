@@ -1,0 +1,47 @@
+// What a label picture holds: values as in the capture contract.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "core/base/status.hpp"
+#include "core/image_view/image_view.hpp"
+
+namespace traygauge {
+
+inline constexpr std::uint8_t kBackgroundLabel = 0;
+inline constexpr std::uint8_t kDishLabel = 1;
+inline constexpr std::uint8_t kFirstItemLabel = 2;
+inline constexpr std::uint8_t kLastItemLabel = 199;
+inline constexpr std::uint8_t kCardLabel = 255;
+
+constexpr bool is_item(std::uint8_t label) {
+  return label >= kFirstItemLabel && label <= kLastItemLabel;
+}
+// The dish with everything on it.
+constexpr bool is_on_dish(std::uint8_t label) {
+  return label == kDishLabel || is_item(label);
+}
+
+struct PixelBox {
+  int left = 0;
+  int top = 0;
+  int right = 0;   // exclusive
+  int bottom = 0;  // exclusive
+
+  constexpr int width() const { return right - left; }
+  constexpr int height() const { return bottom - top; }
+  constexpr bool empty() const { return right <= left || bottom <= top; }
+};
+
+struct LabelRegions {
+  std::array<std::uint32_t, 256> pixels{};  // per label
+  std::uint32_t dish_pixels = 0;            // dish and items together
+  PixelBox dish;                            // around dish and items
+  bool dish_cut_off = false;                // the dish touches the edge of the picture
+};
+
+// One pass over the labels.
+LabelRegions measure_regions(ImageView<const std::uint8_t> labels);
+
+}  // namespace traygauge

@@ -1,0 +1,20 @@
+// Disparity pictures. disparity = column in the second rectified picture − column in the first.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+
+namespace traygauge {
+
+using Disparity = std::int16_t;  // in sixteenths of a pixel
+inline constexpr int kDisparityScale = 16;
+inline constexpr Disparity kNoDisparity = std::numeric_limits<Disparity>::min();
+
+// Inclusive, in whole pixels.
+struct DisparityRange {
+  int min_px = 0;
+  int max_px = 0;
+  constexpr int count() const { return max_px - min_px + 1; }
+};
+
+}  // namespace traygauge
