@@ -1,0 +1,106 @@
+// What a measurement yields.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "core/base/geometry.hpp"
+#include "core/base/status.hpp"
+#include "core/image/camera.hpp"
+#include "core/image_view/image_view.hpp"
+#include "core/stereo/disparity.hpp"
+#include "core/surface/food_mesh.hpp"
+
+namespace traygauge {
+
+// Stages whose time is reported, in the order in which they run.
+enum class Stage : std::uint8_t {
+  image,
+  features,
+  matching,
+  pose,
+  scale,
+  rectification,
+  stereo,
+  surface,
+  volume,
+};
+inline constexpr std::size_t kStageCount = static_cast<std::size_t>(Stage::volume) + 1;
+const char* name(Stage stage);
+
+// Doubts that do not stop a measurement.
+enum class Warning : std::uint8_t {
+  angle_small,       // relative angle below 10 degrees: depth is noisy
+  angle_large,       // above 30 degrees: matching gets hard
+  keypoints_capped,  // the strongest were kept
+  matches_capped,
+  few_card_points,      // scale rests on few points
+  dish_guessed,         // the dish was chosen from several candidates
+  arm_angle_disagrees,  // measured and commanded relative angle differ
+  pose_from_card,       // the scene's motion was replaced by the card's
+};
+inline constexpr std::size_t kWarningCount = static_cast<std::size_t>(Warning::pose_from_card) + 1;
+const char* name(Warning warning);
+const char* sentence(Warning warning);
+
+// One food item. Numbers hold only when status is ok; `dish` is the label of the dish that it lies on.
+struct ItemResult {
+  std::uint8_t label = 0;
+  std::uint8_t dish = 1;
+  StatusCode status = StatusCode::ok;
+  double volume_ml = 0.0;
+  double area_mm2 = 0.0;
+  double mean_height_mm = 0.0;
+  double max_height_mm = 0.0;
+};
+
+inline constexpr std::size_t kMaxItems = 198;  // labels 2…199
+
+// How far the measurement came; the numbers of stages that were not reached are zero.
+struct MeasurementReport {
+  std::array<int, 2> keypoints{};
+  int matches = 0;
+  int inliers = 0;
+  double inlier_threshold_px = 0.0;
+  int pose_iterations = 0;
+  int card_tracks = 0;
+  double mm_per_baseline = 0.0;
+  int rim_points = 0;
+  double rim_height_mm = 0.0;  // measured, above the table
+  int dish_index = -1;         // among the candidates of the configuration
+  int rectified_rows = 0;
+  int rectified_columns = 0;
+  DisparityRange disparity_range;
+  double matched_share = 0.0;  // of the dish's pixels that got a disparity
+};
+
+// Pictures and surfaces of the last measurement, for drawing and for evaluation. Valid until the next one.
+struct MeasurementViews {
+  std::array<PinholeCamera, 2> cameras;               // of the working pictures
+  std::array<ImageView<const std::uint8_t>, 2> gray;  // undistorted, dish resized
+  std::array<ImageView<const std::uint8_t>, 2> labels;
+  std::array<ImageView<const std::uint8_t>, 2> rectified;
+  ImageView<const Disparity> disparity;
+  ImageView<const float> depth_mm;  // of the reference view, along its axis; NaN where unknown
+  FoodMesh mesh;                    // in the reference camera, mm
+  int reference_view = 0;           // 0 or 1: the view that depth and mesh belong to
+  Plane dish_bottom;                // in the reference camera, mm
+  Plane table;
+};
+
+struct Measurement {
+  Status status;
+  std::span<const ItemResult> items;
+  bool has_pose = false;
+  Pose second_from_first;  // mm
+  double relative_angle_deg = 0.0;
+  std::array<double, kStageCount> stage_ms{};
+  double total_ms = 0.0;
+  std::array<bool, kWarningCount> warnings{};
+  MeasurementReport report;
+  MeasurementViews views;
+};
+
+}  // namespace traygauge
