@@ -3,7 +3,10 @@
 // interpolated. Description: 4 × 4 subregions of Haar sums (dx, |dx|, dy, |dy|), 64-d, unit length.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
+#include <span>
 
 #include "core/base/arena.hpp"
 #include "core/base/bounded_list.hpp"
@@ -13,6 +16,9 @@
 
 namespace traygauge {
 
+inline constexpr int kMaxOctaves = 5;
+inline constexpr int kLayersPerOctave = 4;
+
 struct SurfParams {
   int octaves = 4;        // [14] section 3.3; filter sizes 9…27, 15…51, 27…99, 51…195
   int first_step_px = 2;  // sampling step of the first octave: 2 as in OpenSURF, 1 finds more, slower
@@ -21,7 +27,38 @@ struct SurfParams {
   bool upright = false;  // skip the orientation; valid while the views roll less than about 15 degrees
 };
 
-// Scratch for pictures of up to `max_pixels` pixels (width × height) with sides up to `max_side_px`.
-struct SurfWorkspace;
+// invalid_configuration unless octaves are 1…5, the step 1…4, and the response positive and finite.
+Status validate(const SurfParams& params);
+
+// Scratch of the detector for pictures up to max_width × max_height. The responses are needed three rows at a
+// time, so it holds 15 rows: about 4 (4 · 3 / first_step_px + 3) bytes per column, whatever the height.
+struct SurfWorkspace {
+  // Responses of each layer, three rows in a ring; a row for each of the three second derivatives.
+  std::array<std::array<std::span<float>, 3>, kLayersPerOctave> responses;
+  std::span<std::int32_t> columns_xx;
+  std::span<std::int32_t> columns_yy;
+  std::span<std::int32_t> columns_xy;
+
+  template <class Allocator>
+  constexpr void allocate(Allocator& allocator, int max_width, int /*max_height*/, const SurfParams& params) {
+    const auto columns = static_cast<std::size_t>(max_width) + 1;
+    const auto samples = static_cast<std::size_t>(max_width / params.first_step_px) + 1;
+    for (auto& layer : responses) {
+      for (auto& row : layer) row = allocator.template take<float>(samples);
+    }
+    columns_xx = allocator.template take<std::int32_t>(columns);
+    columns_yy = allocator.template take<std::int32_t>(columns);
+    columns_xy = allocator.template take<std::int32_t>(columns);
+  }
+};
+
+// Finds blobs in the picture behind `integral` (one larger each way), strongest first. When there are more
+// than `keypoints` holds, the strongest are kept and keypoints.dropped() counts the others. Angles are 0.
+void detect_surf(ImageView<const std::uint32_t> integral, const SurfParams& params, SurfWorkspace& workspace,
+                 BoundedList<Keypoint>& keypoints);
+
+// Sets the angle of each keypoint and its descriptor. Equal sizes. A keypoint on uniform ground gets zeros.
+void describe_surf(ImageView<const std::uint32_t> integral, const SurfParams& params,
+                   std::span<Keypoint> keypoints, std::span<Descriptor> descriptors);
 
 }  // namespace traygauge

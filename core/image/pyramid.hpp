@@ -14,7 +14,7 @@ constexpr int halved(int size) {
 // Mean of 2 × 2 pixels, rounded; an odd last row or column is repeated. `target` measures halved(source).
 void halve(ImageView<const std::uint8_t> source, ImageView<std::uint8_t> target);
 
-// A halved mask pixel is set when at least two of its four pixels are.
+// A halved mask pixel is set, to the largest of its four, when at least two of them are not 0.
 void halve_mask(ImageView<const std::uint8_t> source, ImageView<std::uint8_t> target);
 
 }  // namespace traygauge

@@ -26,12 +26,19 @@ struct Cutout {
   int height = 0;
 };
 
-// Samples `frame` through the lens into `gray` (size of the cut-out): bilinear, averaged over a sub-grid that
-// matches the reduction so that nothing aliases. Pixels outside the frame become 0.
-void resample_undistorted(const FrameView& frame, const LensModel& lens, const Cutout& cutout,
-                          ImageView<std::uint8_t> gray);
+struct ResampleParams {
+  // Samples per target pixel and axis at most (1 to 8). Their number is the reduction, rounded; with fewer
+  // the picture aliases, with more it only takes longer.
+  int max_samples_per_axis = 4;
+};
 
-// The same for labels, by nearest neighbour only. Pixels outside become 0.
+// Samples `frame` (size of the lens) through the lens into `gray` (size of the cut-out): bilinear, averaged
+// over a sub-grid that matches the reduction so that nothing aliases. Pixels whose centre lies outside the
+// frame become 0.
+void resample_undistorted(const FrameView& frame, const LensModel& lens, const Cutout& cutout,
+                          ImageView<std::uint8_t> gray, const ResampleParams& params = {});
+
+// The same for labels, by nearest neighbour only.
 void resample_labels_undistorted(ImageView<const std::uint8_t> labels, const LensModel& lens,
                                  const Cutout& cutout, ImageView<std::uint8_t> target);
 

@@ -1,0 +1,107 @@
+#include "core/features/box_hessian.hpp"
+
+#include <algorithm>
+
+#include "core/image/integral.hpp"
+
+namespace traygauge {
+namespace {
+
+// Balances Dxy against Dxx Dyy for boxes in place of Gaussians: (0.9)² (Bay et al., equation 3).
+constexpr float kMixedWeight = 0.81F;
+
+// Vertical sums per column of the integral image, from which horizontal differences give the three
+// derivatives. Unsigned sums that wrap around come out right as differences, so they are kept as bits.
+void sum_columns(ImageView<const std::uint32_t> integral, BoxFilter filter, int y, SurfWorkspace& workspace) {
+  const int lobe = filter.lobe;
+  const int radius = filter.radius();
+  const std::uint32_t* band_top = integral.row(y - lobe + 1);
+  const std::uint32_t* band_bottom = integral.row(y + lobe);
+  const std::uint32_t* top = integral.row(y - radius);
+  const std::uint32_t* bottom = integral.row(y + radius + 1);
+  const std::uint32_t* middle_top = integral.row(y - lobe / 2);
+  const std::uint32_t* middle_bottom = integral.row(y + lobe / 2 + 1);
+  const std::uint32_t* upper_top = integral.row(y - lobe);
+  const std::uint32_t* upper_bottom = integral.row(y);
+  const std::uint32_t* lower_top = integral.row(y + 1);
+  const std::uint32_t* lower_bottom = integral.row(y + lobe + 1);
+  std::int32_t* xx = workspace.columns_xx.data();
+  std::int32_t* yy = workspace.columns_yy.data();
+  std::int32_t* xy = workspace.columns_xy.data();
+  for (int x = 0; x < integral.width; ++x) {
+    const std::uint32_t middle = middle_bottom[x] - middle_top[x];
+    xx[x] = static_cast<std::int32_t>(band_bottom[x] - band_top[x]);
+    yy[x] = static_cast<std::int32_t>(bottom[x] - top[x] - 3U * middle);
+    xy[x] = static_cast<std::int32_t>(upper_bottom[x] - upper_top[x] - lower_bottom[x] + lower_top[x]);
+  }
+}
+
+std::int32_t minus(std::int32_t a, std::int32_t b) {
+  return static_cast<std::int32_t>(static_cast<std::uint32_t>(a) - static_cast<std::uint32_t>(b));
+}
+
+// The responses of samples first … last. The step is known at compile time where speed matters.
+template <int kStep>
+void combine_columns(const SurfWorkspace& workspace, BoxFilter filter, int any_step, int first, int last,
+                     float* responses) {
+  const int step = kStep > 0 ? kStep : any_step;
+  const int lobe = filter.lobe;
+  const int radius = filter.radius();
+  const std::int32_t* xx = workspace.columns_xx.data();
+  const std::int32_t* yy = workspace.columns_yy.data();
+  const std::int32_t* xy = workspace.columns_xy.data();
+  const float scale = 1.0F / (255.0F * static_cast<float>(filter.size() * filter.size()));
+  for (int i = first; i <= last; ++i) {
+    const int x = i * step;
+    const std::int32_t whole = minus(xx[x + radius + 1], xx[x - radius]);
+    const std::int32_t middle = minus(xx[x + lobe / 2 + 1], xx[x - lobe / 2]);
+    const float dxx = static_cast<float>(whole - 3 * middle) * scale;
+    const float dyy = static_cast<float>(minus(yy[x + lobe], yy[x - lobe + 1])) * scale;
+    const std::int32_t left = minus(xy[x], xy[x - lobe]);
+    const std::int32_t right = minus(xy[x + lobe + 1], xy[x + 1]);
+    const float dxy = static_cast<float>(left - right) * scale;
+    responses[i] = dxx * dyy - kMixedWeight * dxy * dxy;
+  }
+}
+
+}  // namespace
+
+void compute_response_row(ImageView<const std::uint32_t> integral, BoxFilter filter, int y, int step,
+                          SurfWorkspace& workspace, std::span<float> responses) {
+  const int width = integral.width - 1;
+  const int height = integral.height - 1;
+  const int radius = filter.radius();
+  const int samples = (width - 1) / step + 1;
+  const int first = (radius + step - 1) / step;
+  const int last = (width - 1 - radius) / step;
+  if (y < radius || y + radius >= height || width <= 2 * radius || first > last) {
+    std::fill_n(responses.data(), samples, 0.0F);
+    return;
+  }
+  sum_columns(integral, filter, y, workspace);
+  std::fill_n(responses.data(), first, 0.0F);
+  if (step == 1) {
+    combine_columns<1>(workspace, filter, step, first, last, responses.data());
+  } else if (step == 2) {
+    combine_columns<2>(workspace, filter, step, first, last, responses.data());
+  } else {
+    combine_columns<0>(workspace, filter, step, first, last, responses.data());
+  }
+  std::fill_n(responses.data() + last + 1, samples - 1 - last, 0.0F);
+}
+
+std::int8_t laplacian_sign(ImageView<const std::uint32_t> integral, BoxFilter filter, int x, int y) {
+  const int lobe = filter.lobe;
+  const int radius = filter.radius();
+  const int band = 2 * lobe - 1;
+  const auto sum = [&](int left, int top, int width, int height) {
+    return static_cast<std::int64_t>(box_sum(integral, left, top, width, height));
+  };
+  const std::int64_t dxx =
+      sum(x - radius, y - lobe + 1, filter.size(), band) - 3 * sum(x - lobe / 2, y - lobe + 1, lobe, band);
+  const std::int64_t dyy =
+      sum(x - lobe + 1, y - radius, band, filter.size()) - 3 * sum(x - lobe + 1, y - lobe / 2, band, lobe);
+  return dxx + dyy >= 0 ? std::int8_t{1} : std::int8_t{-1};
+}
+
+}  // namespace traygauge

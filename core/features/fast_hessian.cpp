@@ -1,0 +1,137 @@
+// The detector of SURF (Bay et al., section 3): maxima of det(H) in space and scale.
+#include <array>
+#include <cmath>
+
+#include "core/features/box_hessian.hpp"
+#include "core/features/strongest_keypoints.hpp"
+#include "core/features/surf.hpp"
+
+namespace traygauge {
+namespace {
+
+// How far from its sample an interpolated maximum may lie; beyond, another sample is nearer to it.
+constexpr float kMaxOffset = 0.5F;
+
+// The 3 × 3 × 3 responses around a sample: [layer][row][column].
+using Neighbourhood = std::array<std::array<std::array<float, 3>, 3>, 3>;
+
+Neighbourhood neighbourhood_of(const SurfWorkspace& workspace, int layer, int row, int column) {
+  Neighbourhood values;
+  for (std::size_t l = 0; l < 3; ++l) {
+    const auto& rows = workspace.responses[static_cast<std::size_t>(layer) - 1 + l];
+    for (std::size_t r = 0; r < 3; ++r) {
+      const auto slot = (static_cast<std::size_t>(row) - 1 + r) % 3;
+      for (std::size_t c = 0; c < 3; ++c) {
+        values[l][r][c] = rows[slot][static_cast<std::size_t>(column) - 1 + c];
+      }
+    }
+  }
+  return values;
+}
+
+// Equal neighbours: the first in the order of layers, rows and columns is the maximum.
+bool is_maximum(const Neighbourhood& values) {
+  const float centre = values[1][1][1];
+  constexpr std::size_t kCentreIndex = 13;
+  for (std::size_t i = 0; i < 27; ++i) {
+    const float other = values[i / 9][i / 3 % 3][i % 3];
+    if (i < kCentreIndex ? other >= centre : other > centre) return false;
+  }
+  return true;
+}
+
+// Vertex of the quadric through the neighbourhood (Brown & Lowe 2002), in samples: column, row, layer.
+// False where it is no maximum or lies nearer to another sample.
+bool interpolate_maximum(const Neighbourhood& v, Eigen::Vector3f& offset) {
+  const float centre = v[1][1][1];
+  const Eigen::Vector3f gradient(0.5F * (v[1][1][2] - v[1][1][0]), 0.5F * (v[1][2][1] - v[1][0][1]),
+                                 0.5F * (v[2][1][1] - v[0][1][1]));
+  const float xx = v[1][1][2] + v[1][1][0] - 2.0F * centre;
+  const float yy = v[1][2][1] + v[1][0][1] - 2.0F * centre;
+  const float ss = v[2][1][1] + v[0][1][1] - 2.0F * centre;
+  const float xy = 0.25F * (v[1][2][2] - v[1][2][0] - v[1][0][2] + v[1][0][0]);
+  const float xs = 0.25F * (v[2][1][2] - v[2][1][0] - v[0][1][2] + v[0][1][0]);
+  const float ys = 0.25F * (v[2][2][1] - v[2][0][1] - v[0][2][1] + v[0][0][1]);
+  Eigen::Matrix3f hessian;
+  hessian << xx, xy, xs, xy, yy, ys, xs, ys, ss;
+  const float determinant = hessian.determinant();
+  if (!(determinant < 0.0F)) return false;
+  offset = -(hessian.inverse() * gradient);
+  return offset.cwiseAbs().maxCoeff() <= kMaxOffset;
+}
+
+struct Octave {
+  int index = 0;
+  int step = 1;
+};
+
+void add_maximum(ImageView<const std::uint32_t> integral, const SurfWorkspace& workspace, Octave octave,
+                 int layer, int row, int column, StrongestKeypoints& strongest) {
+  const Neighbourhood values = neighbourhood_of(workspace, layer, row, column);
+  Eigen::Vector3f offset;
+  if (!is_maximum(values) || !interpolate_maximum(values, offset)) return;
+  const BoxFilter filter = filter_of(octave.index, layer);
+  const auto step = static_cast<float>(octave.step);
+  Keypoint keypoint;
+  keypoint.pixel = {(static_cast<float>(column) + offset.x()) * step,
+                    (static_cast<float>(row) + offset.y()) * step};
+  // Filter sizes grow linearly with the layer, and sigma with the filter.
+  keypoint.scale_px =
+      kSigmaPerFilterPixel *
+      (static_cast<float>(filter.size()) + offset.z() * static_cast<float>(filter_increment(octave.index)));
+  keypoint.response = values[1][1][1];
+  keypoint.laplacian = laplacian_sign(integral, filter, column * octave.step, row * octave.step);
+  strongest.add(keypoint);
+}
+
+// Maxima of one row, whose neighbours are all computed. The top layer's filter must fit around all of them.
+void find_maxima(ImageView<const std::uint32_t> integral, const SurfParams& params,
+                 const SurfWorkspace& workspace, Octave octave, int row, StrongestKeypoints& strongest) {
+  const int width = integral.width - 1;
+  const int height = integral.height - 1;
+  for (int layer = 1; layer + 1 < kLayersPerOctave; ++layer) {
+    const int margin = filter_of(octave.index, layer + 1).radius() + octave.step;
+    const int y = row * octave.step;
+    if (y < margin || y + margin >= height || width <= 2 * margin) continue;
+    const int first = (margin + octave.step - 1) / octave.step;
+    const int last = (width - 1 - margin) / octave.step;
+    const auto& rows = workspace.responses[static_cast<std::size_t>(layer)];
+    const float* responses = rows[static_cast<std::size_t>(row % 3)].data();
+    for (int column = first; column <= last; ++column) {
+      const float response = responses[column];
+      if (response < params.min_response) continue;
+      if (response <= responses[column - 1] || response < responses[column + 1]) continue;
+      add_maximum(integral, workspace, octave, layer, row, column, strongest);
+    }
+  }
+}
+
+}  // namespace
+
+Status validate(const SurfParams& params) {
+  const bool valid = params.octaves >= 1 && params.octaves <= kMaxOctaves && params.first_step_px >= 1 &&
+                     params.first_step_px <= 4 && params.min_response > 0.0F &&
+                     std::isfinite(params.min_response);
+  return valid ? StatusCode::ok : StatusCode::invalid_configuration;
+}
+
+void detect_surf(ImageView<const std::uint32_t> integral, const SurfParams& params, SurfWorkspace& workspace,
+                 BoundedList<Keypoint>& keypoints) {
+  StrongestKeypoints strongest(keypoints);
+  const int height = integral.height - 1;
+  for (int index = 0; index < params.octaves; ++index) {
+    const Octave octave{index, params.first_step_px << index};
+    for (int row = 0; row * octave.step < height; ++row) {
+      for (int layer = 0; layer < kLayersPerOctave; ++layer) {
+        const std::span<float> responses =
+            workspace.responses[static_cast<std::size_t>(layer)][static_cast<std::size_t>(row % 3)];
+        compute_response_row(integral, filter_of(index, layer), row * octave.step, octave.step, workspace,
+                             responses);
+      }
+      if (row >= 2) find_maxima(integral, params, workspace, octave, row - 1, strongest);
+    }
+  }
+  strongest.sort();
+}
+
+}  // namespace traygauge

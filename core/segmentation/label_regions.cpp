@@ -1,0 +1,55 @@
+#include "core/segmentation/label_regions.hpp"
+
+#include <algorithm>
+#include <cstring>
+
+namespace traygauge {
+namespace {
+
+// End of the run of equal labels that starts at `begin`. Runs are long, so eight pixels are compared at once.
+int find_run_end(const std::uint8_t* labels, int begin, int width) {
+  const std::uint8_t label = labels[begin];
+  const std::uint64_t eight_equal = 0x0101010101010101U * label;
+  int end = begin + 1;
+  for (std::uint64_t eight = 0; end + 8 <= width; end += 8) {
+    std::memcpy(&eight, labels + end, sizeof(eight));
+    if (eight != eight_equal) break;
+  }
+  while (end < width && labels[end] == label) ++end;
+  return end;
+}
+
+void extend_box(PixelBox& box, int left, int right, int y) {
+  if (box.empty()) {
+    box = {left, y, right, y + 1};
+    return;
+  }
+  box.left = std::min(box.left, left);
+  box.right = std::max(box.right, right);
+  box.bottom = y + 1;
+}
+
+}  // namespace
+
+LabelRegions measure_regions(ImageView<const std::uint8_t> labels) {
+  LabelRegions regions;
+  for (int y = 0; y < labels.height; ++y) {
+    const std::uint8_t* row = labels.row(y);
+    for (int begin = 0; begin < labels.width;) {
+      const int end = find_run_end(row, begin, labels.width);
+      const auto length = static_cast<std::uint32_t>(end - begin);
+      regions.pixels[row[begin]] += length;
+      if (is_on_dish(row[begin])) {
+        regions.dish_pixels += length;
+        extend_box(regions.dish, begin, end, y);
+      }
+      begin = end;
+    }
+  }
+  const PixelBox& dish = regions.dish;
+  regions.dish_cut_off = !dish.empty() && (dish.left == 0 || dish.top == 0 || dish.right == labels.width ||
+                                           dish.bottom == labels.height);
+  return regions;
+}
+
+}  // namespace traygauge

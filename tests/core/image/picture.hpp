@@ -1,0 +1,27 @@
+// Pictures for tests, and views of OpenCV's.
+#pragma once
+
+#include <opencv2/core.hpp>
+
+#include "core/image_view/image_view.hpp"
+
+namespace traygauge::testing {
+
+inline ImageView<std::uint8_t> view_of(cv::Mat& picture) {
+  return {picture.data, picture.cols, picture.rows, static_cast<std::ptrdiff_t>(picture.step[0])};
+}
+inline ImageView<const std::uint8_t> view_of(const cv::Mat& picture) {
+  return {picture.data, picture.cols, picture.rows, static_cast<std::ptrdiff_t>(picture.step[0])};
+}
+inline FrameView frame_of(const cv::Mat& picture) {
+  return {picture.data, picture.cols, picture.rows, static_cast<std::ptrdiff_t>(picture.step[0]),
+          picture.channels() == 1 ? PixelFormat::gray8 : PixelFormat::bgr8};
+}
+
+inline cv::Mat random_picture(int width, int height, int type, cv::RNG& rng) {
+  cv::Mat picture(height, width, type);
+  rng.fill(picture, cv::RNG::UNIFORM, 0, 256);
+  return picture;
+}
+
+}  // namespace traygauge::testing
