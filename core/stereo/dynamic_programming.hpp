@@ -1,0 +1,44 @@
+// The path of least cost along each row of a block (paper III-B-2, "Optimization").
+#pragma once
+
+#include <span>
+
+#include "core/stereo/disparity.hpp"
+#include "core/stereo/row_lanes.hpp"
+
+namespace traygauge {
+
+// Costs and predecessors of all (column, disparity) states of a block, column after column.
+struct PathStates {
+  std::span<CostLanes> costs;         // aggregated
+  std::span<CostLanes> predecessors;  // the disparity that the best path has one column earlier
+  std::span<Interval> bands;          // per column; empty outside the mask
+  std::span<std::int32_t> offsets;    // of a column's first state
+  std::span<CostLanes> paths;         // path costs of two columns, each max_disparities long
+
+  template <class Allocator>
+  constexpr void allocate(Allocator& arena, int max_columns, int max_disparities) {
+    const auto columns = static_cast<std::size_t>(max_columns);
+    const auto disparities = static_cast<std::size_t>(max_disparities);
+    costs = arena.template take<CostLanes>(columns * disparities);
+    predecessors = arena.template take<CostLanes>(columns * disparities);
+    bands = arena.template take<Interval>(columns);
+    offsets = arena.template take<std::int32_t>(columns);
+    paths = arena.template take<CostLanes>(2 * disparities);
+  }
+  CostLanes* costs_of(int x) const {
+    return &costs[static_cast<std::size_t>(offsets[static_cast<std::size_t>(x)])];
+  }
+  CostLanes* predecessors_of(int x) const {
+    return &predecessors[static_cast<std::size_t>(offsets[static_cast<std::size_t>(x)])];
+  }
+};
+
+// Finds, for each row, the disparities d(x) over `columns` that minimise
+//   Σ cost(x, d(x)) + Σ min(smoothness(x) · |d(x) − d(x − 1)|, smoothness(x) · limit)
+// and writes them, one CostLanes a column. Min-convolution makes it O(columns · disparities). Of equal paths
+// the one that keeps its disparity wins, then the one from a smaller disparity.
+void find_best_paths(const PathStates& states, Interval columns, std::span<const CostLanes> smoothness,
+                     int limit_px, std::span<CostLanes> disparities);
+
+}  // namespace traygauge
