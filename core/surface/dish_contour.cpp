@@ -1,0 +1,137 @@
+#include "core/surface/dish_contour.hpp"
+
+#include <Eigen/Cholesky>
+#include <array>
+#include <cmath>
+
+#include "core/segmentation/label_regions.hpp"
+
+namespace traygauge {
+namespace {
+
+struct Step {
+  int x = 0;
+  int y = 0;
+};
+
+// Clockwise: up, right, down, left.
+constexpr std::array<Step, 4> kSteps{{{0, -1}, {1, 0}, {0, 1}, {-1, 0}}};
+// The pixels right and left of a step that leaves the corner (x, y), which is the top left one of pixel (x,
+// y).
+constexpr std::array<Step, 4> kRightPixels{{{0, -1}, {0, 0}, {-1, 0}, {-1, -1}}};
+constexpr std::array<Step, 4> kLeftPixels{{{-1, -1}, {0, -1}, {0, 0}, {-1, 0}}};
+
+class BorderWalk {
+ public:
+  BorderWalk(ImageView<const std::uint8_t> labels, DishContour& contour)
+      : labels_(labels), contour_(contour) {}
+
+  bool is_dish(int x, int y) const { return labels_.contains(x, y) && is_on_dish(labels_.at(x, y)); }
+
+  // Walks around the region from the left side of a dish pixel. Returns the enclosed area in pixels, negative
+  // around a hole. Pixels that touch at a corner only count as separate.
+  double walk_around(int start_x, int start_y) {
+    contour_.sides.clear();
+    int x = start_x;
+    int y = start_y + 1;
+    std::size_t heading = 0;
+    double twice_area = 0.0;
+    do {
+      const Step step = kSteps[heading];
+      if (!add_side(x, y, heading)) return 0.0;
+      twice_area += x * step.y - y * step.x;
+      x += step.x;
+      y += step.y;
+      heading = turn(x, y, heading);
+    } while (x != start_x || y != start_y + 1 || heading != 0);
+    return 0.5 * twice_area;
+  }
+
+ private:
+  bool add_side(int x, int y, std::size_t heading) {
+    const Step step = kSteps[heading];
+    const Step outside{x + kLeftPixels[heading].x, y + kLeftPixels[heading].y};
+    const bool against_table =
+        labels_.contains(outside.x, outside.y) && labels_.at(outside.x, outside.y) == kBackgroundLabel;
+    return contour_.sides.push_back({static_cast<float>(x) - 0.5F + 0.5F * static_cast<float>(step.x),
+                                     static_cast<float>(y) - 0.5F + 0.5F * static_cast<float>(step.y),
+                                     against_table});
+  }
+
+  std::size_t turn(int x, int y, std::size_t heading) const {
+    if (!is_dish(x + kRightPixels[heading].x, y + kRightPixels[heading].y)) return (heading + 1) % 4;
+    if (is_dish(x + kLeftPixels[heading].x, y + kLeftPixels[heading].y)) return (heading + 3) % 4;
+    return heading;
+  }
+
+  ImageView<const std::uint8_t> labels_;
+  DishContour& contour_;
+};
+
+struct RegionCentre {
+  double pixels = 0.0;
+  int row = 0;
+};
+
+RegionCentre measure_centre(ImageView<const std::uint8_t> labels) {
+  double count = 0.0;
+  double row_sum = 0.0;
+  for (int y = 0; y < labels.height; ++y) {
+    const std::uint8_t* row = labels.row(y);
+    int in_row = 0;
+    for (int x = 0; x < labels.width; ++x) in_row += is_on_dish(row[x]) ? 1 : 0;
+    count += in_row;
+    row_sum += static_cast<double>(in_row) * y;
+  }
+  return {count, count > 0.0 ? static_cast<int>(row_sum / count) : 0};
+}
+
+}  // namespace
+
+Status trace_dish_contour(ImageView<const std::uint8_t> labels, DishContour& contour) {
+  contour.sides.clear();
+  const RegionCentre centre = measure_centre(labels);
+  if (centre.pixels == 0.0) return StatusCode::no_dish_label;
+  BorderWalk walk(labels, contour);
+  bool is_list_full = false;
+  // Only a region that holds most of the pixels reaches over their mean row for certain.
+  for (int x = 0; x < labels.width; ++x) {
+    if (!walk.is_dish(x, centre.row) || walk.is_dish(x - 1, centre.row)) continue;
+    const double area = walk.walk_around(x, centre.row);
+    if (area > 0.5 * centre.pixels) return StatusCode::ok;
+    is_list_full = is_list_full || contour.sides.full();
+  }
+  contour.sides.clear();
+  return is_list_full ? StatusCode::out_of_memory : StatusCode::no_dish_label;
+}
+
+bool fit_contour_curve(const DishContour& contour, std::size_t index, const ContourFitParams& params,
+                       ContourCurve& curve) {
+  const std::size_t size = contour.sides.size();
+  const auto radius = static_cast<std::size_t>(params.radius_sides);
+  if (size < 4 * radius) return false;
+  const auto neighbour = [&](std::size_t k) { return (index + size + k - radius) % size; };
+  curve.origin = contour.place(index);
+  curve.tangent = (contour.place(neighbour(2 * radius)) - contour.place(neighbour(0))).normalized();
+  curve.inward = Vec2(-curve.tangent.y(), curve.tangent.x());
+
+  Mat3 normal_matrix = Mat3::Zero();
+  Vec3 right_side = Vec3::Zero();
+  double squares = 0.0;
+  for (std::size_t k = 0; k <= 2 * radius; ++k) {
+    if (!contour.sides[neighbour(k)].against_table) return false;
+    const Vec2 offset = contour.place(neighbour(k)) - curve.origin;
+    const double u = curve.tangent.dot(offset);
+    const double v = curve.inward.dot(offset);
+    const Vec3 powers(1.0, u, u * u);
+    normal_matrix += powers * powers.transpose();
+    right_side += v * powers;
+    squares += v * v;
+  }
+  curve.coefficients = normal_matrix.ldlt().solve(right_side);
+  const double rest = squares - curve.coefficients.dot(right_side);
+  curve.rms_px = std::sqrt(std::fmax(0.0, rest) / static_cast<double>(2 * radius + 1));
+  return curve.rms_px <= params.max_rms_px;
+}
+
+}  // namespace traygauge

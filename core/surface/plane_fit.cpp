@@ -1,0 +1,111 @@
+#include "core/surface/plane_fit.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+
+namespace traygauge {
+namespace {
+
+Plane plane_through(const Vec3& normal, const Vec3& point) {
+  const double offset = normal.dot(point);
+  return offset > 0.0 ? Plane{-normal, -offset} : Plane{normal, offset};
+}
+
+bool sample_plane(std::span<const Vec3> points, double min_triangle_mm2, Random& random, Plane& plane) {
+  const auto count = static_cast<std::uint32_t>(points.size());
+  const Vec3& a = points[random.below(count)];
+  const Vec3& b = points[random.below(count)];
+  const Vec3& c = points[random.below(count)];
+  const Vec3 normal = (b - a).cross(c - a);
+  const double twice_area = normal.norm();
+  if (!(twice_area > 2.0 * min_triangle_mm2)) return false;
+  plane = plane_through(normal / twice_area, a);
+  return true;
+}
+
+// Sum of min(distance², threshold²); counts the inliers.
+double truncated_cost(std::span<const Vec3> points, const Plane& plane, double threshold, int& inliers) {
+  const double limit = threshold * threshold;
+  double cost = 0.0;
+  inliers = 0;
+  for (const Vec3& point : points) {
+    const double height = plane.height(point);
+    const double squared = height * height;
+    inliers += squared < limit ? 1 : 0;
+    cost += std::min(squared, limit);
+  }
+  return cost;
+}
+
+// base^exponent by multiplications only, so that the number of samples is the same everywhere.
+double power(double base, int exponent) {
+  double result = 1.0;
+  for (; exponent > 0; exponent >>= 1) {
+    if ((exponent & 1) != 0) result *= base;
+    base *= base;
+  }
+  return result;
+}
+
+bool is_sampled_enough(int iterations, int inliers, std::size_t points, double confidence) {
+  const double share = inliers / static_cast<double>(points);
+  return power(1.0 - share * share * share, iterations) <= 1.0 - confidence;
+}
+
+}  // namespace
+
+bool fit_plane_least_squares(std::span<const Vec3> points_mm, Plane& plane) {
+  if (points_mm.size() < 3) return false;
+  Vec3 mean = Vec3::Zero();
+  for (const Vec3& point : points_mm) mean += point;
+  mean /= static_cast<double>(points_mm.size());
+  Mat3 scatter = Mat3::Zero();
+  for (const Vec3& point : points_mm) scatter += (point - mean) * (point - mean).transpose();
+  const Eigen::SelfAdjointEigenSolver<Mat3> solver(scatter);
+  // On a line two of the three spreads vanish.
+  constexpr double kLineShare = 1e-12;
+  if (!(solver.eigenvalues()[1] > kLineShare * solver.eigenvalues()[2])) return false;
+  plane = plane_through(solver.eigenvectors().col(0), mean);
+  return true;
+}
+
+bool fit_plane(std::span<Vec3> points_mm, const PlaneFitParams& params, Random& random, PlaneFit& fit) {
+  fit = {};
+  if (points_mm.size() < 3) return false;
+  Plane best;
+  double best_cost = 0.0;
+  int best_inliers = 0;
+  for (; fit.iterations < params.max_iterations; ++fit.iterations) {
+    if (is_sampled_enough(fit.iterations, best_inliers, points_mm.size(), params.confidence)) break;
+    Plane plane;
+    if (!sample_plane(points_mm, params.min_triangle_mm2, random, plane)) continue;
+    int inliers = 0;
+    const double cost = truncated_cost(points_mm, plane, params.threshold_mm, inliers);
+    if (best_inliers > 0 && cost >= best_cost) continue;
+    best = plane;
+    best_cost = cost;
+    best_inliers = inliers;
+  }
+  if (best_inliers < params.min_inliers) return false;
+
+  const auto split = [&](const Plane& plane) {
+    const auto end = std::partition(points_mm.begin(), points_mm.end(), [&](const Vec3& point) {
+      return std::abs(plane.height(point)) < params.threshold_mm;
+    });
+    return points_mm.first(static_cast<std::size_t>(end - points_mm.begin()));
+  };
+  for (int i = 0; i < params.refits; ++i) {
+    if (!fit_plane_least_squares(split(best), best)) return false;
+  }
+  const std::span<const Vec3> inliers = split(best);
+  if (static_cast<int>(inliers.size()) < params.min_inliers) return false;
+  double squares = 0.0;
+  for (const Vec3& point : inliers) squares += best.height(point) * best.height(point);
+  fit.plane = best;
+  fit.inliers = static_cast<int>(inliers.size());
+  fit.rms_mm = std::sqrt(squares / static_cast<double>(inliers.size()));
+  return true;
+}
+
+}  // namespace traygauge

@@ -1,0 +1,66 @@
+// The plane of the dish's rim from its border in both views (paper III-C-2).
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "core/base/arena.hpp"
+#include "core/base/bounded_list.hpp"
+#include "core/base/geometry.hpp"
+#include "core/base/random.hpp"
+#include "core/base/status.hpp"
+#include "core/image_view/image_view.hpp"
+#include "core/surface/dish_contour.hpp"
+#include "core/surface/plane_fit.hpp"
+#include "core/surface/triangulation.hpp"
+
+namespace traygauge {
+
+// Where the rim's 3-D points come from.
+enum class RimSource : std::uint8_t {
+  dense,    // the depth map just inside the border (paper: "densely match the dish border points")
+  contour,  // the borders of both label pictures, matched along epipolar lines
+  both,
+};
+
+struct RimParams {
+  RimSource source = RimSource::contour;
+  int step_sides = 3;      // every so many sides of the first border give a point
+  double inset_px = 4.0;   // dense: so far inside the border lies the rim's crest, clear of the table
+  ContourFitParams curve;  // contour: subpixel place of the border
+  // Contour: where the border runs along the epipolar line the crossing is uncertain; 0.5 is 30 degrees.
+  double min_crossing_sine = 0.5;
+  PlaneFitParams plane;
+};
+
+struct RimWorkspace {
+  DishContour first;
+  DishContour second;
+  BoundedList<Vec3> points_mm;
+
+  template <class Allocator>
+  constexpr void allocate(Allocator& arena, std::size_t max_sides, std::size_t max_points) {
+    first.allocate(arena, max_sides);
+    second.allocate(arena, max_sides);
+    points_mm = BoundedList<Vec3>(arena.template take<Vec3>(max_points));
+  }
+};
+
+// Both working label pictures, whose dish is the labels 1…199, and the depth of the first.
+struct RimInput {
+  ImageView<const std::uint8_t> first_labels;
+  ImageView<const std::uint8_t> second_labels;
+  ImageView<const float> depth_mm;  // not read by `contour`
+  CameraPair cameras;
+};
+
+// Points on the rim, in the first camera, into `workspace.points_mm`. The contour source meets the outer
+// edge, or the outer wall below it where a steep view sees that on the near side; the dense source meets the
+// crest. rim_not_found when there are fewer than the plane needs; no_dish_label, out_of_memory from the
+// tracing.
+Status collect_rim_points(const RimInput& input, const RimParams& params, RimWorkspace& workspace);
+
+// The plane of most rim points; keeps its inliers only in `points_mm`. rim_not_found when too few agree.
+Status fit_rim_plane(BoundedList<Vec3>& points_mm, const RimParams& params, Random& random, PlaneFit& fit);
+
+}  // namespace traygauge
