@@ -61,6 +61,9 @@ constexpr auto kTexts = std::to_array<Text>({
     {"rim_not_found", "The rim of the dish was not found; it must be visible in both pictures."},
     {"table_not_found",
      "The plane of the table was not found from the card; lay the card flat on the table."},
+    {"dish_unknown",
+     "The dish has neither the size nor the height of a known one; describe it in the capture or in "
+     "config/dishes."},
     {"too_little_depth", "Too few pixels could be matched densely; check focus, light and reflections."},
     {"item_too_small", "The item covers too few pixels to be measured."},
     {"item_hidden", "The item is not visible in both pictures."},

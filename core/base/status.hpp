@@ -32,6 +32,7 @@ enum class StatusCode : std::uint8_t {
   disparity_range_too_large,
   rim_not_found,
   table_not_found,
+  dish_unknown,
   too_little_depth,
   item_too_small,
   item_hidden,

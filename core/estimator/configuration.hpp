@@ -6,6 +6,7 @@
 #include <span>
 
 #include "core/base/status.hpp"
+#include "core/estimator/label_agreement.hpp"
 #include "core/features/surf.hpp"
 #include "core/image/camera.hpp"
 #include "core/image/exposure.hpp"
@@ -14,8 +15,13 @@
 #include "core/pose/relative_pose.hpp"
 #include "core/rectification/polar_rectification.hpp"
 #include "core/scale/card.hpp"
+#include "core/stereo/disparity_range.hpp"
 #include "core/stereo/stereo.hpp"
+#include "core/surface/dish.hpp"
 #include "core/surface/food_mesh.hpp"
+#include "core/surface/rim.hpp"
+#include "core/surface/rim_ellipse.hpp"
+#include "core/volume/volume.hpp"
 
 namespace traygauge {
 
@@ -25,6 +31,22 @@ struct EstimatorLimits {
   int max_frame_height = 1200;
   int max_keypoints = 3000;  // per view
   int max_pattern_keypoints = 1500;
+  int max_feature_px = 1200 * 1000;  // area of the picture in which salient points are looked for
+  int max_working_px =
+      300 * 1000;  // of the picture for dense matching: 2^17 dish pixels, their box at any angle
+  int max_working_side_px = 1024;  // its longer side
+};
+
+// The pictures that the stages work on.
+struct ViewParams {
+  double matching_dish_px = 131072.0;  // 2^17: area of the dish for dense matching (paper V-B)
+  double working_margin_px = 6.0;      // around the dish: half of census and window
+  double feature_dish_px = 262144.0;   // area of the dish where salient points are looked for
+  double pattern_px_per_mm = 5.0;      // of the card's picture for its features; views show 2 to 4
+  double max_card_rotation_deg = 5.0;  // between the scene's motion and the card's own, which is sure to 1 or 2 degrees
+  double min_card_pose_share = 0.8;    // of the scene's inliers that the card's motion must explain to replace it
+  int min_keypoints = 50;              // fewer: too_few_features
+  double min_matched_share = 0.5;      // of the dish with a depth; less: too_little_depth
 };
 
 // The reference card. The pattern is its printed side as a grey picture, filling width × height.
@@ -42,16 +64,47 @@ struct DishModel {
   double bottom_height_mm = 0.0;
 };
 
+// How the views may lie to each other.
+struct ViewGeometryParams {
+  bool reference_is_steeper = true;    // depth and mesh belong to the view nearer to the vertical; else to the first
+  double min_angle_deg = 3.0;          // less: views_too_close; 1 px of disparity is then 9 mm of height
+  double max_angle_deg = 60.0;         // more: views_too_far_apart
+  double small_angle_deg = 10.0;       // warning (paper, Table V: errors rise below it)
+  double large_angle_deg = 30.0;       // warning (paper, Table V: 30% error at 35 degrees)
+  double max_arm_deviation_deg = 0.5;  // between commanded and measured angle: warning
+  int few_card_tracks = 20;            // fewer: warning
+};
+
+// When an item counts as measured.
+struct VolumeExtractionParams {
+  int min_item_px = 64;            // of the working picture, about 25 mm²: some 2 mesh points
+  double min_covered_share = 0.5;  // of the item's pixels under triangles; the rest has no depth
+};
+
+inline constexpr std::size_t kMaxDishCandidates = 64;
+
 struct Configuration {
   LensModel lens;
   CardModel card;
   std::span<const DishModel> dishes;  // one: it is that; several: the nearest by rim size and height
   EstimatorLimits limits;
+  ViewParams view;
+  ExposureParams exposure;
   SurfParams surf;
   MatcherParams matcher;
   RelativePoseParams pose;
+  CardParams card_search;
+  RectificationParams rectification;
+  DisparityRangeParams disparity_range;
   StereoParams stereo;
   FoodMeshParams mesh;
+  RimParams rim;
+  DishParams dish;
+  DishChoiceParams dish_choice;
+  VolumeParams volume;
+  VolumeExtractionParams extraction;
+  ViewGeometryParams geometry;
+  LabelAgreementParams label_agreement;
 };
 
 // invalid_configuration when a value lies outside its range.

@@ -3,7 +3,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <memory>
 #include <optional>
 #include <span>
 
@@ -12,8 +11,10 @@
 
 namespace traygauge {
 
-// Bytes that an Estimator with these limits takes from its block.
-std::size_t required_bytes(const EstimatorLimits& limits);
+struct EstimatorState;
+
+// Bytes that an Estimator with this configuration takes from its block.
+std::size_t required_bytes(const Configuration& configuration);
 
 // One picture to measure. Pixels and labels belong to the caller and stay valid until estimate() returns.
 struct ViewInput {
@@ -23,51 +24,56 @@ struct ViewInput {
   std::optional<double> arm_angle_deg;  // commanded, about the arm's axis
 };
 
-// Features from another detector, instead of SURF: pixels of the stored picture, descriptors of unit length.
+// Features from another detector, instead of SURF: pixels of the picture, descriptors of unit length.
 struct GivenFeatures {
   std::span<const Keypoint> keypoints;
   std::span<const Descriptor> descriptors;
 };
 
-// A corresponding pair of points, in pixels of the stored pictures.
+// Corresponding points from elsewhere, in pixels of the stored pictures; a card point also with its place on the
+// printed side (mm from the pattern's top left corner).
 struct GivenMatch {
   Vec2 first = Vec2::Zero();
   Vec2 second = Vec2::Zero();
 };
+struct GivenCardMatch {
+  Vec2 pattern_mm = Vec2::Zero();
+  Vec2 first = Vec2::Zero();
+  Vec2 second = Vec2::Zero();
+};
 
-// Not thread-safe. Nothing allocates after construction.
+// Not thread-safe. Nothing allocates, construction included.
 class Estimator {
  public:
-  // `block` holds required_bytes(configuration.limits), aligned to kArenaAlignmentBytes, and outlives the
-  // estimator; the card's pattern is read here only. Check status() before use.
+  // `block` holds required_bytes(configuration), aligned to kArenaAlignmentBytes, and outlives the estimator. The
+  // card's pattern is read here only. Check status() before use.
   Estimator(std::span<std::byte> block, const Configuration& configuration);
 
-  Status status() const;
+  Status status() const { return status_; }
   double setup_ms() const;
   std::size_t reserved_bytes() const;
-  std::size_t used_bytes() const;  // high-water mark
 
-  // Takes the first, then the second view; computes its features at once. A failure is also what estimate()
-  // reports.
+  // Takes the first, then the second view, and finds its features at once. What fails here is also what
+  // estimate() reports.
   Status add_view(const ViewInput& view);
-  // The same with features from elsewhere. `pattern` are features of the card's picture (pixels of that
-  // picture).
+  // The same with features from elsewhere; `set_pattern` gives those of the card's picture.
   Status add_view(const ViewInput& view, const GivenFeatures& features);
-  void set_pattern_features(const GivenFeatures& pattern);
-  // Replaces matching between the views; call after both add_view. The card's tracks are then the given
-  // matches that lie on the card's label and agree with the pattern's features.
-  void set_matches(std::span<const GivenMatch> matches);
+  Status set_pattern(const GivenFeatures& features, int picture_width_px);
+  // The same without features, for set_matches().
+  Status add_view_without_features(const ViewInput& view);
+  // Replaces matching; after both views. invalid_configuration before them.
+  Status set_matches(std::span<const GivenMatch> matches, std::span<const GivenCardMatch> card_matches);
 
-  // Measures the two views; every call with the same input and seed gives the same bits.
+  // Measures the two views; the same input and seed give the same bits.
   const Measurement& estimate(std::uint64_t seed);
 
   // Forgets both views.
   void reset();
 
  private:
-  struct State;
-  State* state_ = nullptr;  // in the block
+  EstimatorState* state_ = nullptr;  // in the block
   Status status_;
+  Measurement measurement_;
 };
 
 }  // namespace traygauge

@@ -73,7 +73,8 @@ struct MeasurementReport {
   int rectified_rows = 0;
   int rectified_columns = 0;
   DisparityRange disparity_range;
-  double matched_share = 0.0;  // of the dish's pixels that got a disparity
+  double matched_share = 0.0;    // of the dish's pixels that got a depth
+  double label_agreement = 0.0;  // share of food pixels with the same label in both views
 };
 
 // Pictures and surfaces of the last measurement, for drawing and for evaluation. Valid until the next one.
@@ -95,7 +96,8 @@ struct Measurement {
   std::span<const ItemResult> items;
   bool has_pose = false;
   Pose second_from_first;  // mm
-  double relative_angle_deg = 0.0;
+  double relative_angle_deg = 0.0;  // between the lines of sight, at the dish
+  double rotation_angle_deg = 0.0;  // of the camera
   std::array<double, kStageCount> stage_ms{};
   double total_ms = 0.0;
   std::array<bool, kWarningCount> warnings{};

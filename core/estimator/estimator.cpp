@@ -1,0 +1,181 @@
+#include "core/estimator/estimator.hpp"
+
+#include <algorithm>
+
+#include "core/estimator/estimator_state.hpp"
+#include "core/image/integral.hpp"
+
+namespace traygauge {
+namespace {
+
+// Checks the picture and cuts the dish out of it; the view counts once finish_view was called.
+Status start_view(EstimatorState& state, const ViewInput& input) {
+  if (state.views >= 2) return StatusCode::invalid_configuration;
+  if (state.views == 0) {
+    state.preparation_clock = {};
+    state.memory.given.matches.clear();
+    state.memory.given.card_tracks.clear();
+  }
+  PreparedView& view = state.view(state.views);
+  view.lens = input.lens.value_or(state.configuration.lens);
+  view.arm_angle_deg = input.arm_angle_deg;
+  view.labels = input.labels;
+  view.keypoints.clear();
+  if (const Status status = validate(view.lens); !status.ok()) return status;
+  state.preparation_clock.enter(Stage::image);
+  return prepare_picture(input.frame, state.configuration, state.memory.preparation, view);
+}
+
+Status finish_view(EstimatorState& state, Status status) {
+  state.preparation_clock.stop();
+  if (state.views == 0 || state.views_status.ok()) state.views_status = status;
+  ++state.views;
+  return status;
+}
+
+}  // namespace
+
+std::size_t estimator_state_bytes() { return aligned_bytes(sizeof(EstimatorState)); }
+
+std::size_t required_bytes(const Configuration& configuration) {
+  return estimator_state_bytes() + planned_bytes(configuration);
+}
+
+// The card's picture is reduced to about the scale at which cameras see it, so that box filters meet like structures.
+void EstimatorState::set_up_pattern(ImageView<const std::uint8_t> picture) {
+  PreparationWorkspace& scratch = memory.preparation;
+  const double wanted_px = configuration.view.pattern_px_per_mm * configuration.card.width_mm;
+  const double scale = std::min(1.0, wanted_px / picture.width);
+  const int width = static_cast<int>(picture.width * scale);
+  const int height = static_cast<int>(picture.height * scale);
+  const ImageView<std::uint8_t> reduced{scratch.feature_picture.data(), width, height};
+  reduce_area(picture, reduced);
+  const ImageView<std::uint32_t> integral{scratch.integral.data(), width + 1, height + 1};
+  build_integral(reduced, integral);
+  BoundedList<Keypoint>& keypoints = memory.pattern.keypoints;
+  detect_surf(integral, configuration.surf, scratch.surf, keypoints);
+  describe_surf(integral, configuration.surf, keypoints.items(), memory.pattern.descriptors.first(keypoints.size()));
+  place_pattern(width);
+}
+
+void EstimatorState::place_pattern(int width_px) {
+  const CardModel& card = configuration.card;
+  for (std::size_t i = 0; i < memory.pattern.keypoints.size(); ++i) {
+    memory.pattern.positions_mm[i] = pattern_mm(memory.pattern.keypoints[i].pixel, width_px,
+                                                {card.width_mm, card.height_mm, card.thickness_mm});
+  }
+}
+
+Estimator::Estimator(std::span<std::byte> block, const Configuration& configuration) {
+  status_ = validate(configuration);
+  if (!status_.ok()) return;
+  StageClock clock;
+  clock.enter(Stage::image);
+  Arena arena(block);
+  const auto storage = arena.take<EstimatorState>(1);
+  if (storage.empty()) {
+    status_ = StatusCode::out_of_memory;
+    return;
+  }
+  EstimatorState& state = storage.front();
+  state.configuration = configuration;
+  std::copy(configuration.dishes.begin(), configuration.dishes.end(), state.dishes.begin());
+  state.configuration.dishes = std::span(state.dishes).first(configuration.dishes.size());
+  state.configuration.card.pattern = {};
+  state.memory.allocate(arena, configuration);
+  if (arena.exhausted()) {
+    status_ = StatusCode::out_of_memory;
+    return;
+  }
+  state.reserved_bytes = arena.high_water_bytes();
+  state.set_up_pattern(configuration.card.pattern);
+  clock.stop();
+  state.setup_ms = clock.total_ms();
+  state_ = &state;
+}
+
+double Estimator::setup_ms() const { return state_ == nullptr ? 0.0 : state_->setup_ms; }
+
+std::size_t Estimator::reserved_bytes() const { return state_ == nullptr ? 0 : state_->reserved_bytes; }
+
+Status Estimator::add_view(const ViewInput& input) {
+  if (!status_.ok()) return status_;
+  Status status = start_view(*state_, input);
+  if (status.ok()) {
+    state_->preparation_clock.enter(Stage::features);
+    status = prepare_features(state_->configuration, state_->memory.preparation, state_->view(state_->views));
+  }
+  return finish_view(*state_, status);
+}
+
+Status Estimator::add_view(const ViewInput& input, const GivenFeatures& features) {
+  if (!status_.ok()) return status_;
+  Status status = start_view(*state_, input);
+  if (status.ok()) {
+    state_->preparation_clock.enter(Stage::features);
+    status = take_features(features.keypoints, features.descriptors, state_->configuration.view,
+                           state_->view(state_->views));
+  }
+  return finish_view(*state_, status);
+}
+
+Status Estimator::add_view_without_features(const ViewInput& input) {
+  if (!status_.ok()) return status_;
+  return finish_view(*state_, start_view(*state_, input));
+}
+
+Status Estimator::set_pattern(const GivenFeatures& features, int picture_width_px) {
+  if (!status_.ok()) return status_;
+  if (features.keypoints.size() != features.descriptors.size() || picture_width_px <= 0) {
+    return StatusCode::invalid_configuration;
+  }
+  PatternMemory& pattern = state_->memory.pattern;
+  pattern.keypoints.clear();
+  for (std::size_t i = 0; i < features.keypoints.size(); ++i) {
+    if (!pattern.keypoints.push_back(features.keypoints[i])) break;
+    pattern.descriptors[i] = features.descriptors[i];
+  }
+  state_->place_pattern(picture_width_px);
+  return StatusCode::ok;
+}
+
+Status Estimator::set_matches(std::span<const GivenMatch> matches, std::span<const GivenCardMatch> card_matches) {
+  if (!status_.ok()) return status_;
+  if (state_->views != 2 || matches.empty()) return StatusCode::invalid_configuration;
+  const LensModel& first = state_->view(0).lens;
+  const LensModel& second = state_->view(1).lens;
+  GivenCorrespondences& given = state_->memory.given;
+  given.matches.clear();
+  given.card_tracks.clear();
+  for (const GivenMatch& match : matches) {
+    RayMatch rays;
+    if (!first.undistort_pixel(match.first, rays.first) || !second.undistort_pixel(match.second, rays.second)) continue;
+    given.matches.push_back(rays);
+  }
+  for (const GivenCardMatch& match : card_matches) {
+    CardTrack track;
+    track.pattern_mm = match.pattern_mm;
+    if (!first.undistort_pixel(match.first, track.first)) continue;
+    if (!second.undistort_pixel(match.second, track.second)) continue;
+    given.card_tracks.push_back(track);
+  }
+  return StatusCode::ok;
+}
+
+const Measurement& Estimator::estimate(std::uint64_t seed) {
+  measurement_ = {};
+  measurement_.status = status_;
+  if (!status_.ok()) return measurement_;
+  StageClock clock = state_->preparation_clock;
+  run_measurement(*state_, seed, clock, measurement_);
+  clock.stop();
+  measurement_.stage_ms = clock.stage_ms();
+  measurement_.total_ms = clock.total_ms();
+  return measurement_;
+}
+
+void Estimator::reset() {
+  if (state_ != nullptr) state_->views = 0;
+}
+
+}  // namespace traygauge

@@ -1,0 +1,34 @@
+// What an estimator keeps in its block.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "core/estimator/estimator.hpp"
+#include "core/estimator/estimator_memory.hpp"
+#include "core/estimator/stage_clock.hpp"
+
+namespace traygauge {
+
+struct EstimatorState {
+  Configuration configuration;  // without the pattern's pixels, which are read at construction only
+  std::array<DishModel, kMaxDishCandidates> dishes{};
+  EstimatorMemory memory;
+  std::size_t reserved_bytes = 0;
+  double setup_ms = 0.0;
+  int views = 0;        // taken so far
+  Status views_status;  // the first thing that went wrong with them
+  StageClock preparation_clock;
+
+  PreparedView& view(int i) { return memory.views[static_cast<std::size_t>(i)]; }
+
+  void set_up_pattern(ImageView<const std::uint8_t> picture);
+  // Where each feature of a picture of the pattern, `width_px` wide, lies on the card.
+  void place_pattern(int width_px);
+};
+
+// From both prepared views to the volumes (paper Fig. 2). Fills everything but the times.
+void run_measurement(EstimatorState& state, std::uint64_t seed, StageClock& clock, Measurement& measurement);
+
+}  // namespace traygauge

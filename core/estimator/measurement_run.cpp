@@ -1,0 +1,149 @@
+#include <algorithm>
+#include <cmath>
+
+#include "core/estimator/estimator_state.hpp"
+#include "core/estimator/label_agreement.hpp"
+
+namespace traygauge {
+namespace {
+
+constexpr double kDegrees = 180.0 / EIGEN_PI;
+
+// Unit vectors from the dish to both cameras, in the first camera's axes.
+struct LinesOfSight {
+  Vec3 first;
+  Vec3 second;
+
+  double angle_deg() const { return kDegrees * std::acos(std::clamp(first.dot(second), -1.0, 1.0)); }
+};
+
+// The dish stands where the ray through the middle of its box meets the table: right to a few centimetres, which
+// turns neither line of sight by more than a degree or two.
+LinesOfSight look_from_dish(const PreparedView& first, const Extrinsics& extrinsics) {
+  const Vec2 middle = first.cutout.camera.ray(Vec2(0.5 * first.cutout.width, 0.5 * first.cutout.height));
+  const Vec3 ray = middle.homogeneous();
+  const Vec3 dish = ray * (extrinsics.table.offset / extrinsics.table.normal.dot(ray));
+  const Vec3 second_camera = extrinsics.second_from_first.inverse().translation;
+  return {(-dish).normalized(), (second_camera - dish).normalized()};
+}
+
+Status check_angle(double angle_deg, const ViewGeometryParams& params) {
+  if (angle_deg < params.min_angle_deg) return StatusCode::views_too_close;
+  if (angle_deg > params.max_angle_deg) return StatusCode::views_too_far_apart;
+  return StatusCode::ok;
+}
+
+Plane in_other_camera(const Plane& plane, const Pose& other_from_this) {
+  const Vec3 normal = other_from_this.rotation * plane.normal;
+  return {normal, plane.offset + normal.dot(other_from_this.translation)};
+}
+
+// The paper's reference is the first view. Ours is the one nearer to the vertical, whichever was taken first: it
+// sees less of the steep flanks at a slant, and a pair measures the same in either order.
+ReferencePair choose_reference(EstimatorState& state, const LinesOfSight& lines, TableReference& table,
+                               MeasurementViews& views) {
+  Extrinsics& extrinsics = state.memory.extrinsics;
+  const Plane& plane = extrinsics.table;
+  const bool keep = !state.configuration.geometry.reference_is_steeper ||
+                    lines.first.dot(plane.normal) >= lines.second.dot(plane.normal);
+  table = {plane, extrinsics.card_points.items()};
+  views.reference_view = keep ? 0 : 1;
+  if (keep) return {&state.view(0), &state.view(1), extrinsics.second_from_first, extrinsics.inliers.items()};
+
+  table.table = in_other_camera(plane, extrinsics.second_from_first);
+  for (Vec3& point : extrinsics.card_points.items()) point = extrinsics.second_from_first * point;
+  for (RayMatch& match : extrinsics.inliers.items()) std::swap(match.first, match.second);
+  return {&state.view(1), &state.view(0), extrinsics.second_from_first.inverse(), extrinsics.inliers.items()};
+}
+
+void report_pictures(EstimatorState& state, MeasurementViews& views) {
+  for (int i = 0; i < 2; ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    views.cameras[k] = state.view(i).cutout.camera;
+    views.gray[k] = state.view(i).gray;
+    views.labels[k] = state.view(i).working_labels;
+  }
+}
+
+void warn_about_views(const EstimatorState& state, Measurement& measurement) {
+  const auto warn = [&](Warning warning, bool on) { measurement.warnings[static_cast<std::size_t>(warning)] = on; };
+  const Extrinsics& extrinsics = state.memory.extrinsics;
+  const ViewGeometryParams& params = state.configuration.geometry;
+  const auto& views = state.memory.views;
+  warn(Warning::keypoints_capped, views[0].keypoints_capped || views[1].keypoints_capped);
+  warn(Warning::matches_capped, extrinsics.matches_capped);
+  warn(Warning::pose_from_card, extrinsics.pose_from_card);
+  warn(Warning::few_card_points, measurement.report.card_tracks < params.few_card_tracks);
+  warn(Warning::angle_small, measurement.relative_angle_deg < params.small_angle_deg);
+  warn(Warning::angle_large, measurement.relative_angle_deg > params.large_angle_deg);
+  if (views[0].arm_angle_deg && views[1].arm_angle_deg) {
+    const double commanded_deg = std::abs(*views[1].arm_angle_deg - *views[0].arm_angle_deg);
+    warn(Warning::arm_angle_disagrees,
+         std::abs(commanded_deg - measurement.rotation_angle_deg) > params.max_arm_deviation_deg);
+  }
+}
+
+Status calibrate(EstimatorState& state, Random& random, StageClock& clock, Measurement& measurement) {
+  const PatternMemory& pattern = state.memory.pattern;
+  const std::size_t pattern_count = pattern.keypoints.size();
+  const ExtrinsicInput input{&state.view(0),
+                             &state.view(1),
+                             {pattern.keypoints.items(), pattern.descriptors.first(pattern_count)},
+                             pattern.positions_mm.first(pattern_count),
+                             &state.memory.given};
+  const Status status = calibrate_extrinsics(input, state.configuration, random, state.memory.calibration, clock,
+                                             measurement.report, state.memory.extrinsics);
+  if (!status.ok()) return status;
+  measurement.has_pose = true;
+  measurement.second_from_first = state.memory.extrinsics.second_from_first;
+  measurement.rotation_angle_deg =
+      kDegrees * std::abs(Eigen::AngleAxisd(measurement.second_from_first.rotation).angle());
+  return StatusCode::ok;
+}
+
+Status measure_views(EstimatorState& state, std::uint64_t seed, StageClock& clock, Measurement& measurement) {
+  Random random(seed);
+  if (const Status status = calibrate(state, random, clock, measurement); !status.ok()) return status;
+  const LinesOfSight lines = look_from_dish(state.view(0), state.memory.extrinsics);
+  measurement.relative_angle_deg = lines.angle_deg();
+  warn_about_views(state, measurement);
+  if (const Status status = check_angle(measurement.relative_angle_deg, state.configuration.geometry); !status.ok()) {
+    return status;
+  }
+
+  TableReference table;
+  MeasurementViews& views = measurement.views;
+  const ReferencePair pair = choose_reference(state, lines, table, views);
+  DenseWorkspace& dense = state.memory.dense;
+  Status status = reconstruct_dense(pair, state.configuration, dense, clock, measurement.report, views);
+  if (!status.ok()) return status;
+  const LabelAgreementParams& agreement = state.configuration.label_agreement;
+  measurement.report.label_agreement = measure_label_agreement(
+      pair.reference->working_labels, pair.other->working_labels, views.depth_mm, pair.cameras(), agreement);
+  if (measurement.report.label_agreement < agreement.min_share) return StatusCode::labels_inconsistent;
+  status = find_dish_bottom(pair, table, state.configuration, random, state.memory.extraction, measurement.report,
+                            views);
+  if (!status.ok()) return status;
+  measurement.warnings[static_cast<std::size_t>(Warning::dish_guessed)] = state.configuration.dishes.size() > 1;
+  return extract_volumes(pair, state.configuration, state.memory.extraction, clock, views);
+}
+
+}  // namespace
+
+void run_measurement(EstimatorState& state, std::uint64_t seed, StageClock& clock, Measurement& measurement) {
+  state.memory.extraction.items.clear();
+  for (int i = 0; i < 2; ++i) {
+    measurement.report.keypoints[static_cast<std::size_t>(i)] = static_cast<int>(state.view(i).keypoints.size());
+  }
+  if (state.views != 2) {
+    measurement.status = StatusCode::frame_missing;
+  } else if (!state.views_status.ok()) {
+    measurement.status = state.views_status;
+  } else {
+    report_pictures(state, measurement.views);
+    measurement.status = measure_views(state, seed, clock, measurement);
+  }
+  measurement.items = state.memory.extraction.items.items();
+}
+
+}  // namespace traygauge

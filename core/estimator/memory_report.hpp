@@ -1,0 +1,22 @@
+// What the parts of an estimator take from its block.
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+#include "core/estimator/configuration.hpp"
+
+namespace traygauge {
+
+struct MemoryRow {
+  const char* name = "";
+  std::size_t bytes = 0;
+  bool shared = false;  // lies over the other shared rows: only the largest of them counts
+};
+
+inline constexpr std::size_t kMemoryRowCount = 8;
+
+// One row a part; the kept rows and the largest shared one add up to required_bytes().
+std::array<MemoryRow, kMemoryRowCount> describe_memory(const Configuration& configuration);
+
+}  // namespace traygauge

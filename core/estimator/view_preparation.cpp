@@ -1,0 +1,162 @@
+#include "core/estimator/view_preparation.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/image/exposure.hpp"
+#include "core/image/integral.hpp"
+
+namespace traygauge {
+namespace {
+
+constexpr double kFullAreaScale = 1.0;  // pictures are never enlarged for features
+
+// Scale that brings `pixels` to `target_pixels`.
+double area_scale(double pixels, double target_pixels) {
+  return std::sqrt(target_pixels / pixels);
+}
+
+Status check_labels(const LabelRegions& regions) {
+  if (regions.dish_pixels == 0) return StatusCode::no_dish_label;
+  const auto items = std::span(regions.pixels).subspan(kFirstItemLabel, kMaxItems);
+  if (std::all_of(items.begin(), items.end(), [](std::uint32_t count) { return count == 0; })) {
+    return StatusCode::no_food_label;
+  }
+  if (regions.dish_cut_off) return StatusCode::dish_cut_off;
+  return StatusCode::ok;
+}
+
+// The smallest upright rectangle of the undistorted, scaled picture that holds the dish's box and a margin.
+// The box's edge is sampled because lens distortion bends it.
+Cutout cut_out_dish(const LensModel& lens, const PixelBox& box, double scale, double margin_px) {
+  PinholeCamera scaled{lens.pinhole.fx_px * scale, lens.pinhole.fy_px * scale,
+                       scale_coordinate(lens.pinhole.cx_px, scale),
+                       scale_coordinate(lens.pinhole.cy_px, scale)};
+  constexpr int kSamplesPerSide = 8;
+  Vec2 low = Vec2::Constant(1e9);
+  Vec2 high = Vec2::Constant(-1e9);
+  for (int i = 0; i <= kSamplesPerSide; ++i) {
+    const double t = static_cast<double>(i) / kSamplesPerSide;
+    const double x = box.left + t * (box.width() - 1);
+    const double y = box.top + t * (box.height() - 1);
+    for (const Vec2& pixel :
+         {Vec2(x, box.top), Vec2(x, box.bottom - 1), Vec2(box.left, y), Vec2(box.right - 1, y)}) {
+      Vec2 ray;
+      if (!lens.undistort_pixel(pixel, ray)) continue;
+      low = low.cwiseMin(scaled.pixel(ray));
+      high = high.cwiseMax(scaled.pixel(ray));
+    }
+  }
+  if (high.x() < low.x()) return {};
+  const double left = std::floor(low.x() - margin_px);
+  const double top = std::floor(low.y() - margin_px);
+  scaled.cx_px -= left;
+  scaled.cy_px -= top;
+  return {scaled, static_cast<int>(std::ceil(high.x() + margin_px) - left) + 1,
+          static_cast<int>(std::ceil(high.y() + margin_px) - top) + 1};
+}
+
+// A dish that is long and lies obliquely needs more working pixels than the memory holds: the scale gives
+// way.
+Status choose_cutout(const Configuration& configuration, PreparedView& view) {
+  double scale = area_scale(view.regions.dish_pixels, configuration.view.matching_dish_px);
+  constexpr int kShrinkAttempts = 8;
+  for (int attempt = 0; attempt < kShrinkAttempts; ++attempt) {
+    view.cutout = cut_out_dish(view.lens, view.regions.dish, scale, configuration.view.working_margin_px);
+    const double pixels = static_cast<double>(view.cutout.width) * view.cutout.height;
+    if (view.cutout.width <= 0) return StatusCode::invalid_configuration;
+    if (pixels <= configuration.limits.max_working_px) return StatusCode::ok;
+    scale *= 0.98 * area_scale(pixels, configuration.limits.max_working_px);
+  }
+  return StatusCode::out_of_memory;
+}
+
+// The picture in which salient points are looked for: the dish at the configured area, within the memory.
+double feature_scale(const Configuration& configuration, const PreparedView& view) {
+  const double frame_px = static_cast<double>(view.lens.width) * view.lens.height;
+  const double by_dish = area_scale(view.regions.dish_pixels, configuration.view.feature_dish_px);
+  const double by_memory = area_scale(frame_px, configuration.limits.max_feature_px);
+  return std::min({kFullAreaScale, by_dish, by_memory});
+}
+
+}  // namespace
+
+Status prepare_picture(const FrameView& frame, const Configuration& configuration,
+                       PreparationWorkspace& workspace, PreparedView& view) {
+  if (frame.empty()) return StatusCode::frame_missing;
+  if (frame.width != view.lens.width || frame.height != view.lens.height)
+    return StatusCode::frame_size_mismatch;
+  if (frame.width > configuration.limits.max_frame_width ||
+      frame.height > configuration.limits.max_frame_height) {
+    return StatusCode::frame_size_mismatch;
+  }
+  if (view.labels.width != frame.width || view.labels.height != frame.height)
+    return StatusCode::labels_size_mismatch;
+  view.regions = measure_regions(view.labels);
+  if (const Status status = check_labels(view.regions); !status.ok()) return status;
+
+  workspace.frame_gray = {workspace.gray.data, frame.width, frame.height};
+  convert_to_gray(frame, workspace.frame_gray);
+  if (const Status status = check_exposure(workspace.frame_gray, configuration.exposure); !status.ok())
+    return status;
+
+  if (const Status status = choose_cutout(configuration, view); !status.ok()) return status;
+  view.gray = {view.gray_storage.data(), view.cutout.width, view.cutout.height};
+  view.working_labels = {view.label_storage.data(), view.cutout.width, view.cutout.height};
+  resample_undistorted(frame, view.lens, view.cutout, view.gray);
+  resample_labels_undistorted(view.labels, view.lens, view.cutout, view.working_labels);
+  return StatusCode::ok;
+}
+
+Status prepare_features(const Configuration& configuration, PreparationWorkspace& workspace,
+                        PreparedView& view) {
+  const ImageView<std::uint8_t> gray = workspace.frame_gray;
+  const double scale = feature_scale(configuration, view);
+  const int width = std::max(1, static_cast<int>(std::floor(gray.width * scale)));
+  const int height = std::max(1, static_cast<int>(std::floor(gray.height * scale)));
+  ImageView<std::uint8_t> picture = gray;
+  if (width < gray.width || height < gray.height) {
+    picture = {workspace.feature_picture.data(), width, height};
+    reduce_area(gray, picture);
+  }
+  const ImageView<std::uint32_t> integral{workspace.integral.data(), width + 1, height + 1};
+  build_integral(picture, integral);
+  view.keypoints.clear();
+  detect_surf(integral, configuration.surf, workspace.surf, view.keypoints);
+  view.keypoints_capped = view.keypoints.dropped() > 0;
+
+  const double scale_x = static_cast<double>(gray.width) / width;
+  const double scale_y = static_cast<double>(gray.height) / height;
+  std::size_t kept = 0;
+  for (const Keypoint& keypoint : view.keypoints.items()) {
+    const Vec2 pixel(scale_coordinate(keypoint.pixel.x(), scale_x),
+                     scale_coordinate(keypoint.pixel.y(), scale_y));
+    Vec2 ray;
+    if (!view.lens.undistort_pixel(pixel, ray)) continue;
+    view.ray_storage[kept] = ray;
+    view.keypoints[kept++] = keypoint;
+  }
+  view.keypoints.truncate(kept);
+  describe_surf(integral, configuration.surf, view.keypoints.items(), view.descriptor_storage.first(kept));
+  return kept < static_cast<std::size_t>(configuration.view.min_keypoints) ? StatusCode::too_few_features
+                                                                           : StatusCode::ok;
+}
+
+Status take_features(std::span<const Keypoint> keypoints, std::span<const Descriptor> descriptors,
+                     const ViewParams& params, PreparedView& view) {
+  if (keypoints.size() != descriptors.size()) return StatusCode::invalid_configuration;
+  const std::size_t count = std::min(keypoints.size(), view.descriptor_storage.size());
+  view.keypoints_capped = count < keypoints.size();
+  view.keypoints.clear();
+  for (std::size_t i = 0; i < count; ++i) {
+    Vec2 ray;
+    if (!view.lens.undistort_pixel(keypoints[i].pixel, ray)) continue;
+    view.ray_storage[view.keypoints.size()] = ray;
+    view.descriptor_storage[view.keypoints.size()] = descriptors[i];
+    view.keypoints.push_back(keypoints[i]);
+  }
+  return view.keypoints.size() < static_cast<std::size_t>(params.min_keypoints) ? StatusCode::too_few_features
+                                                                                : StatusCode::ok;
+}
+
+}  // namespace traygauge

@@ -1,0 +1,89 @@
+// From a frame and its labels to what the stages work on: salient points with their rays, and the dish,
+// undistorted and resized to a fixed area (paper III-B-2: "the two images are first resized to a fixed dish
+// size").
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+
+#include "core/base/arena.hpp"
+#include "core/base/bounded_list.hpp"
+#include "core/base/status.hpp"
+#include "core/estimator/configuration.hpp"
+#include "core/features/keypoint.hpp"
+#include "core/features/surf.hpp"
+#include "core/image/camera.hpp"
+#include "core/image/resample.hpp"
+#include "core/image_view/image_view.hpp"
+#include "core/segmentation/label_regions.hpp"
+
+namespace traygauge {
+
+// What is kept of a view until the measurement is done.
+struct PreparedView {
+  LensModel lens;
+  std::optional<double> arm_angle_deg;
+  ImageView<const std::uint8_t> labels;  // of the stored picture, the caller's
+  LabelRegions regions;
+  BoundedList<Keypoint> keypoints;  // positions in the feature picture
+  std::span<Descriptor> descriptor_storage;
+  std::span<Vec2> ray_storage;
+  Cutout cutout;  // the working picture's geometry
+  std::span<std::uint8_t> gray_storage;
+  std::span<std::uint8_t> label_storage;
+  ImageView<std::uint8_t> gray;
+  ImageView<std::uint8_t> working_labels;
+  bool keypoints_capped = false;
+
+  template <class Allocator>
+  constexpr void allocate(Allocator& arena, const EstimatorLimits& limits) {
+    const auto keypoint_count = static_cast<std::size_t>(limits.max_keypoints);
+    keypoints = BoundedList<Keypoint>(arena.template take<Keypoint>(keypoint_count));
+    descriptor_storage = arena.template take<Descriptor>(keypoint_count);
+    ray_storage = arena.template take<Vec2>(keypoint_count);
+    const auto pixels = static_cast<std::size_t>(limits.max_working_px);
+    gray_storage = arena.template take<std::uint8_t>(pixels);
+    label_storage = arena.template take<std::uint8_t>(pixels);
+  }
+
+  FeatureSet features() const {
+    return {keypoints.items(), std::span<const Descriptor>(descriptor_storage).first(keypoints.size())};
+  }
+  std::span<const Vec2> rays() const { return ray_storage.first(keypoints.size()); }
+};
+
+// Scratch that is free again once the view is prepared.
+struct PreparationWorkspace {
+  ImageView<std::uint8_t> gray;        // memory for the largest frame
+  ImageView<std::uint8_t> frame_gray;  // the current frame in it
+  std::span<std::uint8_t> feature_picture;
+  std::span<std::uint32_t> integral;
+  SurfWorkspace surf;
+
+  template <class Allocator>
+  constexpr void allocate(Allocator& arena, const EstimatorLimits& limits, const SurfParams& params) {
+    gray = arena.template take_image<std::uint8_t>(limits.max_frame_width, limits.max_frame_height);
+    const auto pixels = static_cast<std::size_t>(limits.max_feature_px);
+    feature_picture = arena.template take<std::uint8_t>(pixels);
+    // One more row and column than the picture; sides are at most the frame's.
+    integral = arena.template take<std::uint32_t>(
+        pixels + static_cast<std::size_t>(limits.max_frame_width + limits.max_frame_height + 1));
+    surf.allocate(arena, limits.max_frame_width, limits.max_frame_height, params);
+  }
+};
+
+// Checks sizes, labels and exposure, and cuts the dish out.
+Status prepare_picture(const FrameView& frame, const Configuration& configuration,
+                       PreparationWorkspace& workspace, PreparedView& view);
+
+// Detects and describes; rays from the lens. Points whose pixel the lens model cannot invert are dropped.
+// Call after prepare_picture. too_few_features when the picture has next to none.
+Status prepare_features(const Configuration& configuration, PreparationWorkspace& workspace,
+                        PreparedView& view);
+
+// Takes features from elsewhere instead, in pixels of the stored picture.
+Status take_features(std::span<const Keypoint> keypoints, std::span<const Descriptor> descriptors,
+                     const ViewParams& params, PreparedView& view);
+
+}  // namespace traygauge

@@ -1,0 +1,95 @@
+#include "core/estimator/volume_extraction.hpp"
+
+#include <algorithm>
+
+namespace traygauge {
+namespace {
+
+// Which of the candidate dishes stands there; −1 when none fits. One candidate is taken without a look.
+int identify_dish(const VolumeExtractionWorkspace& workspace, const Configuration& configuration,
+                  const Plane& rim, double rim_height_mm) {
+  if (configuration.dishes.size() == 1) return 0;
+  RimEllipse ellipse;
+  if (!fit_rim_size(workspace.rim.points_mm.items(), rim, ellipse).ok()) return -1;
+  std::array<DishCandidate, kMaxDishCandidates> candidates{};
+  for (std::size_t i = 0; i < configuration.dishes.size(); ++i) {
+    candidates[i] = {configuration.dishes[i].outer_size_mm, configuration.dishes[i].rim_height_mm};
+  }
+  return choose_dish(std::span(candidates).first(configuration.dishes.size()), ellipse.size_mm, rim_height_mm,
+                     configuration.dish_choice);
+}
+
+// Why this item has no volume, or ok.
+StatusCode judge_item(std::uint8_t label, const ReferencePair& pair, const FoodMesh& mesh,
+                      const ItemVolume& volume, const VolumeExtractionParams& params) {
+  const auto min_px = static_cast<std::uint32_t>(params.min_item_px);
+  const std::uint32_t in_reference = mesh.coverage[label].label_px;
+  const std::uint32_t in_other = pair.other->regions.pixels[label];
+  if (in_reference == 0 || in_other == 0) return StatusCode::item_hidden;
+  if (in_reference < min_px) return StatusCode::item_too_small;
+  if (mesh.coverage[label].share() < params.min_covered_share) return StatusCode::too_little_depth;
+  return volume.volume_ml > 0.0 ? StatusCode::ok : StatusCode::item_below_dish;
+}
+
+Status summarise(std::span<const ItemResult> items) {
+  const auto is_measured = [](const ItemResult& item) { return item.status == StatusCode::ok; };
+  const auto measured = std::count_if(items.begin(), items.end(), is_measured);
+  if (measured == static_cast<std::ptrdiff_t>(items.size())) return StatusCode::ok;
+  return measured > 0 ? StatusCode::partial : items.front().status;
+}
+
+}  // namespace
+
+Status find_dish_bottom(const ReferencePair& pair, const TableReference& table,
+                        const Configuration& configuration, Random& random,
+                        VolumeExtractionWorkspace& workspace, MeasurementReport& report,
+                        MeasurementViews& views) {
+  const RimInput rim_input{pair.reference->working_labels, pair.other->working_labels, views.depth_mm,
+                           pair.cameras()};
+  Status status = collect_rim_points(rim_input, configuration.rim, workspace.rim);
+  if (!status.ok()) return status;
+  PlaneFit rim;
+  status = fit_rim_plane(workspace.rim.points_mm, configuration.rim, random, rim);
+  if (!status.ok()) return status;
+  report.rim_points = rim.inliers;
+
+  const DishInput dish_input{rim.plane, workspace.rim.points_mm.items(), table.table, table.card_points,
+                             configuration.card.thickness_mm};
+  status = measure_rim_height(dish_input, configuration.dish, workspace.dish, report.rim_height_mm);
+  if (!status.ok()) return status;
+  report.dish_index = identify_dish(workspace, configuration, rim.plane, report.rim_height_mm);
+  if (report.dish_index < 0) return StatusCode::dish_unknown;
+  const DishModel& dish = configuration.dishes[static_cast<std::size_t>(report.dish_index)];
+  views.table = table.table;
+  views.dish_bottom =
+      place_dish_bottom(dish_input, configuration.dish, report.rim_height_mm, dish.bottom_height_mm);
+  return StatusCode::ok;
+}
+
+Status extract_volumes(const ReferencePair& pair, const Configuration& configuration,
+                       VolumeExtractionWorkspace& workspace, StageClock& clock, MeasurementViews& views) {
+  Status status =
+      build_food_mesh(views.depth_mm, pair.reference->working_labels, pair.reference->cutout.camera,
+                      configuration.mesh, workspace.mesh, views.mesh);
+  if (!status.ok()) return status;
+  clock.enter(Stage::volume);
+  status = integrate_volume(views.mesh, views.dish_bottom, configuration.volume, workspace.volume);
+  if (!status.ok()) return status;
+  workspace.items.clear();
+  for (int value = kFirstItemLabel; value <= kLastItemLabel; ++value) {
+    const auto label = static_cast<std::uint8_t>(value);
+    if (pair.reference->regions.pixels[label] == 0 && pair.other->regions.pixels[label] == 0) continue;
+    const ItemVolume& volume = workspace.volume.items[label];
+    ItemResult item;
+    item.label = label;
+    item.status = judge_item(label, pair, views.mesh, volume, configuration.extraction);
+    item.volume_ml = volume.volume_ml;
+    item.area_mm2 = volume.area_mm2;
+    item.mean_height_mm = volume.mean_height_mm;
+    item.max_height_mm = volume.max_height_mm;
+    workspace.items.push_back(item);
+  }
+  return summarise(workspace.items.items());
+}
+
+}  // namespace traygauge
