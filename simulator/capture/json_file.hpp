@@ -1,0 +1,12 @@
+// JSON documents from files, with limits on size and nesting.
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json_fwd.hpp>
+
+namespace traygauge {
+
+// Throws InputError: absent, unreadable, above 1 MiB, not JSON, nested deeper than 32.
+nlohmann::json read_json(const std::filesystem::path& file);
+
+}  // namespace traygauge

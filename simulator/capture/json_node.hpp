@@ -1,0 +1,46 @@
+// A value in a JSON document that knows where it stands, so that every error names file and key.
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace traygauge {
+
+// Inclusive limits of a number.
+struct NumberRange {
+  double min = 0.0;
+  double max = 0.0;
+};
+
+// Refers to the document, which must outlive it. Every reader throws InputError.
+class JsonNode {
+ public:
+  JsonNode(const nlohmann::json& value, const std::filesystem::path& file, std::string key = {});
+
+  JsonNode member(const char* name) const;  // of an object; must be there
+  std::optional<JsonNode> find(const char* name) const;
+  std::vector<JsonNode> elements(std::size_t min_count, std::size_t max_count) const;
+  std::vector<std::string> names() const;  // of an object's members
+
+  double number(NumberRange range) const;  // finite
+  double positive_number(double max) const;
+  int integer(int min, int max) const;
+  std::string text() const;  // not empty
+  std::vector<double> numbers(std::size_t count, NumberRange range) const;
+
+  const std::filesystem::path& file() const { return *file_; }
+  const std::string& key() const { return key_; }
+  [[noreturn]] void fail(const std::string& expected, const std::string& hint) const;
+
+ private:
+  void require_object() const;
+
+  const nlohmann::json* value_;
+  const std::filesystem::path* file_;
+  std::string key_;
+};
+
+}  // namespace traygauge

@@ -1,0 +1,66 @@
+#include "simulator/capture/picture_file.hpp"
+
+#include <array>
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "simulator/capture/input_bytes.hpp"
+
+namespace traygauge {
+namespace {
+
+constexpr std::size_t kMaxFileBytes = std::size_t{128} << 20U;
+constexpr const char* kExpected = "a JPEG or PNG picture";
+
+bool starts_with(std::span<const std::uint8_t> bytes, std::span<const std::uint8_t> start) {
+  if (bytes.size() < start.size()) return false;
+  for (std::size_t i = 0; i < start.size(); ++i) {
+    if (bytes[i] != start[i]) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+Picture read_picture(const InputFile& file, std::optional<PictureSize> required) {
+  constexpr std::array<std::uint8_t, 3> jpeg = {0xFF, 0xD8, 0xFF};
+  constexpr std::array<std::uint8_t, 8> png = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1A, '\n'};
+  const std::vector<std::uint8_t> bytes = read_bytes(file, kMaxFileBytes, kExpected);
+  if (starts_with(bytes, jpeg)) return decode_jpeg(file, bytes, required);
+  if (starts_with(bytes, png)) return decode_png(file, bytes, required);
+  throw InputError(file, kExpected, bytes.empty() ? "an empty file" : "bytes of another kind",
+                   "store the picture as .jpg or .png");
+}
+
+Picture to_gray(const Picture& picture) {
+  if (picture.format == PixelFormat::gray8) return picture;
+  Picture gray(picture.size, PixelFormat::gray8);
+  const bool blue_first = picture.format == PixelFormat::bgr8;
+  for (std::size_t i = 0; i < gray.pixels.size(); ++i) {
+    const std::uint8_t* pixel = &picture.pixels[3 * i];
+    const unsigned red = pixel[blue_first ? 2 : 0];
+    const unsigned blue = pixel[blue_first ? 0 : 2];
+    // 0.299, 0.587, 0.114 in units of 2^-14.
+    gray.pixels[i] = static_cast<std::uint8_t>((4899 * red + 9617 * pixel[1] + 1868 * blue + 8192) >> 14U);
+  }
+  return gray;
+}
+
+void check_picture_size(const InputFile& file, std::uint64_t width, std::uint64_t height,
+                        std::optional<PictureSize> required) {
+  const auto in_range = [](std::uint64_t side) { return side >= kMinPictureSide && side <= kMaxPictureSide; };
+  const std::string found = std::to_string(width) + "x" + std::to_string(height) + " pixels";
+  if (!in_range(width) || !in_range(height)) {
+    throw InputError(file, "a picture of 16 to 8192 pixels a side", found, "store it at the camera's size");
+  }
+  if (!required) return;
+  const PictureSize size{static_cast<int>(width), static_cast<int>(height)};
+  if (size == *required) return;
+  throw InputError(file,
+                   std::to_string(required->width) + "x" + std::to_string(required->height) +
+                       " pixels (the camera's size)",
+                   found, "store pictures and labels at the size that the camera was calibrated for");
+}
+
+}  // namespace traygauge
