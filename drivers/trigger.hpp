@@ -1,0 +1,45 @@
+// The button that starts a scan.
+#pragma once
+
+#include <cstdint>
+
+#include "drivers/clock.hpp"
+#include "drivers/device.hpp"
+#include "drivers/device_status.hpp"
+
+namespace traygauge {
+
+struct Press {
+  Instant at;
+  std::uint64_t sequence = 0;  // counts presses since start(), from 1
+};
+
+class Trigger : public Device {
+ public:
+  // Opens the button. Starting twice is no error.
+  DeviceStatus start();
+  void stop();
+  bool is_started() const { return started_; }
+
+  // Blocks until a press, at most `timeout` (> 0): ok, timed_out, or ended when no press will ever come.
+  // Presses that came meanwhile wait in a queue and are delivered first, in order. One call, one press.
+  DeviceStatus wait_for_press(Nanoseconds timeout, Press& press);
+  // Presses that wait; does not block.
+  int pending() const { return started_ ? do_pending() : 0; }
+  // Forgets the presses that wait, e.g. those during a scan.
+  void discard_pending();
+
+ protected:
+  using Device::Device;
+
+ private:
+  virtual DeviceStatus do_start() = 0;
+  virtual void do_stop() = 0;
+  virtual DeviceStatus do_wait_for_press(Nanoseconds timeout, Press& press) = 0;
+  virtual int do_pending() const = 0;
+  virtual void do_discard_pending() = 0;
+
+  bool started_ = false;
+};
+
+}  // namespace traygauge

@@ -1,0 +1,55 @@
+#include "firmware/station/estimator_measurer.hpp"
+
+#include <new>
+
+namespace traygauge {
+
+namespace {
+
+constexpr std::align_val_t kBlockAlignment{kArenaAlignmentBytes};
+
+}  // namespace
+
+void EstimatorMeasurer::FreeAligned::operator()(std::byte* block) const {
+  ::operator delete[](block, kBlockAlignment);
+}
+
+EstimatorMeasurer::EstimatorMeasurer(Scene& scene, const EstimatorLimits& limits, std::uint64_t seed)
+    : scene_(scene),
+      limits_(limits),
+      seed_(seed),
+      block_bytes_(required_bytes(limits)),
+      block_(new (kBlockAlignment) std::byte[block_bytes_]) {}
+
+// The card's pattern is learned again only when the configuration is another one.
+void EstimatorMeasurer::begin_scan() {
+  const Configuration* configuration = scene_.configuration();
+  if (configuration == nullptr) {
+    estimator_.reset();
+  } else if (configuration != configured_with_ || !estimator_) {
+    configure(*configuration);
+  } else {
+    estimator_->reset();
+  }
+  configured_with_ = configuration;
+}
+
+void EstimatorMeasurer::configure(const Configuration& configuration) {
+  Configuration own = configuration;
+  own.limits = limits_;
+  estimator_.emplace(std::span(block_.get(), block_bytes_), own);
+}
+
+Status EstimatorMeasurer::add_view(const StationView& view) {
+  if (!estimator_) return StatusCode::invalid_configuration;
+  if (!estimator_->status().ok()) return estimator_->status();
+  return estimator_->add_view(scene_.describe(view));
+}
+
+const Measurement& EstimatorMeasurer::measure() {
+  if (estimator_ && estimator_->status().ok()) return estimator_->estimate(seed_);
+  unmeasured_.status = estimator_ ? estimator_->status() : Status(StatusCode::invalid_configuration);
+  return unmeasured_;
+}
+
+}  // namespace traygauge

@@ -1,0 +1,58 @@
+// The measurement that the station runs: core's estimator, fed with what is known of the tray.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+
+#include "core/base/arena.hpp"
+#include "core/estimator/estimator.hpp"
+#include "firmware/station/measurer.hpp"
+
+namespace traygauge {
+
+// What the station knows beside the pictures. A played capture brings it along.
+class Scene {
+ public:
+  Scene() = default;
+  Scene(const Scene&) = delete;
+  Scene& operator=(const Scene&) = delete;
+  virtual ~Scene() = default;
+
+  // Camera, card and dishes for the tray that lies there now, valid until the next call; the same address
+  // means the same content. Null when nothing is known of it; its limits are not looked at.
+  virtual const Configuration* configuration() = 0;
+  // The view with its labels and, where they are known, its own camera and the arm's angle.
+  virtual ViewInput describe(const StationView& view) = 0;
+  virtual std::string_view tray_name() const = 0;
+};
+
+// Takes its memory once, for `limits`; nothing is allocated during a scan.
+class EstimatorMeasurer final : public Measurer {
+ public:
+  EstimatorMeasurer(Scene& scene, const EstimatorLimits& limits, std::uint64_t seed);
+
+  void begin_scan() override;
+  Status add_view(const StationView& view) override;
+  const Measurement& measure() override;
+  std::string_view tray_name() const override { return scene_.tray_name(); }
+  std::size_t reserved_bytes() const { return block_bytes_; }
+
+ private:
+  struct FreeAligned {
+    void operator()(std::byte* block) const;
+  };
+  void configure(const Configuration& configuration);
+
+  Scene& scene_;
+  EstimatorLimits limits_;
+  std::uint64_t seed_;
+  std::size_t block_bytes_;
+  std::unique_ptr<std::byte[], FreeAligned> block_;
+  const Configuration* configured_with_ = nullptr;
+  std::optional<Estimator> estimator_;
+  Measurement unmeasured_;  // where there is no estimator to ask
+};
+
+}  // namespace traygauge

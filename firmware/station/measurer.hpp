@@ -1,0 +1,40 @@
+// What the station's loop needs of a measurement.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string_view>
+
+#include "core/base/status.hpp"
+#include "core/estimator/measurement.hpp"
+#include "core/image_view/image_view.hpp"
+
+namespace traygauge {
+
+// A picture as the station took it.
+struct StationView {
+  FrameView frame;
+  std::uint64_t sequence = 0;           // the camera's number of the frame
+  std::optional<double> arm_angle_deg;  // where the arm stood, 0 at home; none without an arm
+};
+
+// begin_scan, add_view up to twice, measure. Used by one thread.
+class Measurer {
+ public:
+  Measurer() = default;
+  Measurer(const Measurer&) = delete;
+  Measurer& operator=(const Measurer&) = delete;
+  virtual ~Measurer() = default;
+
+  // A new tray lies there: forgets the last one.
+  virtual void begin_scan() = 0;
+  // Does what can be done with this view alone; the arm may move meanwhile. The pixels stay valid until the
+  // next begin_scan(). After a failure measure() reports the same.
+  virtual Status add_view(const StationView& view) = 0;
+  // Valid until the next call of any function.
+  virtual const Measurement& measure() = 0;
+  // What is known to lie there, for people; empty when nothing is.
+  virtual std::string_view tray_name() const = 0;
+};
+
+}  // namespace traygauge

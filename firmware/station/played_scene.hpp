@@ -1,0 +1,52 @@
+// What played captures know beside their pictures.
+#pragma once
+
+#include "core/estimator/configuration.hpp"
+#include "firmware/station/estimator_measurer.hpp"
+#include "simulator/devices/capture_source.hpp"
+#include "simulator/devices/tray_player.hpp"
+
+namespace traygauge {
+
+// Captures with what is needed to measure them.
+class MeasurableCaptures : public CaptureSource {
+ public:
+  // Camera, card and dishes of the open capture, at an address of its own for each capture.
+  virtual const Configuration& configuration() const = 0;
+  // The camera of view 0 or 1 of the pair, where the view carries one of its own.
+  virtual std::optional<LensModel> lens(int view) const = 0;
+  // Holds every capture.
+  virtual EstimatorLimits limits() const = 0;
+};
+
+// All outlive the scene.
+class PlayedScene final : public Scene {
+ public:
+  PlayedScene(const MeasurableCaptures& captures, const TrayPlayer& player)
+      : captures_(captures), player_(player) {}
+
+  const Configuration* configuration() override {
+    return player_.has_tray() ? &captures_.configuration() : nullptr;
+  }
+  // The arm's angle counts only where one was recorded: without, the simulated arm's has nothing to do with
+  // where the camera stood.
+  ViewInput describe(const StationView& view) override {
+    ViewInput input;
+    input.frame = view.frame;
+    const auto played_as = player_.view_played_as(view.sequence);
+    if (!played_as) return input;
+    input.labels = captures_.pair()[static_cast<std::size_t>(*played_as)].labels;
+    input.lens = captures_.lens(*played_as);
+    if (player_.second_view_angle_deg()) input.arm_angle_deg = view.arm_angle_deg;
+    return input;
+  }
+  std::string_view tray_name() const override {
+    return player_.has_tray() ? captures_.capture_name() : std::string_view();
+  }
+
+ private:
+  const MeasurableCaptures& captures_;
+  const TrayPlayer& player_;
+};
+
+}  // namespace traygauge

@@ -1,0 +1,122 @@
+#include "firmware/station/scan_printer.hpp"
+
+#include <cstdio>
+#include <cstring>
+#include <nlohmann/json.hpp>
+#include <ostream>
+
+namespace traygauge {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string_view status_name(const ScanResult& result) {
+  if (result.outcome == ScanOutcome::cancelled) return "cancelled";
+  if (result.outcome == ScanOutcome::device_failed) return name(result.failure.status.code());
+  return name(result.measurement->status.code());
+}
+
+std::string failure_text(const DeviceFailure& failure) {
+  std::string text = std::string(failure.device) + ": " + sentence(failure.status.code());
+  if (!failure.detail.empty()) text += " (" + std::string(failure.detail) + ")";
+  if (failure.status.error_number() != 0) {
+    text += " [" + std::string(std::strerror(failure.status.error_number())) + "]";
+  }
+  return text;
+}
+
+std::string message(const ScanResult& result) {
+  switch (result.outcome) {
+    case ScanOutcome::cancelled:
+      return "The button was not pressed a second time.";
+    case ScanOutcome::device_failed:
+      return failure_text(result.failure);
+    case ScanOutcome::measured:
+    case ScanOutcome::not_measurable:
+      break;
+  }
+  return sentence(result.measurement->status.code());
+}
+
+std::string item_text(const ItemResult& item) {
+  std::array<char, 64> text{};
+  if (item.status != StatusCode::ok) return "item " + std::to_string(item.label) + " " + name(item.status);
+  std::snprintf(text.data(), text.size(), "item %d %.1f ml", item.label, item.volume_ml);
+  return text.data();
+}
+
+Json item_json(const ItemResult& item) {
+  const bool ok = item.status == StatusCode::ok;
+  const auto number = [ok](double value) { return ok ? Json(value) : Json(); };
+  return {{"label", item.label},
+          {"dish", item.dish},
+          {"status", name(item.status)},
+          {"volume_ml", number(item.volume_ml)},
+          {"area_mm2", number(item.area_mm2)},
+          {"mean_height_mm", number(item.mean_height_mm)},
+          {"max_height_mm", number(item.max_height_mm)}};
+}
+
+void add_measurement(const Measurement& measurement, Json& json) {
+  for (const ItemResult& item : measurement.items) json["items"].push_back(item_json(item));
+  if (measurement.has_pose) json["relative_angle_deg"] = measurement.relative_angle_deg;
+  Json timing = Json::object();
+  for (std::size_t i = 0; i < kStageCount; ++i) {
+    timing[name(static_cast<Stage>(i))] = measurement.stage_ms[i];
+  }
+  timing["total"] = measurement.total_ms;
+  json["timing_ms"] = timing;
+  for (std::size_t i = 0; i < kWarningCount; ++i) {
+    if (measurement.warnings[i]) json["warnings"].push_back(name(static_cast<Warning>(i)));
+  }
+}
+
+}  // namespace
+
+std::string scan_text(const ScanResult& result) {
+  std::string text = "Scan " + std::to_string(result.scan);
+  if (!result.tray.empty()) text += " (" + std::string(result.tray) + ")";
+  text += ": ";
+  const bool measured = result.outcome == ScanOutcome::measured;
+  if (measured) {
+    const char* separator = "";
+    for (const ItemResult& item : result.measurement->items) {
+      text += separator + item_text(item);
+      separator = ", ";
+    }
+  }
+  if (!measured || !result.measurement->status.ok()) {
+    text += measured ? ". " + message(result) : message(result);
+  }
+  return text + "\n";
+}
+
+std::string scan_json(const ScanResult& result) {
+  Json json = {{"version", 1},
+               {"scan", result.scan},
+               {"tray", result.tray.empty() ? Json() : Json(result.tray)},
+               {"status", status_name(result)},
+               {"message", message(result)},
+               {"items", Json::array()},
+               {"relative_angle_deg", nullptr},
+               {"duration_ms", std::chrono::duration<double, std::milli>(result.duration).count()},
+               {"timing_ms", nullptr},
+               {"warnings", Json::array()}};
+  if (result.measurement != nullptr) add_measurement(*result.measurement, json);
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+bool ScanPrinter::deliver(const ScanResult& result) {
+  out_ << (format_ == Format::json ? scan_json(result) + "\n" : scan_text(result)) << std::flush;
+  return out_.good();
+}
+
+void ScanPrinter::report_fault(const DeviceFailure& failure) {
+  log_ << failure_text(failure) << std::endl;
+}
+
+void ScanPrinter::report_recovery(std::string_view what) {
+  log_ << what << ": works again." << std::endl;
+}
+
+}  // namespace traygauge

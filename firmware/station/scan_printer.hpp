@@ -1,0 +1,32 @@
+// Results for people, or as one JSON document a line.
+#pragma once
+
+#include <iosfwd>
+#include <string>
+
+#include "firmware/station/scan_result.hpp"
+
+namespace traygauge {
+
+// "Scan 1 (soup): rice 120 ml …" in lines of text; ends with a line feed.
+std::string scan_text(const ScanResult& result);
+// The same as JSON in one line, without a line feed. What was not measured is null.
+std::string scan_json(const ScanResult& result);
+
+// Results go to `out`, what is wrong with devices to `log`; neither is buffered.
+class ScanPrinter final : public ResultSink {
+ public:
+  enum class Format : std::uint8_t { text, json };
+  ScanPrinter(std::ostream& out, std::ostream& log, Format format) : out_(out), log_(log), format_(format) {}
+
+  bool deliver(const ScanResult& result) override;
+  void report_fault(const DeviceFailure& failure) override;
+  void report_recovery(std::string_view what) override;
+
+ private:
+  std::ostream& out_;
+  std::ostream& log_;
+  Format format_;
+};
+
+}  // namespace traygauge

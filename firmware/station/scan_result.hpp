@@ -1,0 +1,52 @@
+// What became of a press of the button, and who wants to know.
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+
+#include "core/estimator/measurement.hpp"
+#include "drivers/clock.hpp"
+#include "drivers/device_status.hpp"
+
+namespace traygauge {
+
+enum class ScanOutcome : std::uint8_t {
+  measured,        // all items, or some of them
+  not_measurable,  // the measurement's status says why
+  device_failed,   // a device's status says why
+  cancelled,       // the second press did not come
+};
+
+// A device that did not do what it was asked for. The texts are valid during the call they are passed to.
+struct DeviceFailure {
+  std::string_view device;
+  DeviceStatus status;
+  std::string_view detail;
+};
+
+struct ScanResult {
+  std::uint64_t scan = 0;  // counts presses since the start, from 1
+  std::string_view tray;
+  ScanOutcome outcome = ScanOutcome::measured;
+  const Measurement* measurement = nullptr;  // set when measured or not_measurable
+  DeviceFailure failure;                     // set when device_failed
+  Nanoseconds duration{0};                   // from the press to this result, by the station's clock
+};
+
+// Takes results. Used by one thread.
+class ResultSink {
+ public:
+  ResultSink() = default;
+  ResultSink(const ResultSink&) = delete;
+  ResultSink& operator=(const ResultSink&) = delete;
+  virtual ~ResultSink() = default;
+
+  // False when the result did not get where it belongs; the lamp then does not say done.
+  [[nodiscard]] virtual bool deliver(const ScanResult& result) = 0;
+  // A device failed outside a scan; told once, until it works again.
+  virtual void report_fault(const DeviceFailure& failure) = 0;
+  // `what` failed and works again.
+  virtual void report_recovery(std::string_view what) = 0;
+};
+
+}  // namespace traygauge

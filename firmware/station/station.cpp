@@ -1,0 +1,203 @@
+#include "firmware/station/station.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <optional>
+
+namespace traygauge {
+namespace {
+
+// What spoils one scan and leaves the camera usable; anything else needs the device to be opened again.
+bool spoils_one_scan(DeviceCode code) {
+  return code == DeviceCode::torn_frame || code == DeviceCode::stale_frame || code == DeviceCode::unreadable;
+}
+
+bool is_measured(const Status& status) {
+  return status.ok() || status.code() == StatusCode::partial;
+}
+
+}  // namespace
+
+const char* name(StationState state) {
+  static constexpr auto kNames =
+      std::to_array<const char*>({"starting", "waiting", "taking_first_view", "awaiting_second_view",
+                                  "taking_second_view", "measuring", "finished"});
+  static_assert(kNames.size() == static_cast<std::size_t>(StationState::finished) + 1);
+  return kNames[static_cast<std::size_t>(state)];
+}
+
+Station::Station(const StationDevices& devices, Measurer& measurer, ResultSink& sink,
+                 const std::atomic<bool>& stop, const StationParams& params)
+    : devices_(devices), measurer_(measurer), sink_(sink), stop_(stop), params_(params) {}
+
+const StationTotals& Station::run() {
+  while (state_ != StationState::finished) step();
+  return totals_;
+}
+
+StationState Station::step() {
+  switch (state_) {
+    case StationState::starting:
+      state_ = start_devices();
+      break;
+    case StationState::waiting:
+      state_ = wait_for_press();
+      break;
+    case StationState::taking_first_view:
+      state_ = take_first_view();
+      break;
+    case StationState::awaiting_second_view:
+      state_ = devices_.arm != nullptr ? await_second_view() : await_second_press();
+      break;
+    case StationState::taking_second_view:
+      state_ = take_second_view();
+      break;
+    case StationState::measuring:
+      state_ = measure();
+      break;
+    case StationState::finished:
+      break;
+  }
+  if (state_ == StationState::finished) close_all();
+  return state_;
+}
+
+// The last result stays on the lamp for a while, unless the next press comes first.
+StationState Station::wait_for_press() {
+  if (stop_ || (params_.max_scans > 0 && totals_.scans >= params_.max_scans)) return StationState::finished;
+  const Instant now = devices_.clock.now();
+  if (now >= result_until_) show(Signal::ready);
+  const Nanoseconds wait =
+      now < result_until_ ? std::min(result_until_ - now, params_.press_wait) : params_.press_wait;
+  Press press;
+  const DeviceStatus status = devices_.trigger.wait_for_press(wait, press);
+  if (status.code() == DeviceCode::ended) return StationState::finished;
+  if (!status.ok() && status.code() != DeviceCode::timed_out) return enter_fault(devices_.trigger, status);
+  confirm_recovery();
+  if (!status.ok()) return StationState::waiting;
+  ++totals_.scans;
+  pressed_at_ = press.at;
+  return StationState::taking_first_view;
+}
+
+// The arm starts to move as soon as the picture is taken, and the measurer works meanwhile.
+StationState Station::take_first_view() {
+  show(Signal::hold_still);
+  measurer_.begin_scan();
+  DeviceStatus status = capture(first_);
+  if (!status.ok()) return fail_scan(devices_.camera, status);
+  if (devices_.arm != nullptr) {
+    status = devices_.arm->begin_move_to(params_.second_view_deg);
+    if (!status.ok()) return fail_scan(*devices_.arm, status);
+  }
+  const auto home_deg = devices_.arm != nullptr ? std::optional(0.0) : std::nullopt;
+  const Status taken = measurer_.add_view({first_.frame.view, first_.frame.sequence, home_deg});
+  return taken.ok() ? StationState::awaiting_second_view : StationState::measuring;
+}
+
+StationState Station::await_second_view() {
+  const DeviceStatus status = devices_.arm->wait_until_still(params_.arm_timeout);
+  return status.ok() ? StationState::taking_second_view : fail_scan(*devices_.arm, status);
+}
+
+StationState Station::await_second_press() {
+  show(Signal::ready);
+  devices_.trigger.discard_pending();
+  const Instant deadline = devices_.clock.now() + params_.second_press_timeout;
+  while (!stop_ && devices_.clock.now() < deadline) {
+    Press press;
+    const Nanoseconds wait = std::min(deadline - devices_.clock.now(), params_.press_wait);
+    const DeviceStatus status = devices_.trigger.wait_for_press(wait, press);
+    if (status.ok()) return StationState::taking_second_view;
+    if (status.code() == DeviceCode::ended) break;
+    if (status.code() != DeviceCode::timed_out) return fail_scan(devices_.trigger, status);
+  }
+  ScanResult result;
+  result.outcome = ScanOutcome::cancelled;
+  return end_scan(result, Signal::try_again, StationState::waiting);
+}
+
+StationState Station::take_second_view() {
+  show(Signal::hold_still);
+  std::optional<double> angle_deg;
+  if (devices_.arm != nullptr) {
+    const DeviceStatus status = devices_.arm->read_position(angle_deg.emplace());
+    if (!status.ok()) return fail_scan(*devices_.arm, status);
+  }
+  const DeviceStatus status = capture(second_);
+  if (!status.ok()) return fail_scan(devices_.camera, status);
+  // What goes wrong in the measurement, measure() says too.
+  static_cast<void>(measurer_.add_view({second_.frame.view, second_.frame.sequence, angle_deg}));
+  return StationState::measuring;
+}
+
+// The arm goes home while the volumes are computed.
+StationState Station::measure() {
+  show(Signal::busy);
+  const DeviceStatus returning = begin_return();
+  const Measurement& measurement = measurer_.measure();
+  const bool measured = is_measured(measurement.status);
+  ScanResult result;
+  result.outcome = measured ? ScanOutcome::measured : ScanOutcome::not_measurable;
+  result.measurement = &measurement;
+  const StationState next =
+      end_scan(result, measured ? Signal::done : Signal::try_again, StationState::waiting);
+  if (!returning.ok()) return enter_fault(*devices_.arm, returning);
+  return finish_return(next);
+}
+
+// A picture that was exposed after this call began, so that nothing moved in it.
+DeviceStatus Station::capture(View& view) {
+  const Instant not_before = devices_.clock.now();
+  DeviceStatus status;
+  for (int attempt = 0; attempt < params_.capture_attempts; ++attempt) {
+    status = devices_.camera.capture(view.pixels, params_.capture_timeout, view.frame);
+    if (status.ok() && view.frame.exposed_at < not_before) status = DeviceCode::stale_frame;
+    if (status.ok()) return status;
+    if (status.code() == DeviceCode::device_gone) break;
+  }
+  return status;
+}
+
+DeviceStatus Station::begin_return() {
+  if (devices_.arm == nullptr) return DeviceCode::ok;
+  const DeviceStatus still = devices_.arm->wait_until_still(params_.arm_timeout);
+  return still.ok() ? devices_.arm->begin_move_to(0.0) : still;
+}
+
+StationState Station::finish_return(StationState next) {
+  if (devices_.arm == nullptr) return next;
+  const DeviceStatus status = devices_.arm->wait_until_still(params_.arm_timeout);
+  return status.ok() ? next : enter_fault(*devices_.arm, status);
+}
+
+// Delivers what became of the press, then shows it. Presses during the scan count as impatience.
+StationState Station::end_scan(ScanResult result, Signal signal, StationState next) {
+  result.scan = totals_.scans;
+  result.tray = measurer_.tray_name();
+  result.duration = devices_.clock.now() - pressed_at_;
+  const bool delivered = sink_.deliver(result);
+  if (!delivered) ++totals_.undelivered;
+  if (delivered && result.outcome == ScanOutcome::measured) ++totals_.measured;
+  show(delivered ? signal : Signal::fault);
+  result_until_ = devices_.clock.now() + params_.result_shown;
+  devices_.trigger.discard_pending();
+  return next;
+}
+
+// The result says what failed, so that the fault itself is not told a second time.
+StationState Station::fail_scan(Device& device, DeviceStatus status) {
+  ScanResult result;
+  result.outcome = ScanOutcome::device_failed;
+  result.failure = {device.description(), status, device.detail()};
+  if (!spoils_one_scan(status.code())) {
+    remember_failure(device, status);
+    return end_scan(result, Signal::fault, StationState::starting);
+  }
+  end_scan(result, Signal::try_again, StationState::waiting);
+  const DeviceStatus returning = begin_return();
+  return returning.ok() ? finish_return(StationState::waiting) : enter_fault(*devices_.arm, returning);
+}
+
+}  // namespace traygauge

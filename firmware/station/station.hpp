@@ -1,0 +1,129 @@
+// The station's loop: a press, two views, a measurement, a result. Every failure leaves it in one of these
+// states and is told once.
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <cstdint>
+#include <vector>
+
+#include "drivers/arm.hpp"
+#include "drivers/camera.hpp"
+#include "drivers/clock.hpp"
+#include "drivers/indicator.hpp"
+#include "drivers/trigger.hpp"
+#include "firmware/station/measurer.hpp"
+#include "firmware/station/scan_result.hpp"
+
+namespace traygauge {
+
+struct StationDevices {
+  Camera& camera;
+  Trigger& trigger;
+  Arm* arm;  // null: a hand moves the camera or the tray, and a second press takes the second view
+  Indicator& lamp;
+  Clock& clock;
+};
+
+struct StationParams {
+  double second_view_deg = 18.0;  // paper, Table V: error and time are least at 15 to 20
+  Nanoseconds capture_timeout = std::chrono::seconds(2);  // longer than any exposure; shorter hides no hang
+  int capture_attempts = 5;                               // 1 to 20: more than a camera queues old frames
+  Nanoseconds arm_timeout = std::chrono::seconds(10);
+  Nanoseconds second_press_timeout = std::chrono::seconds(60);
+  Nanoseconds result_shown = std::chrono::seconds(3);        // then the lamp says ready again
+  Nanoseconds press_wait = std::chrono::milliseconds(500);   // between two looks at the wish to stop
+  Nanoseconds first_retry = std::chrono::milliseconds(100);  // of a failed device; doubles up to last_retry
+  Nanoseconds last_retry = std::chrono::seconds(5);
+  std::uint64_t max_scans = 0;  // then the loop ends; 0: never
+  int max_retries = 0;          // of failed devices in a row, then the loop ends; 0: never
+};
+
+enum class StationState : std::uint8_t {
+  starting,  // opens what is not open; after a failure again and again
+  waiting,   // for a press
+  taking_first_view,
+  awaiting_second_view,  // the arm moves, or the hand
+  taking_second_view,
+  measuring,
+  finished,
+};
+const char* name(StationState state);
+
+struct StationTotals {
+  std::uint64_t scans = 0;
+  std::uint64_t measured = 0;
+  std::uint64_t undelivered = 0;
+  bool gave_up = false;  // a device did not come back
+
+  bool all_worked() const { return measured == scans && undelivered == 0 && !gave_up; }
+};
+
+class Station {
+ public:
+  // All outlive the station. Somebody else sets `stop`, a signal handler say; the loop ends before the next
+  // scan.
+  Station(const StationDevices& devices, Measurer& measurer, ResultSink& sink, const std::atomic<bool>& stop,
+          const StationParams& params = {});
+
+  // Blocks until the loop ends; the devices are closed then.
+  const StationTotals& run();
+  // One state's work; the state that follows.
+  StationState step();
+  StationState state() const { return state_; }
+  const StationTotals& totals() const { return totals_; }
+
+ private:
+  struct View {
+    std::vector<std::uint8_t> pixels;  // sized when the camera starts
+    CapturedFrame frame;
+  };
+  struct Opening {
+    Device* failed = nullptr;
+    DeviceStatus status;
+  };
+
+  StationState start_devices();
+  StationState wait_for_press();
+  StationState take_first_view();
+  StationState await_second_view();
+  StationState await_second_press();
+  StationState take_second_view();
+  StationState measure();
+
+  DeviceStatus capture(View& view);
+  DeviceStatus begin_return();
+  StationState finish_return(StationState next);
+
+  StationState end_scan(ScanResult result, Signal signal, StationState next);
+  StationState fail_scan(Device& device, DeviceStatus status);
+
+  Opening open_all();
+  DeviceStatus open_camera();
+  StationState enter_fault(Device& device, DeviceStatus status);
+  void remember_failure(Device& device, DeviceStatus status);
+  void confirm_recovery();
+  void close(const Device& device);
+  void close_all();
+  void show(Signal signal);
+
+  StationDevices devices_;
+  Measurer& measurer_;
+  ResultSink& sink_;
+  const std::atomic<bool>& stop_;
+  StationParams params_;
+
+  StationState state_ = StationState::starting;
+  StationTotals totals_;
+  View first_;
+  View second_;
+  Instant pressed_at_;
+  Instant result_until_;             // the lamp shows the last result
+  Device* failed_device_ = nullptr;  // while it does not work
+  DeviceCode failed_code_ = DeviceCode::ok;
+  Nanoseconds retry_after_{0};
+  int retries_ = 0;
+  bool lamp_failed_ = false;
+};
+
+}  // namespace traygauge

@@ -1,0 +1,98 @@
+#include "firmware/station/station_command.hpp"
+
+#include <ostream>
+#include <string_view>
+
+#include "firmware/station/scan_printer.hpp"
+#include "simulator/devices/capture_folders.hpp"
+#include "simulator/devices/simulated_arm.hpp"
+#include "simulator/devices/simulated_camera.hpp"
+#include "simulator/devices/simulated_clock.hpp"
+#include "simulator/devices/simulated_indicator.hpp"
+#include "simulator/devices/simulated_trigger.hpp"
+
+namespace traygauge {
+namespace {
+
+constexpr int kNotAllMeasured = 1;
+constexpr int kWrongUse = 2;
+constexpr std::string_view kSimulatorPrefix = "simulator:";
+constexpr Nanoseconds kPersonPresses = std::chrono::seconds(1);  // after the lamp says ready
+
+// A press a scan, two where a hand moves the camera.
+std::uint64_t press_count(const StationCommand& command, const CaptureSource& captures) {
+  const std::uint64_t scans = command.scans > 0 ? command.scans : captures.capture_count();
+  return command.by_hand ? 2 * scans : scans;
+}
+
+int play(const StationCommand& command, MeasurableCaptures& captures, const std::atomic<bool>& stop,
+         std::ostream& out, std::ostream& log) {
+  SimulatedClock clock;
+  TrayPlayer player(captures, command.by_hand ? CameraMover::hand : CameraMover::arm);
+  SimulatedArm arm(clock, &player);
+  SimulatedCamera camera(clock, player, command.by_hand ? nullptr : &arm);
+  SimulatedIndicator lamp(clock);
+  SimulatedTrigger trigger(clock, lamp, press_count(command, captures), kPersonPresses);
+  trigger.before_press([&player] { player.handle_press(); });
+
+  PlayedScene scene(captures, player);
+  EstimatorMeasurer measurer(scene, captures.limits(), command.seed);
+  ScanPrinter printer(out, log, command.json ? ScanPrinter::Format::json : ScanPrinter::Format::text);
+  StationParams params;
+  params.second_view_deg = command.second_view_deg;
+  params.max_scans = command.scans;
+  if (!command.by_hand && !arm.limits().contains(params.second_view_deg)) {
+    log << "--second-view " << params.second_view_deg << ": the arm moves from " << arm.limits().min_deg
+        << " to " << arm.limits().max_deg << " degrees." << std::endl;
+    return kWrongUse;
+  }
+  Station station({camera, trigger, command.by_hand ? nullptr : &arm, lamp, clock}, measurer, printer, stop,
+                  params);
+  return station.run().all_worked() ? 0 : kNotAllMeasured;
+}
+
+}  // namespace
+
+CLI::App* add_station_command(CLI::App& app, StationCommand& command) {
+  CLI::App* station = app.add_subcommand("station", "Wait for the button, measure the tray, report; again");
+  station
+      ->add_option("--devices", command.devices,
+                   "simulator:FOLDER plays a capture, or a folder of captures by name")
+      ->required();
+  CLI::Option* scans =
+      station->add_option("--scans", command.scans, "End after so many scans")->check(CLI::PositiveNumber);
+  station
+      ->add_flag_callback(
+          "--once", [&command] { command.scans = 1; }, "The same as --scans 1")
+      ->excludes(scans);
+  station->add_flag("--json", command.json, "One JSON document a line for each scan");
+  station->add_flag("--by-hand", command.by_hand,
+                    "Without an arm: move the camera and press again for the second view");
+  station->add_option("--second-view", command.second_view_deg, "Where the arm goes, degrees from home")
+      ->capture_default_str();
+  station->add_option("--seed", command.seed, "Seed of the random samples")->capture_default_str();
+  return station;
+}
+
+int run_station(const StationCommand& command, const OpenCaptures& open_captures,
+                const std::atomic<bool>& stop, std::ostream& out, std::ostream& log) {
+  if (!command.devices.starts_with(kSimulatorPrefix)) {
+    log << "--devices " << command.devices << ": expected simulator:FOLDER." << std::endl;
+    return kWrongUse;
+  }
+  const std::filesystem::path folder = command.devices.substr(kSimulatorPrefix.size());
+  const auto folders = find_capture_folders(folder);
+  if (folders.empty()) {
+    log << folder.string() << ": neither capture.json here nor captures in folders below." << std::endl;
+    return kWrongUse;
+  }
+  std::string problem;
+  const auto captures = open_captures(folders, problem);
+  if (captures == nullptr) {
+    log << problem << std::endl;
+    return kWrongUse;
+  }
+  return play(command, *captures, stop, out, log);
+}
+
+}  // namespace traygauge

@@ -1,0 +1,40 @@
+// `traygauge station`: the loop from the button to the result.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <atomic>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <iosfwd>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "firmware/station/played_scene.hpp"
+#include "firmware/station/station.hpp"
+
+namespace traygauge {
+
+struct StationCommand {
+  std::string devices;      // "simulator:FOLDER"
+  std::uint64_t scans = 0;  // 0: every capture once
+  bool json = false;
+  bool by_hand = false;  // no arm: a second press takes the second view
+  double second_view_deg = StationParams{}.second_view_deg;
+  std::uint64_t seed = 1;
+};
+
+// Reads what belongs to these folders; null, and `problem` says which file and key, when one is not as
+// expected.
+using OpenCaptures = std::function<std::unique_ptr<MeasurableCaptures>(
+    const std::vector<std::filesystem::path>& folders, std::string& problem)>;
+
+// Adds the command to `app`; when it is given, parsing fills `command`.
+CLI::App* add_station_command(CLI::App& app, StationCommand& command);
+
+// Runs the loop until its end or until `stop`. Exit status: 0 all scans measured, 1 some not, 2 wrong use.
+int run_station(const StationCommand& command, const OpenCaptures& open_captures,
+                const std::atomic<bool>& stop, std::ostream& out, std::ostream& log);
+
+}  // namespace traygauge

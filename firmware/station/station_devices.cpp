@@ -1,0 +1,88 @@
+// How the station opens its devices, and how it goes on when one of them fails.
+#include <algorithm>
+
+#include "firmware/station/station.hpp"
+
+namespace traygauge {
+
+StationState Station::start_devices() {
+  if (stop_) return StationState::finished;
+  devices_.clock.sleep_for(retry_after_);
+  const Opening opening = open_all();
+  if (opening.failed != nullptr) return enter_fault(*opening.failed, opening.status);
+  devices_.trigger.discard_pending();
+  return StationState::waiting;
+}
+
+Station::Opening Station::open_all() {
+  if (const DeviceStatus status = devices_.trigger.start(); !status.ok()) return {&devices_.trigger, status};
+  if (const DeviceStatus status = open_camera(); !status.ok()) return {&devices_.camera, status};
+  if (devices_.arm == nullptr) return {};
+  DeviceStatus status = devices_.arm->start();
+  if (status.ok() && !devices_.arm->is_homed()) status = devices_.arm->home(params_.arm_timeout);
+  if (status.ok()) status = devices_.arm->move_to(0.0, params_.arm_timeout);
+  return status.ok() ? Opening{} : Opening{devices_.arm, status};
+}
+
+DeviceStatus Station::open_camera() {
+  const DeviceStatus status = devices_.camera.start();
+  if (!status.ok()) return status;
+  const std::size_t frame_bytes = devices_.camera.format().frame_bytes();
+  for (View* view : {&first_, &second_}) {
+    if (view->pixels.size() != frame_bytes) view->pixels.resize(frame_bytes);
+  }
+  return status;
+}
+
+// Told when it is new; the same failure again only makes the next try later.
+StationState Station::enter_fault(Device& device, DeviceStatus status) {
+  const bool is_known = &device == failed_device_ && status.code() == failed_code_;
+  const Nanoseconds last_wait = retry_after_;
+  if (!is_known) sink_.report_fault({device.description(), status, device.detail()});
+  remember_failure(device, status);
+  if (is_known) retry_after_ = std::clamp(2 * last_wait, params_.first_retry, params_.last_retry);
+  show(Signal::fault);
+  totals_.gave_up = params_.max_retries > 0 && ++retries_ > params_.max_retries;
+  return totals_.gave_up ? StationState::finished : StationState::starting;
+}
+
+void Station::remember_failure(Device& device, DeviceStatus status) {
+  failed_device_ = &device;
+  failed_code_ = status.code();
+  retry_after_ = params_.first_retry;
+  close(device);
+}
+
+void Station::confirm_recovery() {
+  if (failed_device_ != nullptr) sink_.report_recovery("all devices");
+  failed_device_ = nullptr;
+  retry_after_ = Nanoseconds::zero();
+  retries_ = 0;
+}
+
+void Station::close(const Device& device) {
+  if (&device == &devices_.camera) devices_.camera.stop();
+  if (&device == &devices_.trigger) devices_.trigger.stop();
+  if (&device == devices_.arm) devices_.arm->stop();
+}
+
+void Station::close_all() {
+  devices_.camera.stop();
+  devices_.trigger.stop();
+  if (devices_.arm != nullptr) devices_.arm->stop();
+  devices_.lamp.stop();
+}
+
+// A dead lamp does not stop the scans; it is told once, and opened again for the next signal.
+void Station::show(Signal signal) {
+  if (lamp_failed_) devices_.lamp.stop();
+  DeviceStatus status = devices_.lamp.start();
+  if (status.ok()) status = devices_.lamp.show(signal);
+  if (!status.ok() && !lamp_failed_) {
+    sink_.report_fault({devices_.lamp.description(), status, devices_.lamp.detail()});
+  }
+  if (status.ok() && lamp_failed_) sink_.report_recovery(devices_.lamp.description());
+  lamp_failed_ = !status.ok();
+}
+
+}  // namespace traygauge

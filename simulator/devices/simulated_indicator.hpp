@@ -1,0 +1,42 @@
+// A lamp that remembers what it showed.
+#pragma once
+
+#include <vector>
+
+#include "drivers/clock.hpp"
+#include "drivers/indicator.hpp"
+#include "simulator/devices/fault_script.hpp"
+
+namespace traygauge {
+
+struct ShownSignal {
+  Signal signal = Signal::off;
+  Instant since;
+
+  friend bool operator==(const ShownSignal&, const ShownSignal&) = default;
+};
+
+class SimulatedIndicator final : public Indicator {
+ public:
+  explicit SimulatedIndicator(const Clock& clock) : Indicator("simulated lamp"), clock_(clock) {}
+
+  // Everything that was shown, in order.
+  const std::vector<ShownSignal>& history() const { return history_; }
+  // Asked once a start and a show.
+  FaultScript& faults() { return faults_; }
+
+ private:
+  DeviceStatus do_start() override { return faults_.next(); }
+  void do_stop() override {}
+  DeviceStatus do_show(Signal signal) override {
+    const DeviceStatus status = faults_.next();
+    if (status.ok()) history_.push_back({signal, clock_.now()});
+    return status;
+  }
+
+  const Clock& clock_;
+  FaultScript faults_;
+  std::vector<ShownSignal> history_;
+};
+
+}  // namespace traygauge

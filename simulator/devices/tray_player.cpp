@@ -1,0 +1,52 @@
+#include "simulator/devices/tray_player.hpp"
+
+#include <cmath>
+
+namespace traygauge {
+namespace {
+
+// An arm nearer to home than this has not left it: below what the arm's drive resolves.
+constexpr double kHomeTolerance_deg = 0.05;
+
+}  // namespace
+
+void TrayPlayer::handle_press() {
+  if (mover_ == CameraMover::hand && has_tray_ && !at_second_view_) {
+    at_second_view_ = true;
+    return;
+  }
+  at_second_view_ = false;
+  last_played_ = {};
+  capture_index_ = next_capture_;
+  has_tray_ = captures_.open(capture_index_);
+  next_capture_ = (capture_index_ + 1) % captures_.capture_count();
+}
+
+std::optional<double> TrayPlayer::second_view_angle_deg() const {
+  if (!has_tray_) return std::nullopt;
+  const auto& [first, second] = captures_.pair();
+  if (!first.arm_angle_deg || !second.arm_angle_deg) return std::nullopt;
+  const double angle_deg = *second.arm_angle_deg - *first.arm_angle_deg;
+  if (std::abs(angle_deg) < kHomeTolerance_deg) return std::nullopt;
+  return angle_deg;
+}
+
+int TrayPlayer::view_seen_at(double arm_angle_deg) const {
+  const auto second_deg = second_view_angle_deg();
+  if (!second_deg) return std::abs(arm_angle_deg) < kHomeTolerance_deg ? 0 : 1;
+  return std::abs(arm_angle_deg) <= std::abs(arm_angle_deg - *second_deg) ? 0 : 1;
+}
+
+void TrayPlayer::note_played(std::uint64_t sequence, int view) {
+  last_played_[1] = last_played_[0];
+  last_played_[0] = {sequence, view};
+}
+
+std::optional<int> TrayPlayer::view_played_as(std::uint64_t sequence) const {
+  for (const PlayedFrame& played : last_played_) {
+    if (played.view >= 0 && played.sequence == sequence) return played.view;
+  }
+  return std::nullopt;
+}
+
+}  // namespace traygauge
