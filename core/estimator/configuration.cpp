@@ -5,14 +5,17 @@
 namespace traygauge {
 namespace {
 
-bool is_within(double value, double low, double high) { return value >= low && value <= high; }  // false for NaN
+bool is_within(double value, double low, double high) {
+  return value >= low && value <= high;
+}  // false for NaN
 
-bool is_plausible(const CardModel& card) {
+bool is_plausible(const ReferenceCard& card) {
   constexpr double kMinSideMm = 10.0;
   constexpr double kMaxSideMm = 500.0;
   constexpr double kMaxThicknessMm = 10.0;
   constexpr int kMinPatternPx = 64;
-  return is_within(card.width_mm, kMinSideMm, kMaxSideMm) && is_within(card.height_mm, kMinSideMm, kMaxSideMm) &&
+  return is_within(card.width_mm, kMinSideMm, kMaxSideMm) &&
+         is_within(card.height_mm, kMinSideMm, kMaxSideMm) &&
          is_within(card.thickness_mm, 0.0, kMaxThicknessMm) && !card.pattern.empty() &&
          card.pattern.width >= kMinPatternPx && card.pattern.height >= kMinPatternPx;
 }
@@ -22,23 +25,26 @@ bool is_plausible(const DishModel& dish) {
   constexpr double kMaxSizeMm = 1000.0;
   constexpr double kMaxHeightMm = 200.0;
   return is_within(dish.outer_size_mm[0], kMinSizeMm, kMaxSizeMm) &&
-         is_within(dish.outer_size_mm[1], kMinSizeMm, kMaxSizeMm) && is_within(dish.bottom_height_mm, 0.0, kMaxHeightMm) &&
+         is_within(dish.outer_size_mm[1], kMinSizeMm, kMaxSizeMm) &&
+         is_within(dish.bottom_height_mm, 0.0, kMaxHeightMm) &&
          is_within(dish.rim_height_mm, dish.bottom_height_mm, kMaxHeightMm);
 }
 
 bool is_plausible(const EstimatorLimits& limits) {
   constexpr int kMaxSide = 8192;
   constexpr int kMaxCount = 1 << 16;
-  return is_within(limits.max_frame_width, 16, kMaxSide) && is_within(limits.max_frame_height, 16, kMaxSide) &&
-         is_within(limits.max_keypoints, 16, kMaxCount) && is_within(limits.max_pattern_keypoints, 16, kMaxCount) &&
-         limits.max_feature_px > 0 && limits.max_working_px > 0 && limits.max_working_side_px > 0;
+  return is_within(limits.max_frame_width, 16, kMaxSide) &&
+         is_within(limits.max_frame_height, 16, kMaxSide) && is_within(limits.max_keypoints, 16, kMaxCount) &&
+         is_within(limits.max_pattern_keypoints, 16, kMaxCount) && limits.max_feature_px > 0 &&
+         limits.max_working_px > 0 && limits.max_working_side_px > 0;
 }
 
 }  // namespace
 
 Status validate(const Configuration& configuration) {
   if (const Status status = validate(configuration.lens); !status.ok()) return status;
-  if (!is_plausible(configuration.card) || !is_plausible(configuration.limits)) return StatusCode::invalid_configuration;
+  if (!is_plausible(configuration.card) || !is_plausible(configuration.limits))
+    return StatusCode::invalid_configuration;
   if (configuration.dishes.empty() || configuration.dishes.size() > kMaxDishCandidates) {
     return StatusCode::invalid_configuration;
   }

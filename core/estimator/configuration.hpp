@@ -43,14 +43,15 @@ struct ViewParams {
   double working_margin_px = 6.0;      // around the dish: half of census and window
   double feature_dish_px = 262144.0;   // area of the dish where salient points are looked for
   double pattern_px_per_mm = 5.0;      // of the card's picture for its features; views show 2 to 4
-  double max_card_rotation_deg = 5.0;  // between the scene's motion and the card's own, which is sure to 1 or 2 degrees
-  double min_card_pose_share = 0.8;    // of the scene's inliers that the card's motion must explain to replace it
+  double max_card_rotation_deg =
+      5.0;  // between the scene's motion and the card's own, which is sure to 1 or 2 degrees
+  double min_card_pose_fitness = 0.8;  // eq. (1) of the card's motion over that of the scene's, to replace it
   int min_keypoints = 50;              // fewer: too_few_features
   double min_matched_share = 0.5;      // of the dish with a depth; less: too_little_depth
 };
 
 // The reference card. The pattern is its printed side as a grey picture, filling width × height.
-struct CardModel {
+struct ReferenceCard {
   double width_mm = 85.60;  // ISO/IEC 7810 ID-1
   double height_mm = 53.98;
   double thickness_mm = 0.8;  // the print lies that much above the table
@@ -66,9 +67,10 @@ struct DishModel {
 
 // How the views may lie to each other.
 struct ViewGeometryParams {
-  bool reference_is_steeper = true;    // depth and mesh belong to the view nearer to the vertical; else to the first
-  double min_angle_deg = 3.0;          // less: views_too_close; 1 px of disparity is then 9 mm of height
-  double max_angle_deg = 60.0;         // more: views_too_far_apart
+  bool reference_is_steeper =
+      true;                     // depth and mesh belong to the view nearer to the vertical; else to the first
+  double min_angle_deg = 3.0;   // less: views_too_close; 1 px of disparity is then 9 mm of height
+  double max_angle_deg = 60.0;  // more: views_too_far_apart
   double small_angle_deg = 10.0;       // warning (paper, Table V: errors rise below it)
   double large_angle_deg = 30.0;       // warning (paper, Table V: 30% error at 35 degrees)
   double max_arm_deviation_deg = 0.5;  // between commanded and measured angle: warning
@@ -85,7 +87,7 @@ inline constexpr std::size_t kMaxDishCandidates = 64;
 
 struct Configuration {
   LensModel lens;
-  CardModel card;
+  ReferenceCard card;
   std::span<const DishModel> dishes;  // one: it is that; several: the nearest by rim size and height
   EstimatorLimits limits;
   ViewParams view;

@@ -35,13 +35,16 @@ Status finish_view(EstimatorState& state, Status status) {
 
 }  // namespace
 
-std::size_t estimator_state_bytes() { return aligned_bytes(sizeof(EstimatorState)); }
+std::size_t estimator_state_bytes() {
+  return aligned_bytes(sizeof(EstimatorState));
+}
 
 std::size_t required_bytes(const Configuration& configuration) {
   return estimator_state_bytes() + planned_bytes(configuration);
 }
 
-// The card's picture is reduced to about the scale at which cameras see it, so that box filters meet like structures.
+// The card's picture is reduced to about the scale at which cameras see it, so that box filters meet like
+// structures.
 void EstimatorState::set_up_pattern(ImageView<const std::uint8_t> picture) {
   PreparationWorkspace& scratch = memory.preparation;
   const double wanted_px = configuration.view.pattern_px_per_mm * configuration.card.width_mm;
@@ -54,12 +57,13 @@ void EstimatorState::set_up_pattern(ImageView<const std::uint8_t> picture) {
   build_integral(reduced, integral);
   BoundedList<Keypoint>& keypoints = memory.pattern.keypoints;
   detect_surf(integral, configuration.surf, scratch.surf, keypoints);
-  describe_surf(integral, configuration.surf, keypoints.items(), memory.pattern.descriptors.first(keypoints.size()));
+  describe_surf(integral, configuration.surf, keypoints.items(),
+                memory.pattern.descriptors.first(keypoints.size()));
   place_pattern(width);
 }
 
 void EstimatorState::place_pattern(int width_px) {
-  const CardModel& card = configuration.card;
+  const ReferenceCard& card = configuration.card;
   for (std::size_t i = 0; i < memory.pattern.keypoints.size(); ++i) {
     memory.pattern.positions_mm[i] = pattern_mm(memory.pattern.keypoints[i].pixel, width_px,
                                                 {card.width_mm, card.height_mm, card.thickness_mm});
@@ -87,6 +91,8 @@ Estimator::Estimator(std::span<std::byte> block, const Configuration& configurat
     status_ = StatusCode::out_of_memory;
     return;
   }
+  state.extrinsics.inliers = BoundedList<RayMatch>(state.memory.extrinsics.inliers);
+  state.extrinsics.card_points = BoundedList<Vec3>(state.memory.extrinsics.card_points);
   state.reserved_bytes = arena.high_water_bytes();
   state.set_up_pattern(configuration.card.pattern);
   clock.stop();
@@ -94,9 +100,13 @@ Estimator::Estimator(std::span<std::byte> block, const Configuration& configurat
   state_ = &state;
 }
 
-double Estimator::setup_ms() const { return state_ == nullptr ? 0.0 : state_->setup_ms; }
+double Estimator::setup_ms() const {
+  return state_ == nullptr ? 0.0 : state_->setup_ms;
+}
 
-std::size_t Estimator::reserved_bytes() const { return state_ == nullptr ? 0 : state_->reserved_bytes; }
+std::size_t Estimator::reserved_bytes() const {
+  return state_ == nullptr ? 0 : state_->reserved_bytes;
+}
 
 Status Estimator::add_view(const ViewInput& input) {
   if (!status_.ok()) return status_;
@@ -139,7 +149,8 @@ Status Estimator::set_pattern(const GivenFeatures& features, int picture_width_p
   return StatusCode::ok;
 }
 
-Status Estimator::set_matches(std::span<const GivenMatch> matches, std::span<const GivenCardMatch> card_matches) {
+Status Estimator::set_matches(std::span<const GivenMatch> matches,
+                              std::span<const GivenCardMatch> card_matches) {
   if (!status_.ok()) return status_;
   if (state_->views != 2 || matches.empty()) return StatusCode::invalid_configuration;
   const LensModel& first = state_->view(0).lens;
@@ -149,7 +160,8 @@ Status Estimator::set_matches(std::span<const GivenMatch> matches, std::span<con
   given.card_tracks.clear();
   for (const GivenMatch& match : matches) {
     RayMatch rays;
-    if (!first.undistort_pixel(match.first, rays.first) || !second.undistort_pixel(match.second, rays.second)) continue;
+    if (!first.undistort_pixel(match.first, rays.first) || !second.undistort_pixel(match.second, rays.second))
+      continue;
     given.matches.push_back(rays);
   }
   for (const GivenCardMatch& match : card_matches) {

@@ -30,8 +30,8 @@ struct GivenFeatures {
   std::span<const Descriptor> descriptors;
 };
 
-// Corresponding points from elsewhere, in pixels of the stored pictures; a card point also with its place on the
-// printed side (mm from the pattern's top left corner).
+// Corresponding points from elsewhere, in pixels of the stored pictures; a card point also with its place on
+// the printed side (mm from the pattern's top left corner).
 struct GivenMatch {
   Vec2 first = Vec2::Zero();
   Vec2 second = Vec2::Zero();
@@ -45,8 +45,8 @@ struct GivenCardMatch {
 // Not thread-safe. Nothing allocates, construction included.
 class Estimator {
  public:
-  // `block` holds required_bytes(configuration), aligned to kArenaAlignmentBytes, and outlives the estimator. The
-  // card's pattern is read here only. Check status() before use.
+  // `block` holds required_bytes(configuration), aligned to kArenaAlignmentBytes, and outlives the estimator.
+  // The card's pattern is read here only. Check status() before use.
   Estimator(std::span<std::byte> block, const Configuration& configuration);
 
   Status status() const { return status_; }

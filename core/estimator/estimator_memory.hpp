@@ -31,13 +31,13 @@ struct PatternMemory {
   }
 };
 
-// The views and the pattern stay; preparation, extrinsic calibration and dense reconstruction follow each other
-// and share the memory behind them.
+// The views and the pattern stay; preparation, extrinsic calibration and dense reconstruction follow each
+// other and share the memory behind them.
 struct EstimatorMemory {
   PatternMemory pattern;
   std::array<PreparedView, 2> views;
   GivenCorrespondences given;
-  Extrinsics extrinsics;
+  ExtrinsicStorage extrinsics;
   PreparationWorkspace preparation;
   ExtrinsicWorkspace calibration;
   DenseWorkspace dense;

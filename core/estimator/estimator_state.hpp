@@ -15,6 +15,7 @@ struct EstimatorState {
   Configuration configuration;  // without the pattern's pixels, which are read at construction only
   std::array<DishModel, kMaxDishCandidates> dishes{};
   EstimatorMemory memory;
+  Extrinsics extrinsics;  // its lists lie in `memory`
   std::size_t reserved_bytes = 0;
   double setup_ms = 0.0;
   int views = 0;        // taken so far

@@ -1,6 +1,9 @@
 #include "core/estimator/extrinsic_calibration.hpp"
 
 #include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
 
 #include "core/pose/triangulation.hpp"
 #include "core/scale/card_plane.hpp"
@@ -12,9 +15,13 @@
 namespace traygauge {
 namespace {
 
-bool has_given(const ExtrinsicInput& input) { return !input.given->matches.empty(); }
+bool has_given(const ExtrinsicInput& input) {
+  return !input.given->matches.empty();
+}
 
-CardModelSize size_of(const CardModel& card) { return {card.width_mm, card.height_mm, card.thickness_mm}; }
+CardModelSize size_of(const ReferenceCard& card) {
+  return {card.width_mm, card.height_mm, card.thickness_mm};
+}
 
 // Matches of the two views, and of each view with the card; returns the rays of the former.
 std::span<const RayMatch> match_views(const ExtrinsicInput& input, const MatcherParams& params,
@@ -25,7 +32,8 @@ std::span<const RayMatch> match_views(const ExtrinsicInput& input, const Matcher
   }
   match_features(input.first->features(), input.second->features(), params, workspace.matcher,
                  workspace.view_matches);
-  match_features(input.first->features(), input.pattern, params, workspace.matcher, workspace.first_pattern_matches);
+  match_features(input.first->features(), input.pattern, params, workspace.matcher,
+                 workspace.first_pattern_matches);
   match_features(input.second->features(), input.pattern, params, workspace.matcher,
                  workspace.second_pattern_matches);
   capped = workspace.view_matches.dropped() > 0;
@@ -38,36 +46,40 @@ std::span<const RayMatch> match_views(const ExtrinsicInput& input, const Matcher
 }
 
 // The card's points seen in both views, as part of the sparse cloud.
-void collect_tracks(const ExtrinsicInput& input, std::span<const RayMatch> rays, const Pose& pose, TrackRule rule,
-                    ExtrinsicWorkspace& workspace) {
+void collect_tracks(const ExtrinsicInput& input, std::span<const RayMatch> rays, const Pose& pose,
+                    TrackRule rule, ExtrinsicWorkspace& workspace) {
   workspace.tracks.clear();
   if (has_given(input)) {
     for (CardTrack track : input.given->card_tracks.items()) {
-      if (triangulate({track.first, track.second}, pose, track.point_in_first)) workspace.tracks.push_back(track);
+      if (triangulate({track.first, track.second}, pose, track.point_in_first))
+        workspace.tracks.push_back(track);
     }
     return;
   }
   const std::size_t count = rays.size();
   triangulate_all(rays, workspace.inliers.first(count), pose, workspace.cloud.first(count),
                   workspace.triangulated.first(count));
-  build_card_tracks({workspace.view_matches.items(), workspace.triangulated.first(count),
-                     workspace.cloud.first(count), workspace.first_pattern_matches.items(),
-                     workspace.second_pattern_matches.items(), input.first->rays(), input.second->rays(),
-                     input.pattern_mm},
-                    rule, workspace.tracks);
+  build_card_tracks(
+      {workspace.view_matches.items(), workspace.triangulated.first(count), workspace.cloud.first(count),
+       workspace.first_pattern_matches.items(), workspace.second_pattern_matches.items(), input.first->rays(),
+       input.second->rays(), input.pattern_mm},
+      rule, workspace.tracks);
 }
 
 // The camera's motion as the card alone shows it; false when its pose in a view is not to be had.
-bool motion_of_card(const CardFit& fit, const CardPoseParams& params, ExtrinsicWorkspace& workspace, Pose& motion) {
+bool motion_of_card(const CardFit& fit, const CardPoseParams& params, ExtrinsicWorkspace& workspace,
+                    Pose& motion) {
   const auto tracks = workspace.tracks.items();
   Mat3 pattern_from_second;
   CardPose first;
   CardPose second;
   if (!fit_homography(tracks, fit.inliers, &CardTrack::second, pattern_from_second)) return false;
-  if (!card_pose_from_homography(fit.pattern_from_first, tracks, fit.inliers, &CardTrack::first, params, first)) {
+  if (!card_pose_from_homography(fit.pattern_from_first, tracks, fit.inliers, &CardTrack::first, params,
+                                 first)) {
     return false;
   }
-  if (!card_pose_from_homography(pattern_from_second, tracks, fit.inliers, &CardTrack::second, params, second)) {
+  if (!card_pose_from_homography(pattern_from_second, tracks, fit.inliers, &CardTrack::second, params,
+                                 second)) {
     return false;
   }
   motion = motion_from_card(first.camera_from_card, second.camera_from_card);
@@ -75,24 +87,25 @@ bool motion_of_card(const CardFit& fit, const CardPoseParams& params, ExtrinsicW
 }
 
 double rotation_between_deg(const Pose& a, const Pose& b) {
-  constexpr double kDegrees = 180.0 / EIGEN_PI;
+  constexpr double kDegrees = 180.0 / std::numbers::pi;
   return kDegrees * std::abs(Eigen::AngleAxisd(a.rotation.transpose() * b.rotation).angle());
 }
 
-// Table, dish and card lie near one plane, where five points allow a second, twisted motion that cheirality may
-// pass: the card's own motion tells them apart.
+// Table, dish and card lie near one plane, where five points allow a second, twisted motion that cheirality
+// may pass: the card's own motion tells them apart.
 Status check_against_card(std::span<const RayMatch> rays, double focal_px, const CardFit& fit,
-                          const Configuration& configuration, ExtrinsicWorkspace& workspace, RelativePose& pose,
-                          bool& pose_from_card) {
+                          const Configuration& configuration, Random& random, ExtrinsicWorkspace& workspace,
+                          RelativePose& pose, bool& pose_from_card) {
   Pose motion;
   if (!motion_of_card(fit, configuration.card_search.pose, workspace, motion)) return StatusCode::ok;
   const double tolerance_deg = configuration.view.max_card_rotation_deg;
   if (rotation_between_deg(motion, pose.second_from_first) <= tolerance_deg) return StatusCode::ok;
   RelativePose from_card;
   const auto flags = workspace.card_motion_inliers.first(rays.size());
-  if (!refine_relative_pose(rays, focal_px, configuration.pose, motion, workspace.pose, from_card, flags).ok() ||
-      rotation_between_deg(motion, from_card.second_from_first) > tolerance_deg ||
-      from_card.inliers < configuration.view.min_card_pose_share * pose.inliers) {
+  const Status refined = refine_relative_pose(rays, focal_px, configuration.pose, motion, random,
+                                              workspace.pose, from_card, flags);
+  if (!refined.ok() || rotation_between_deg(motion, from_card.second_from_first) > tolerance_deg ||
+      from_card.fitness < configuration.view.min_card_pose_fitness * pose.fitness) {
     return StatusCode::pose_contradicts_card;
   }
   pose = from_card;
@@ -107,20 +120,21 @@ Status scale_by_card(const CardFit& fit, const Pose& pose, const Configuration& 
   const auto tracks = workspace.tracks.items();
   const double length_mm = size_of(configuration.card).length_mm();
   ScaleEstimate scale;
-  Status status = estimate_scale(tracks, fit.inliers, length_mm, configuration.card_search.scale, random,
+  Status status = estimate_scale(tracks, fit.inliers, length_mm, configuration.card_search, random,
                                  workspace.card, scale);
   if (!status.ok()) return status;
   report.mm_per_baseline = scale.mm_per_baseline;
   extrinsics.second_from_first = {pose.rotation, pose.translation * scale.mm_per_baseline};
 
   Plane print;
-  status = fit_card_plane(tracks, fit.inliers, length_mm, scale.mm_per_baseline, configuration.card_search.plane,
+  status = fit_card_plane(tracks, fit.inliers, length_mm, scale.mm_per_baseline, configuration.card_search,
                           random, workspace.card, print);
   if (!status.ok()) return status;
   extrinsics.table = print.raised(-configuration.card.thickness_mm);
   extrinsics.card_points.clear();
   for (std::size_t i = 0; i < tracks.size(); ++i) {
-    if (fit.inliers[i] != 0) extrinsics.card_points.push_back(tracks[i].point_in_first * scale.mm_per_baseline);
+    if (fit.inliers[i] != 0)
+      extrinsics.card_points.push_back(tracks[i].point_in_first * scale.mm_per_baseline);
   }
   return StatusCode::ok;
 }
@@ -135,10 +149,12 @@ Status calibrate_extrinsics(const ExtrinsicInput& input, const Configuration& co
   report.matches = static_cast<int>(rays.size());
 
   clock.enter(Stage::pose);
-  const double focal_px = 0.5 * (input.first->lens.pinhole.mean_focal_px() + input.second->lens.pinhole.mean_focal_px());
+  const double focal_px =
+      0.5 * (input.first->lens.pinhole.mean_focal_px() + input.second->lens.pinhole.mean_focal_px());
   const auto inliers = workspace.inliers.first(rays.size());
   RelativePose pose;
-  Status status = estimate_relative_pose(rays, focal_px, configuration.pose, random, workspace.pose, pose, inliers);
+  Status status =
+      estimate_relative_pose(rays, focal_px, configuration.pose, random, workspace.pose, pose, inliers);
   if (!status.ok()) return status;
 
   clock.enter(Stage::scale);
@@ -146,15 +162,16 @@ Status calibrate_extrinsics(const ExtrinsicInput& input, const Configuration& co
   CardFit fit;
   collect_tracks(input, rays, pose.second_from_first, configuration.card_search.tracks, workspace);
   report.card_tracks = static_cast<int>(workspace.tracks.size());
-  status = find_card(workspace.tracks.items(), card, configuration.card_search.detection, random, workspace.card, fit);
+  status = find_card(workspace.tracks.items(), card, configuration.card_search, random, workspace.card, fit);
   if (!status.ok()) return status;
   extrinsics.pose_from_card = false;
-  status = check_against_card(rays, focal_px, fit, configuration, workspace, pose, extrinsics.pose_from_card);
+  status = check_against_card(rays, focal_px, fit, configuration, random, workspace, pose,
+                              extrinsics.pose_from_card);
   if (!status.ok()) return status;
   if (extrinsics.pose_from_card) {
     collect_tracks(input, rays, pose.second_from_first, configuration.card_search.tracks, workspace);
     status =
-        find_card(workspace.tracks.items(), card, configuration.card_search.detection, random, workspace.card, fit);
+        find_card(workspace.tracks.items(), card, configuration.card_search, random, workspace.card, fit);
     if (!status.ok()) return status;
   }
   report.card_tracks = fit.inlier_count;

@@ -27,17 +27,18 @@ struct GivenCorrespondences {
 
   template <class Allocator>
   constexpr void allocate(Allocator& arena, const EstimatorLimits& limits) {
-    matches = BoundedList<RayMatch>(arena.template take<RayMatch>(static_cast<std::size_t>(limits.max_keypoints)));
-    card_tracks =
-        BoundedList<CardTrack>(arena.template take<CardTrack>(static_cast<std::size_t>(limits.max_pattern_keypoints)));
+    matches =
+        BoundedList<RayMatch>(arena.template take<RayMatch>(static_cast<std::size_t>(limits.max_keypoints)));
+    card_tracks = BoundedList<CardTrack>(
+        arena.template take<CardTrack>(static_cast<std::size_t>(limits.max_pattern_keypoints)));
   }
 };
 
 struct ExtrinsicInput {
   const PreparedView* first = nullptr;
   const PreparedView* second = nullptr;
-  FeatureSet pattern;                      // of the card's printed side
-  std::span<const Vec2> pattern_mm;        // where each lies on it
+  FeatureSet pattern;                // of the card's printed side
+  std::span<const Vec2> pattern_mm;  // where each lies on it
   const GivenCorrespondences* given = nullptr;
 };
 
@@ -49,12 +50,17 @@ struct Extrinsics {
   BoundedList<Vec3> card_points;
   bool pose_from_card = false;
   bool matches_capped = false;
+};
+
+// Memory of the two lists, apart because a struct with Eigen members cannot be planned at compile time.
+struct ExtrinsicStorage {
+  std::span<RayMatch> inliers;
+  std::span<Vec3> card_points;
 
   template <class Allocator>
   constexpr void allocate(Allocator& arena, const EstimatorLimits& limits) {
-    inliers = BoundedList<RayMatch>(arena.template take<RayMatch>(static_cast<std::size_t>(limits.max_keypoints)));
-    card_points =
-        BoundedList<Vec3>(arena.template take<Vec3>(static_cast<std::size_t>(limits.max_pattern_keypoints)));
+    inliers = arena.template take<RayMatch>(static_cast<std::size_t>(limits.max_keypoints));
+    card_points = arena.template take<Vec3>(static_cast<std::size_t>(limits.max_pattern_keypoints));
   }
 };
 
@@ -87,7 +93,7 @@ struct ExtrinsicWorkspace {
     cloud = arena.template take<Vec3>(matches);
     tracks = BoundedList<CardTrack>(arena.template take<CardTrack>(pattern));
     matcher.allocate(arena, limits.max_keypoints);
-    pose.allocate(arena, limits.max_keypoints, configuration.pose);
+    pose.allocate(arena, matches, static_cast<std::size_t>(configuration.pose.noise_sample));
     card.allocate(arena, limits.max_pattern_keypoints);
   }
 };

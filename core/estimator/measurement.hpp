@@ -95,7 +95,7 @@ struct Measurement {
   Status status;
   std::span<const ItemResult> items;
   bool has_pose = false;
-  Pose second_from_first;  // mm
+  Pose second_from_first;           // mm
   double relative_angle_deg = 0.0;  // between the lines of sight, at the dish
   double rotation_angle_deg = 0.0;  // of the camera
   std::array<double, kStageCount> stage_ms{};

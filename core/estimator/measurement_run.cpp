@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "core/estimator/estimator_state.hpp"
 #include "core/estimator/label_agreement.hpp"
@@ -7,7 +8,7 @@
 namespace traygauge {
 namespace {
 
-constexpr double kDegrees = 180.0 / EIGEN_PI;
+constexpr double kDegrees = 180.0 / std::numbers::pi;
 
 // Unit vectors from the dish to both cameras, in the first camera's axes.
 struct LinesOfSight {
@@ -17,8 +18,8 @@ struct LinesOfSight {
   double angle_deg() const { return kDegrees * std::acos(std::clamp(first.dot(second), -1.0, 1.0)); }
 };
 
-// The dish stands where the ray through the middle of its box meets the table: right to a few centimetres, which
-// turns neither line of sight by more than a degree or two.
+// The dish stands where the ray through the middle of its box meets the table: right to a few centimetres,
+// which turns neither line of sight by more than a degree or two.
 LinesOfSight look_from_dish(const PreparedView& first, const Extrinsics& extrinsics) {
   const Vec2 middle = first.cutout.camera.ray(Vec2(0.5 * first.cutout.width, 0.5 * first.cutout.height));
   const Vec3 ray = middle.homogeneous();
@@ -38,11 +39,11 @@ Plane in_other_camera(const Plane& plane, const Pose& other_from_this) {
   return {normal, plane.offset + normal.dot(other_from_this.translation)};
 }
 
-// The paper's reference is the first view. Ours is the one nearer to the vertical, whichever was taken first: it
-// sees less of the steep flanks at a slant, and a pair measures the same in either order.
+// The paper's reference is the first view. Ours is the one nearer to the vertical, whichever was taken first:
+// it sees less of the steep flanks at a slant, and a pair measures the same in either order.
 ReferencePair choose_reference(EstimatorState& state, const LinesOfSight& lines, TableReference& table,
                                MeasurementViews& views) {
-  Extrinsics& extrinsics = state.memory.extrinsics;
+  Extrinsics& extrinsics = state.extrinsics;
   const Plane& plane = extrinsics.table;
   const bool keep = !state.configuration.geometry.reference_is_steeper ||
                     lines.first.dot(plane.normal) >= lines.second.dot(plane.normal);
@@ -66,8 +67,10 @@ void report_pictures(EstimatorState& state, MeasurementViews& views) {
 }
 
 void warn_about_views(const EstimatorState& state, Measurement& measurement) {
-  const auto warn = [&](Warning warning, bool on) { measurement.warnings[static_cast<std::size_t>(warning)] = on; };
-  const Extrinsics& extrinsics = state.memory.extrinsics;
+  const auto warn = [&](Warning warning, bool on) {
+    measurement.warnings[static_cast<std::size_t>(warning)] = on;
+  };
+  const Extrinsics& extrinsics = state.extrinsics;
   const ViewGeometryParams& params = state.configuration.geometry;
   const auto& views = state.memory.views;
   warn(Warning::keypoints_capped, views[0].keypoints_capped || views[1].keypoints_capped);
@@ -91,11 +94,11 @@ Status calibrate(EstimatorState& state, Random& random, StageClock& clock, Measu
                              {pattern.keypoints.items(), pattern.descriptors.first(pattern_count)},
                              pattern.positions_mm.first(pattern_count),
                              &state.memory.given};
-  const Status status = calibrate_extrinsics(input, state.configuration, random, state.memory.calibration, clock,
-                                             measurement.report, state.memory.extrinsics);
+  const Status status = calibrate_extrinsics(input, state.configuration, random, state.memory.calibration,
+                                             clock, measurement.report, state.extrinsics);
   if (!status.ok()) return status;
   measurement.has_pose = true;
-  measurement.second_from_first = state.memory.extrinsics.second_from_first;
+  measurement.second_from_first = state.extrinsics.second_from_first;
   measurement.rotation_angle_deg =
       kDegrees * std::abs(Eigen::AngleAxisd(measurement.second_from_first.rotation).angle());
   return StatusCode::ok;
@@ -104,10 +107,11 @@ Status calibrate(EstimatorState& state, Random& random, StageClock& clock, Measu
 Status measure_views(EstimatorState& state, std::uint64_t seed, StageClock& clock, Measurement& measurement) {
   Random random(seed);
   if (const Status status = calibrate(state, random, clock, measurement); !status.ok()) return status;
-  const LinesOfSight lines = look_from_dish(state.view(0), state.memory.extrinsics);
+  const LinesOfSight lines = look_from_dish(state.view(0), state.extrinsics);
   measurement.relative_angle_deg = lines.angle_deg();
   warn_about_views(state, measurement);
-  if (const Status status = check_angle(measurement.relative_angle_deg, state.configuration.geometry); !status.ok()) {
+  if (const Status status = check_angle(measurement.relative_angle_deg, state.configuration.geometry);
+      !status.ok()) {
     return status;
   }
 
@@ -121,10 +125,11 @@ Status measure_views(EstimatorState& state, std::uint64_t seed, StageClock& cloc
   measurement.report.label_agreement = measure_label_agreement(
       pair.reference->working_labels, pair.other->working_labels, views.depth_mm, pair.cameras(), agreement);
   if (measurement.report.label_agreement < agreement.min_share) return StatusCode::labels_inconsistent;
-  status = find_dish_bottom(pair, table, state.configuration, random, state.memory.extraction, measurement.report,
-                            views);
+  status = find_dish_bottom(pair, table, state.configuration, random, state.memory.extraction,
+                            measurement.report, views);
   if (!status.ok()) return status;
-  measurement.warnings[static_cast<std::size_t>(Warning::dish_guessed)] = state.configuration.dishes.size() > 1;
+  measurement.warnings[static_cast<std::size_t>(Warning::dish_guessed)] =
+      state.configuration.dishes.size() > 1;
   return extract_volumes(pair, state.configuration, state.memory.extraction, clock, views);
 }
 
@@ -133,7 +138,8 @@ Status measure_views(EstimatorState& state, std::uint64_t seed, StageClock& cloc
 void run_measurement(EstimatorState& state, std::uint64_t seed, StageClock& clock, Measurement& measurement) {
   state.memory.extraction.items.clear();
   for (int i = 0; i < 2; ++i) {
-    measurement.report.keypoints[static_cast<std::size_t>(i)] = static_cast<int>(state.view(i).keypoints.size());
+    measurement.report.keypoints[static_cast<std::size_t>(i)] =
+        static_cast<int>(state.view(i).keypoints.size());
   }
   if (state.views != 2) {
     measurement.status = StatusCode::frame_missing;

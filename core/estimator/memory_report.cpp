@@ -20,7 +20,8 @@ std::array<MemoryRow, kMemoryRowCount> describe_memory(const Configuration& conf
   const auto view = bytes_of([&](ArenaPlan& plan) { memory.views[0].allocate(plan, configuration.limits); });
   return {{
       {"state", estimator_state_bytes(), false},
-      {"card pattern", bytes_of([&](ArenaPlan& plan) { memory.pattern.allocate(plan, configuration.limits); }), false},
+      {"card pattern",
+       bytes_of([&](ArenaPlan& plan) { memory.pattern.allocate(plan, configuration.limits); }), false},
       {"first view", view, false},
       {"second view", view, false},
       {"calibrated pair", bytes_of([&](ArenaPlan& plan) {
@@ -28,9 +29,10 @@ std::array<MemoryRow, kMemoryRowCount> describe_memory(const Configuration& conf
          memory.extrinsics.allocate(plan, configuration.limits);
        }),
        false},
-      {"view preparation", bytes_of([&](ArenaPlan& plan) { memory.preparation.allocate(plan, configuration); }), true},
-      {"extrinsic calibration", bytes_of([&](ArenaPlan& plan) { memory.calibration.allocate(plan, configuration); }),
-       true},
+      {"view preparation",
+       bytes_of([&](ArenaPlan& plan) { memory.preparation.allocate(plan, configuration); }), true},
+      {"extrinsic calibration",
+       bytes_of([&](ArenaPlan& plan) { memory.calibration.allocate(plan, configuration); }), true},
       {"dense reconstruction and volume",
        bytes_of([&](ArenaPlan& plan) { memory.allocate_reconstruction(plan, configuration); }), true},
   }};

@@ -18,7 +18,7 @@ double area_scale(double pixels, double target_pixels) {
 
 Status check_labels(const LabelRegions& regions) {
   if (regions.dish_pixels == 0) return StatusCode::no_dish_label;
-  const auto items = std::span(regions.pixels).subspan(kFirstItemLabel, kMaxItems);
+  const auto items = std::span(regions.pixels).subspan(kFirstItemLabel, kLastItemLabel - kFirstItemLabel + 1);
   if (std::all_of(items.begin(), items.end(), [](std::uint32_t count) { return count == 0; })) {
     return StatusCode::no_food_label;
   }

@@ -62,14 +62,15 @@ struct PreparationWorkspace {
   SurfWorkspace surf;
 
   template <class Allocator>
-  constexpr void allocate(Allocator& arena, const EstimatorLimits& limits, const SurfParams& params) {
+  constexpr void allocate(Allocator& arena, const Configuration& configuration) {
+    const EstimatorLimits& limits = configuration.limits;
     gray = arena.template take_image<std::uint8_t>(limits.max_frame_width, limits.max_frame_height);
     const auto pixels = static_cast<std::size_t>(limits.max_feature_px);
     feature_picture = arena.template take<std::uint8_t>(pixels);
     // One more row and column than the picture; sides are at most the frame's.
     integral = arena.template take<std::uint32_t>(
         pixels + static_cast<std::size_t>(limits.max_frame_width + limits.max_frame_height + 1));
-    surf.allocate(arena, limits.max_frame_width, limits.max_frame_height, params);
+    surf.allocate(arena, limits.max_frame_width, limits.max_frame_height, configuration.surf);
   }
 };
 
