@@ -1,0 +1,37 @@
+#include "firmware/base/text.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+
+namespace traygauge {
+namespace {
+
+std::string padding(const std::string& text, std::size_t width) {
+  const auto is_first_byte = [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; };
+  const auto length = static_cast<std::size_t>(std::count_if(text.begin(), text.end(), is_first_byte));
+  return std::string(width > length ? width - length : 0, ' ');
+}
+
+}  // namespace
+
+std::string fixed(double number, int decimals) {
+  std::array<char, 400> buffer{};  // the largest double has 309 digits
+  std::snprintf(buffer.data(), buffer.size(), "%.*f", decimals, number);
+  return buffer.data();
+}
+
+std::string mebibytes(std::size_t bytes) {
+  constexpr double bytes_per_mebibyte = 1024.0 * 1024.0;
+  return fixed(static_cast<double>(bytes) / bytes_per_mebibyte, 2);
+}
+
+std::string pad_left(const std::string& text, std::size_t width) {
+  return padding(text, width) + text;
+}
+
+std::string pad_right(const std::string& text, std::size_t width) {
+  return text + padding(text, width);
+}
+
+}  // namespace traygauge

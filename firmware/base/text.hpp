@@ -1,0 +1,19 @@
+// Text for people.
+#pragma once
+
+#include <cstddef>
+#include <string>
+
+namespace traygauge {
+
+// A number with a fixed count of decimals.
+std::string fixed(double number, int decimals);
+
+// Bytes in MiB, two decimals.
+std::string mebibytes(std::size_t bytes);
+
+// Padded with spaces to `width` characters (UTF-8 counted by character); the text stands right or left.
+std::string pad_left(const std::string& text, std::size_t width);
+std::string pad_right(const std::string& text, std::size_t width);
+
+}  // namespace traygauge

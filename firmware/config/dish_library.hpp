@@ -1,0 +1,20 @@
+// The dishes that a site owns: one TOML file each, in config/dishes.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "simulator/capture/dish_description.hpp"
+
+namespace traygauge {
+
+// The folder `config`: `named` when it is not empty, else beside the program, in the checkout that it was
+// built in, or where it was installed. Throws InputError.
+std::filesystem::path find_config_folder(const std::string& named);
+
+// Every dishes/*.toml below `config_folder`, by file name. Unknown keys are errors: they are typing mistakes.
+// Throws InputError; also when there is none.
+std::vector<DishDescription> read_dish_library(const std::filesystem::path& config_folder);
+
+}  // namespace traygauge

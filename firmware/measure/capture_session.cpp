@@ -1,0 +1,131 @@
+#include "firmware/measure/capture_session.hpp"
+
+#include <algorithm>
+#include <bitset>
+#include <cmath>
+#include <cstddef>
+
+namespace traygauge {
+namespace {
+
+constexpr double kMaxCardStretch = 1.03;  // between the proportions of the pattern and of the card
+
+const ViewDescription* view_of(const Capture& capture, int index) {
+  return &capture.views[static_cast<std::size_t>(index)];
+}
+
+std::vector<DishModel> models_of(const std::vector<DishDescription>& dishes) {
+  std::vector<DishModel> models;
+  models.reserve(dishes.size());
+  for (const DishDescription& dish : dishes) models.push_back(dish_of(dish));
+  return models;
+}
+
+// Labels that the format gives no meaning to: 200 and 250 to 254.
+std::string list_unknown_labels(const Picture& labels) {
+  std::bitset<256> present;
+  for (const std::uint8_t label : labels.pixels) present.set(label);
+  std::string list;
+  for (const std::size_t label : {200U, 250U, 251U, 252U, 253U, 254U}) {
+    if (present.test(label)) list += (list.empty() ? "" : ", ") + std::to_string(label);
+  }
+  return list;
+}
+
+bool same_lens(const LensModel& a, const LensModel& b) {
+  return a.width == b.width && a.height == b.height && a.pinhole.fx_px == b.pinhole.fx_px &&
+         a.pinhole.fy_px == b.pinhole.fy_px && a.pinhole.cx_px == b.pinhole.cx_px &&
+         a.pinhole.cy_px == b.pinhole.cy_px && a.k1 == b.k1 && a.k2 == b.k2 && a.p1 == b.p1 && a.p2 == b.p2 &&
+         a.k3 == b.k3;
+}
+
+}  // namespace
+
+LensModel lens_of(const CameraDescription& camera) {
+  const auto& [k1, k2, p1, p2, k3] = camera.distortion;
+  return {camera.size.width,
+          camera.size.height,
+          {camera.fx_px, camera.fy_px, camera.cx_px, camera.cy_px},
+          k1,
+          k2,
+          p1,
+          p2,
+          k3};
+}
+
+DishModel dish_of(const DishDescription& dish) {
+  return {dish.outer_size_mm, dish.rim_height_mm, dish.bottom_height_mm};
+}
+
+EstimatorLimits limits_for(PictureSize first, PictureSize second) {
+  EstimatorLimits limits;
+  limits.max_frame_width = std::max(first.width, second.width);
+  limits.max_frame_height = std::max(first.height, second.height);
+  return limits;
+}
+
+CaptureSession::CaptureSession(const Capture& capture, std::array<int, 2> pair,
+                               const std::vector<DishDescription>& dishes)
+    : descriptions_{view_of(capture, pair[0]), view_of(capture, pair[1])},
+      lenses_{lens_of(descriptions_[0]->camera), lens_of(descriptions_[1]->camera)},
+      views_{load_view(*descriptions_[0]), load_view(*descriptions_[1])},
+      pattern_(load_pattern(capture.card)),
+      card_(capture.card),
+      dishes_(models_of(dishes)),
+      block_(required_bytes(limits_for(descriptions_[0]->camera.size, descriptions_[1]->camera.size))),
+      estimator_(block_.bytes(), configuration()) {
+  check_inputs(capture);
+}
+
+void CaptureSession::check_inputs(const Capture& capture) {
+  for (std::size_t i = 0; i < 2; ++i) {
+    if (!validate(lenses_[i]).ok()) {
+      throw InputError({capture.file, descriptions_[i]->camera_key + ".distortion"},
+                       "coefficients that hold up to the corners of the picture", "a lens that folds it over",
+                       "calibrate the camera again, with corners near the edge of the picture");
+    }
+    const std::string unknown = list_unknown_labels(views_[i].labels);
+    if (!unknown.empty()) {
+      warnings_.push_back(printable(descriptions_[i]->labels->path.string()) +
+                          ": labels without a meaning (" + unknown + ") count as background.");
+    }
+  }
+  if (!estimator_.status().ok()) {
+    throw InputError({capture.file, ""}, "a plausible camera, card and dish",
+                     "values that contradict each other", sentence(estimator_.status().code()));
+  }
+  const double stretch = card_.width_mm * pattern_.size.height / (card_.height_mm * pattern_.size.width);
+  if (std::max(stretch, 1.0 / stretch) > kMaxCardStretch) {
+    warnings_.push_back(printable(card_.pattern.path.string()) +
+                        ": the proportions of the pattern differ from card.width_mm and card.height_mm.");
+  }
+}
+
+Configuration CaptureSession::configuration() const {
+  Configuration configuration;
+  configuration.lens = lenses_[0];
+  configuration.card = {card_.width_mm, card_.height_mm, card_.thickness_mm, pattern_.gray()};
+  configuration.dishes = dishes_;
+  configuration.limits = limits_for(descriptions_[0]->camera.size, descriptions_[1]->camera.size);
+  return configuration;
+}
+
+ViewInput CaptureSession::input(std::size_t i) const {
+  ViewInput input;
+  input.frame = views_[i].picture.frame();
+  input.labels = views_[i].labels.gray();
+  if (!same_lens(lenses_[i], lenses_[0])) input.lens = lenses_[i];
+  input.arm_angle_deg = descriptions_[i]->arm_angle_deg;
+  return input;
+}
+
+const Measurement& CaptureSession::measure(std::uint64_t seed) {
+  estimator_.reset();
+  for (std::size_t i = 0; i < 2; ++i) {
+    // estimate() reports the failure of a view, too.
+    if (!estimator_.add_view(input(i)).ok()) break;
+  }
+  return estimator_.estimate(seed);
+}
+
+}  // namespace traygauge

@@ -1,0 +1,81 @@
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "firmware/measure/measure_report.hpp"
+
+namespace traygauge {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr int kVersion = 1;
+
+Json number_or_null(double number, bool measured) {
+  return measured ? Json(number) : Json(nullptr);  // numbers that are not finite become null, too
+}
+
+Json item_of(const ItemResult& item) {
+  const bool measured = item.status == StatusCode::ok;
+  return {{"label", item.label},
+          {"dish", item.dish},
+          {"status", name(item.status)},
+          {"volume_ml", number_or_null(item.volume_ml, measured)},
+          {"sigma_ml", nullptr},  // profile `paper` states no uncertainty
+          {"area_mm2", number_or_null(item.area_mm2, measured)},
+          {"mean_height_mm", number_or_null(item.mean_height_mm, measured)},
+          {"max_height_mm", number_or_null(item.max_height_mm, measured)}};
+}
+
+Json items_of(const Measurement& measurement) {
+  Json items = Json::array();
+  for (const ItemResult& item : measurement.items) items.push_back(item_of(item));
+  return items;
+}
+
+Json pose_of(const Measurement& measurement) {
+  if (!measurement.has_pose) return nullptr;
+  const Pose& pose = measurement.second_from_first;
+  Json rotation = Json::array();
+  for (int row = 0; row < 3; ++row) {
+    for (int column = 0; column < 3; ++column) rotation.push_back(pose.rotation(row, column));
+  }
+  const Vec3& t = pose.translation;
+  return {{"rotation", rotation}, {"translation_mm", {t.x(), t.y(), t.z()}}};
+}
+
+Json timing_of(const MeasureReport& report) {
+  const Measurement& measurement = *report.measurement;
+  Json timing = Json::object();
+  for (std::size_t i = 0; i < kStageCount; ++i) {
+    // A stage that was not reached took no time.
+    const double ms = measurement.stage_ms[i];
+    timing[name(static_cast<Stage>(i))] = number_or_null(ms, is_measured(measurement) || ms > 0.0);
+  }
+  timing["total"] = measurement.total_ms;
+  timing["setup"] = report.setup_ms;
+  return timing;
+}
+
+}  // namespace
+
+std::string compose_document(const MeasureReport& report) {
+  const Measurement& measurement = *report.measurement;
+  Json document;
+  document["version"] = kVersion;
+  document["capture"] = report.capture;
+  document["pair"] = report.pair;
+  document["profile"] = report.profile;
+  document["seed"] = report.seed;
+  document["status"] = name(measurement.status.code());
+  document["message"] = report.message;
+  document["items"] = items_of(measurement);
+  document["relative_angle_deg"] = number_or_null(measurement.relative_angle_deg, measurement.has_pose);
+  document["pose"] = pose_of(measurement);
+  document["timing_ms"] = timing_of(report);
+  document["memory_bytes"] = {{"reserved", report.reserved_bytes}, {"used", report.used_bytes}};
+  document["warnings"] = report.warnings;
+  // A path may hold bytes that are not UTF-8.
+  return document.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+}  // namespace traygauge

@@ -1,0 +1,165 @@
+#include "firmware/measure/measure_command.hpp"
+
+#include <charconv>
+#include <filesystem>
+#include <ostream>
+#include <system_error>
+#include <vector>
+
+#include "firmware/base/exit_status.hpp"
+#include "firmware/config/dish_library.hpp"
+#include "firmware/measure/capture_session.hpp"
+#include "firmware/measure/measure_report.hpp"
+#include "firmware/measure/mesh_file.hpp"
+#include "firmware/measure/picture_sheet.hpp"
+#include "simulator/capture/png_writer.hpp"
+
+namespace traygauge {
+namespace {
+
+constexpr const char* kProfile = "paper";
+constexpr std::uint64_t kDefaultSeed = 0;
+
+// The whole of `text` as a number.
+template <class Number>
+bool parse_whole(const std::string& text, Number& number) {
+  const char* end = text.data() + text.size();
+  const auto [stop, problem] = std::from_chars(text.data(), end, number);
+  return problem == std::errc() && stop == end;
+}
+
+void check_profile(const std::string& profile) {
+  if (profile.empty() || profile == kProfile) return;
+  if (profile == "best") {
+    throw UsageError("--profile best is not part of this version; use --profile paper, which is the default");
+  }
+  throw UsageError("--profile: expected paper, found " + printable(profile));
+}
+
+void check_label_source(const std::string& source) {
+  if (source.empty() || source == "given") return;
+  if (source == "auto") {
+    throw UsageError(
+        "--labels auto is not part of this version; outline the food in label pictures (labels_N.png)");
+  }
+  throw UsageError("--labels: expected given, found " + printable(source));
+}
+
+void require_labels(const Capture& capture, const std::array<int, 2>& pair) {
+  for (const int i : pair) {
+    if (capture.views[static_cast<std::size_t>(i)].labels) continue;
+    throw InputError({capture.file, "views[" + std::to_string(i) + "].labels"}, "a label picture", "nothing",
+                     "outline dish and food; this version does not find them by itself");
+  }
+}
+
+std::vector<DishDescription> choose_dishes(const Capture& capture, const std::string& config) {
+  if (capture.dishes.empty()) return read_dish_library(find_config_folder(config));
+  const DishDescription& dish = capture.dishes.front();
+  if (capture.dishes.size() == 1 && dish.label == 1) return capture.dishes;
+  throw InputError({capture.file, "dishes"}, "one dish, of label 1",
+                   capture.dishes.size() == 1 ? "label " + std::to_string(dish.label)
+                                              : std::to_string(capture.dishes.size()) + " dishes",
+                   "profile paper measures one dish");
+}
+
+// Whether a result could be stored at all is known before the work is done.
+void check_output(const std::string& file) {
+  if (file.empty()) return;
+  const std::filesystem::path path(file);
+  const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
+  std::error_code ignored;
+  if (std::filesystem::is_directory(path, ignored)) throw OutputError(path, "it is a folder");
+  if (!std::filesystem::is_directory(folder, ignored)) throw OutputError(path, "its folder does not exist");
+}
+
+MeasureReport compose_report(const MeasureOptions& options, const CaptureSession& session,
+                             const std::array<int, 2>& pair, std::uint64_t seed,
+                             const Measurement& measurement) {
+  MeasureReport report;
+  report.capture = options.capture;
+  report.pair = pair;
+  report.profile = kProfile;
+  report.seed = seed;
+  report.message = compose_message(measurement);
+  report.measurement = &measurement;
+  report.setup_ms = session.estimator().setup_ms();
+  report.reserved_bytes = session.estimator().reserved_bytes();
+  report.used_bytes = session.estimator().used_bytes();
+  report.warnings = list_warnings(measurement, session.warnings());
+  return report;
+}
+
+void write_files(const MeasureOptions& options, const CaptureSession& session, const MeasureReport& report,
+                 std::ostream& error) {
+  if (!options.picture.empty()) write_picture_sheet(options.picture, report, session);
+  if (options.mesh.empty()) return;
+  const Measurement& measurement = *report.measurement;
+  if (!has_surface(measurement)) {
+    error << "traygauge: " << options.mesh << " was not written: no surface was measured\n";
+    return;
+  }
+  const int reference = measurement.views.reference_view;
+  write_mesh(options.mesh,
+             compose_mesh(measurement, session.view(reference).picture, session.lens(reference)));
+}
+
+}  // namespace
+
+void add_measure_command(CLI::App& app, MeasureOptions& options) {
+  CLI::App* command = app.add_subcommand("measure", "Measure the food in two views of a capture");
+  command->add_option("capture", options.capture, "Folder with capture.json")->required();
+  command->add_option("--pair", options.pair, "The two views A,B; default: the first of the capture's pairs");
+  command->add_option("--labels", options.labels, "Where dish and food are outlined: given (label pictures)");
+  command->add_option("--profile", options.profile, "paper (default): every stage as the paper describes it");
+  command->add_option("--seed", options.seed, "Seed of all randomness, default 0");
+  command->add_option("--config", options.config, "Folder with dishes/, for captures that name no dish")
+      ->envname("TRAYGAUGE_CONFIG");
+  command->add_flag("--json", options.json, "Print one JSON document instead of a table");
+  command->add_option("--picture", options.picture, "Write a PNG with views, disparity and heights");
+  command->add_option("--mesh", options.mesh,
+                      "Write the food surface as PLY, in mm over the bottom of the dish");
+}
+
+std::array<int, 2> choose_pair(const std::string& typed, const Capture& capture) {
+  std::array<int, 2> pair{0, 1};
+  const int count = static_cast<int>(capture.views.size());
+  if (typed.empty()) {
+    if (!capture.pairs.empty()) return capture.pairs.front();
+    if (count >= 2) return pair;
+    throw InputError({capture.file, "views"}, "at least two views", "one", "take a second picture");
+  }
+  const std::size_t comma = typed.find(',');
+  const bool parsed = comma != std::string::npos && parse_whole(typed.substr(0, comma), pair[0]) &&
+                      parse_whole(typed.substr(comma + 1), pair[1]);
+  const auto exists = [&](int view) { return view >= 0 && view < count; };
+  if (parsed && exists(pair[0]) && exists(pair[1])) return pair;
+  throw UsageError("--pair: expected two views A,B from 0 to " + std::to_string(count - 1) + ", found " +
+                   printable(typed));
+}
+
+std::uint64_t parse_seed(const std::string& typed) {
+  std::uint64_t seed = kDefaultSeed;
+  if (typed.empty() || parse_whole(typed, seed)) return seed;
+  throw UsageError("--seed: expected a whole number from 0 to 18446744073709551615, found " +
+                   printable(typed));
+}
+
+int run_measure(const MeasureOptions& options, std::ostream& out, std::ostream& error) {
+  check_profile(options.profile);
+  check_label_source(options.labels);
+  const std::uint64_t seed = parse_seed(options.seed);
+  check_output(options.picture);
+  check_output(options.mesh);
+  const Capture capture = read_capture(options.capture);
+  const std::array<int, 2> pair = choose_pair(options.pair, capture);
+  require_labels(capture, pair);
+  CaptureSession session(capture, pair, choose_dishes(capture, options.config));
+  const Measurement& measurement = session.measure(seed);
+  const MeasureReport report = compose_report(options, session, pair, seed, measurement);
+  write_files(options, session, report, error);
+  out << (options.json ? compose_document(report) + "\n" : compose_table(report));
+  return is_measured(measurement) ? kExitMeasured : kExitNotMeasurable;
+}
+
+}  // namespace traygauge

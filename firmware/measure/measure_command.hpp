@@ -1,0 +1,39 @@
+// `traygauge measure`.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <array>
+#include <cstdint>
+#include <iosfwd>
+#include <string>
+
+#include "simulator/capture/capture.hpp"
+
+namespace traygauge {
+
+// As typed; empty where not given.
+struct MeasureOptions {
+  std::string capture;
+  std::string pair;
+  std::string labels;
+  std::string profile;
+  std::string seed;
+  std::string config;
+  std::string picture;
+  std::string mesh;
+  bool json = false;
+};
+
+// Adds the command and its options.
+void add_measure_command(CLI::App& app, MeasureOptions& options);
+
+// Returns the exit status. Throws UsageError, InputError, OutputError before anything is printed to `out`.
+int run_measure(const MeasureOptions& options, std::ostream& out, std::ostream& error);
+
+// The pair that `typed` ("A,B") names; without it the first of the capture's, else 0 and 1.
+std::array<int, 2> choose_pair(const std::string& typed, const Capture& capture);
+
+// A whole number from 0 to 2^64 - 1.
+std::uint64_t parse_seed(const std::string& typed);
+
+}  // namespace traygauge

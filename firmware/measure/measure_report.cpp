@@ -1,0 +1,65 @@
+#include "firmware/measure/measure_report.hpp"
+
+#include <algorithm>
+
+#include "firmware/base/text.hpp"
+
+namespace traygauge {
+namespace {
+
+std::string list_failed_items(const Measurement& measurement) {
+  std::string list;
+  for (const ItemResult& item : measurement.items) {
+    if (item.status == StatusCode::ok) continue;
+    list += " Item " + std::to_string(item.label) + ": " + sentence(item.status);
+  }
+  return list;
+}
+
+// How far the measurement came.
+std::string describe_progress(const MeasurementReport& report) {
+  std::string text;
+  const auto add = [&](const std::string& part) { text += (text.empty() ? "" : ", ") + part; };
+  if (report.keypoints[0] > 0 || report.keypoints[1] > 0) {
+    add(std::to_string(report.keypoints[0]) + " and " + std::to_string(report.keypoints[1]) + " keypoints");
+  }
+  if (report.matches > 0) add(std::to_string(report.matches) + " matches");
+  if (report.inliers > 0) {
+    add(std::to_string(report.inliers) + " of them fit a motion within " +
+        fixed(report.inlier_threshold_px, 2) + " px");
+  }
+  if (report.card_tracks > 0) add(std::to_string(report.card_tracks) + " points on the card");
+  if (report.rim_points > 0) add(std::to_string(report.rim_points) + " points on the rim");
+  if (report.matched_share > 0.0)
+    add(fixed(100.0 * report.matched_share, 0) + "% of the dish matched densely");
+  return text.empty() ? text : " (" + text + ")";
+}
+
+}  // namespace
+
+bool is_measured(const Measurement& measurement) {
+  return measurement.status.code() == StatusCode::ok || measurement.status.code() == StatusCode::partial;
+}
+
+std::string compose_message(const Measurement& measurement) {
+  const StatusCode code = measurement.status.code();
+  if (code == StatusCode::ok) return sentence(code);
+  if (code != StatusCode::partial) {
+    return sentence(code) + describe_progress(measurement.report) + list_failed_items(measurement);
+  }
+  const auto measured = std::count_if(measurement.items.begin(), measurement.items.end(),
+                                      [](const ItemResult& item) { return item.status == StatusCode::ok; });
+  return std::to_string(measured) + " of " + std::to_string(measurement.items.size()) +
+         " items were measured." + list_failed_items(measurement);
+}
+
+std::vector<std::string> list_warnings(const Measurement& measurement,
+                                       const std::vector<std::string>& input) {
+  std::vector<std::string> warnings = input;
+  for (std::size_t i = 0; i < kWarningCount; ++i) {
+    if (measurement.warnings[i]) warnings.emplace_back(sentence(static_cast<Warning>(i)));
+  }
+  return warnings;
+}
+
+}  // namespace traygauge

@@ -1,0 +1,43 @@
+// What a measurement of a capture says, for the table, the document and the picture.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "core/estimator/measurement.hpp"
+#include "firmware/measure/capture_session.hpp"
+
+namespace traygauge {
+
+struct MeasureReport {
+  std::string capture;  // as named by the caller
+  std::array<int, 2> pair{};
+  std::string profile;
+  std::uint64_t seed = 0;
+  std::string message;
+  const Measurement* measurement = nullptr;  // outlives the report
+  double setup_ms = 0.0;
+  std::size_t reserved_bytes = 0;
+  std::size_t used_bytes = 0;
+  std::vector<std::string> warnings;  // sentences
+};
+
+// True when at least one item was measured.
+bool is_measured(const Measurement& measurement);
+
+// The sentence of the status with what a person needs to act on it.
+std::string compose_message(const Measurement& measurement);
+
+// The doubts of the measurement and of its input.
+std::vector<std::string> list_warnings(const Measurement& measurement, const std::vector<std::string>& input);
+
+// The JSON document of the contract, on one line; what was not measured is null.
+std::string compose_document(const MeasureReport& report);
+
+// The same for people.
+std::string compose_table(const MeasureReport& report);
+
+}  // namespace traygauge

@@ -1,0 +1,20 @@
+// The panels of the picture of a measurement.
+#pragma once
+
+#include <opencv2/core/mat.hpp>
+
+#include "firmware/measure/measure_report.hpp"
+#include "simulator/capture/capture.hpp"
+
+namespace traygauge {
+
+// A view as stored, its labels tinted and outlined, every item with its number and volume.
+cv::Mat draw_view(const LoadedView& view, const Measurement& measurement, cv::Size size);
+
+// Disparity of the rectified pair.
+cv::Mat draw_disparity(const MeasureReport& report, cv::Size size);
+
+// Height over the bottom of the dish, in the reference view.
+cv::Mat draw_heights(const MeasureReport& report, cv::Size size);
+
+}  // namespace traygauge

@@ -1,0 +1,87 @@
+#include <algorithm>
+#include <cstdint>
+#include <opencv2/imgproc.hpp>
+#include <string>
+
+#include "core/segmentation/label_regions.hpp"
+#include "firmware/base/text.hpp"
+#include "firmware/measure/drawing.hpp"
+#include "firmware/measure/panels.hpp"
+
+namespace traygauge {
+namespace {
+
+constexpr double kTint = 0.25;  // share of the label's colour inside its outline
+constexpr double kTextScale = 0.6;
+constexpr int kLineHeightPx = 22;
+
+cv::Mat to_bgr(const Picture& picture) {
+  // OpenCV has no view of constant pixels; they are only read.
+  auto* pixels = const_cast<std::uint8_t*>(picture.pixels.data());
+  const bool gray = picture.format == PixelFormat::gray8;
+  const cv::Mat view(picture.size.height, picture.size.width, gray ? CV_8UC1 : CV_8UC3, pixels);
+  cv::Mat bgr;
+  if (picture.format == PixelFormat::bgr8) return view.clone();
+  cv::cvtColor(view, bgr, gray ? cv::COLOR_GRAY2BGR : cv::COLOR_RGB2BGR);
+  return bgr;
+}
+
+void tint_labels(cv::Mat& panel, const cv::Mat& labels) {
+  cv::Mat lookup(1, 256, CV_8UC3);
+  for (int label = 0; label < 256; ++label) {
+    const cv::Scalar colour = label_colour(static_cast<std::uint8_t>(label));
+    lookup.at<cv::Vec3b>(0, label) = {cv::saturate_cast<std::uint8_t>(colour[0]),
+                                      cv::saturate_cast<std::uint8_t>(colour[1]),
+                                      cv::saturate_cast<std::uint8_t>(colour[2])};
+  }
+  cv::Mat triple;
+  cv::Mat colours;
+  cv::cvtColor(labels, triple, cv::COLOR_GRAY2BGR);
+  cv::LUT(triple, lookup, colours);
+  cv::Mat tinted;
+  cv::addWeighted(panel, 1.0 - kTint, colours, kTint, 0.0, tinted);
+  tinted.copyTo(panel, (labels >= kFirstItemLabel) & (labels <= kLastItemLabel));
+  // A pixel is on an outline when its neighbourhood holds more than one label; the higher one colours it.
+  cv::Mat lowest;
+  cv::Mat highest;
+  cv::erode(labels, lowest, {});
+  cv::dilate(labels, highest, {});
+  cv::cvtColor(highest, triple, cv::COLOR_GRAY2BGR);
+  cv::LUT(triple, lookup, colours);
+  colours.copyTo(panel, lowest != highest);
+}
+
+// The lines stand around the point that lies deepest inside the item.
+void draw_item(cv::Mat& panel, const cv::Mat& labels, const ItemResult& item) {
+  const cv::Mat mask = labels == item.label;
+  if (cv::countNonZero(mask) == 0) return;
+  cv::Mat depth;
+  cv::distanceTransform(mask, depth, cv::DIST_L2, 3);
+  cv::Point deepest;
+  cv::minMaxLoc(depth, nullptr, nullptr, nullptr, &deepest);
+  const std::string lines[] = {std::to_string(item.label), item.status == StatusCode::ok
+                                                               ? fixed(item.volume_ml, 1) + " ml"
+                                                               : std::string(name(item.status))};
+  int y = std::clamp(deepest.y, kLineHeightPx, std::max(kLineHeightPx, panel.rows - kLineHeightPx));
+  for (const std::string& text : lines) {
+    const int width = measure_text(text, kTextScale).width;
+    const int x = std::clamp(deepest.x - width / 2, 2, std::max(2, panel.cols - width - 2));
+    draw_text(panel, text, {x, y}, kTextScale, kInk);
+    y += kLineHeightPx;
+  }
+}
+
+}  // namespace
+
+cv::Mat draw_view(const LoadedView& view, const Measurement& measurement, cv::Size size) {
+  cv::Mat panel = fit(to_bgr(view.picture), size, cv::INTER_AREA);
+  if (view.labels.pixels.empty()) return panel;
+  auto* pixels = const_cast<std::uint8_t*>(view.labels.pixels.data());
+  const cv::Mat stored(view.labels.size.height, view.labels.size.width, CV_8UC1, pixels);
+  const cv::Mat labels = fit(stored, size, cv::INTER_NEAREST);
+  tint_labels(panel, labels);
+  for (const ItemResult& item : measurement.items) draw_item(panel, labels, item);
+  return panel;
+}
+
+}  // namespace traygauge

@@ -1,0 +1,51 @@
+#include "firmware/memory/memory_command.hpp"
+
+#include <array>
+#include <cstddef>
+#include <ostream>
+#include <span>
+#include <string>
+
+#include "core/estimator/estimator.hpp"
+#include "core/estimator/memory_report.hpp"
+#include "firmware/base/exit_status.hpp"
+#include "firmware/base/text.hpp"
+#include "simulator/capture/picture.hpp"
+
+namespace traygauge {
+namespace {
+
+constexpr std::size_t kMaxRows = 64;
+constexpr std::size_t kFrames = 2;
+constexpr std::size_t kBytesPerPixel = 3 + 1;  // colour and label
+
+std::string row(const std::string& name, std::size_t bytes) {
+  return pad_right(name, 28) + pad_left(std::to_string(bytes), 12) + pad_left(mebibytes(bytes), 10) + "\n";
+}
+
+}  // namespace
+
+void add_memory_command(CLI::App& app, MemoryOptions& options) {
+  CLI::App* command = app.add_subcommand("memory", "Show the memory that a measurement reserves at start");
+  const CLI::Range side(kMinPictureSide, kMaxPictureSide);
+  command->add_option("--width", options.width, "Width of the frames in pixels, default 1600")->check(side);
+  command->add_option("--height", options.height, "Height of the frames in pixels, default 1200")
+      ->check(side);
+}
+
+int run_memory(const MemoryOptions& options, std::ostream& out) {
+  EstimatorLimits limits;
+  limits.max_frame_width = options.width;
+  limits.max_frame_height = options.height;
+  std::array<MemoryRow, kMaxRows> storage;
+  const std::span<const MemoryRow> rows = memory_rows(limits, storage);
+  out << "Frames of " << options.width << " x " << options.height << " pixels\n\n";
+  out << pad_right("part", 28) << pad_left("bytes", 12) << pad_left("MiB", 10) << "\n";
+  for (const MemoryRow& part : rows) out << row(part.name, part.bytes);
+  out << row("reserved at start", required_bytes(limits)) << "\n";
+  const auto pixels = static_cast<std::size_t>(options.width) * static_cast<std::size_t>(options.height);
+  out << row("beside it: frames, labels", kFrames * kBytesPerPixel * pixels);
+  return kExitMeasured;
+}
+
+}  // namespace traygauge

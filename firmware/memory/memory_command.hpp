@@ -1,0 +1,19 @@
+// `traygauge memory`: what the program reserves at start.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <iosfwd>
+
+namespace traygauge {
+
+struct MemoryOptions {
+  int width = 1600;
+  int height = 1200;
+};
+
+void add_memory_command(CLI::App& app, MemoryOptions& options);
+
+// A table of the estimator's parts, their sum, and the caller's frames apart. Returns the exit status.
+int run_memory(const MemoryOptions& options, std::ostream& out);
+
+}  // namespace traygauge

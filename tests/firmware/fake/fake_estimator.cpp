@@ -1,0 +1,102 @@
+#include "tests/firmware/fake/fake_estimator.hpp"
+
+#include <array>
+
+#include "core/estimator/memory_report.hpp"
+
+// Weak: a test program may link core beside it, for what is not played here.
+#define TRAYGAUGE_FAKE __attribute__((weak))
+
+namespace traygauge {
+namespace {
+
+constexpr std::size_t kBytesPerPixel = 10;
+
+}  // namespace
+
+FakeEstimator& fake_estimator() {
+  static FakeEstimator fake;
+  return fake;
+}
+
+TRAYGAUGE_FAKE std::size_t required_bytes(const EstimatorLimits& limits) {
+  return kBytesPerPixel * static_cast<std::size_t>(limits.max_frame_width) *
+         static_cast<std::size_t>(limits.max_frame_height);
+}
+
+TRAYGAUGE_FAKE std::span<const MemoryRow> memory_rows(const EstimatorLimits& limits,
+                                                      std::span<MemoryRow> storage) {
+  storage[0] = {"features", required_bytes(limits) / 2};
+  storage[1] = {"stereo", required_bytes(limits) / 2};
+  return storage.first(2);
+}
+
+TRAYGAUGE_FAKE Status validate(const Configuration&) {
+  return fake_estimator().construction;
+}
+
+TRAYGAUGE_FAKE Status validate(const LensModel&) {
+  return fake_estimator().lens_is_valid ? StatusCode::ok : StatusCode::invalid_configuration;
+}
+
+TRAYGAUGE_FAKE Vec2 LensModel::distort(const Vec2& ray) const {
+  return ray;
+}
+
+TRAYGAUGE_FAKE const char* name(Stage stage) {
+  constexpr std::array names = {"image",         "features", "matching", "pose",  "scale",
+                                "rectification", "stereo",   "surface",  "volume"};
+  static_assert(names.size() == kStageCount);
+  return names[static_cast<std::size_t>(stage)];
+}
+
+TRAYGAUGE_FAKE const char* name(Warning) {
+  return "warning";
+}
+
+TRAYGAUGE_FAKE const char* sentence(Warning warning) {
+  return warning == Warning::angle_small ? "The views lie close together." : "Another doubt.";
+}
+
+TRAYGAUGE_FAKE Estimator::Estimator(std::span<std::byte> block, const Configuration& configuration)
+    : status_(fake_estimator().construction) {
+  FakeEstimator& fake = fake_estimator();
+  fake.lens = configuration.lens;
+  fake.card = configuration.card;
+  fake.dishes.assign(configuration.dishes.begin(), configuration.dishes.end());
+  fake.limits = configuration.limits;
+  if (block.size() < required_bytes(configuration.limits)) status_ = StatusCode::out_of_memory;
+}
+
+TRAYGAUGE_FAKE Status Estimator::status() const {
+  return status_;
+}
+
+TRAYGAUGE_FAKE double Estimator::setup_ms() const {
+  return 3.5;
+}
+
+TRAYGAUGE_FAKE std::size_t Estimator::reserved_bytes() const {
+  return required_bytes(fake_estimator().limits);
+}
+
+TRAYGAUGE_FAKE std::size_t Estimator::used_bytes() const {
+  return reserved_bytes() / 2;
+}
+
+TRAYGAUGE_FAKE Status Estimator::add_view(const ViewInput& view) {
+  fake_estimator().views.push_back(view);
+  return fake_estimator().views.size() == 2 ? fake_estimator().second_view : Status();
+}
+
+TRAYGAUGE_FAKE const Measurement& Estimator::estimate(std::uint64_t seed) {
+  fake_estimator().seed = seed;
+  ++fake_estimator().estimates;
+  return fake_estimator().measurement;
+}
+
+TRAYGAUGE_FAKE void Estimator::reset() {
+  fake_estimator().views.clear();
+}
+
+}  // namespace traygauge
