@@ -43,6 +43,12 @@ std::size_t required_bytes(const Configuration& configuration) {
   return estimator_state_bytes() + planned_bytes(configuration);
 }
 
+std::size_t required_bytes(const EstimatorLimits& limits) {
+  Configuration configuration;
+  configuration.limits = limits;
+  return required_bytes(configuration);
+}
+
 // The card's picture is reduced to about the scale at which cameras see it, so that box filters meet like
 // structures.
 void EstimatorState::set_up_pattern(ImageView<const std::uint8_t> picture) {
@@ -93,7 +99,8 @@ Estimator::Estimator(std::span<std::byte> block, const Configuration& configurat
   }
   state.extrinsics.inliers = BoundedList<RayMatch>(state.memory.extrinsics.inliers);
   state.extrinsics.card_points = BoundedList<Vec3>(state.memory.extrinsics.card_points);
-  state.reserved_bytes = arena.high_water_bytes();
+  state.reserved_bytes = block.size();
+  state.used_bytes = arena.high_water_bytes();
   state.set_up_pattern(configuration.card.pattern);
   clock.stop();
   state.setup_ms = clock.total_ms();
@@ -106,6 +113,10 @@ double Estimator::setup_ms() const {
 
 std::size_t Estimator::reserved_bytes() const {
   return state_ == nullptr ? 0 : state_->reserved_bytes;
+}
+
+std::size_t Estimator::used_bytes() const {
+  return state_ == nullptr ? 0 : state_->used_bytes;
 }
 
 Status Estimator::add_view(const ViewInput& input) {

@@ -15,6 +15,8 @@ struct EstimatorState;
 
 // Bytes that an Estimator with this configuration takes from its block.
 std::size_t required_bytes(const Configuration& configuration);
+// The same with the default parameters of every stage.
+std::size_t required_bytes(const EstimatorLimits& limits);
 
 // One picture to measure. Pixels and labels belong to the caller and stay valid until estimate() returns.
 struct ViewInput {
@@ -51,7 +53,8 @@ class Estimator {
 
   Status status() const { return status_; }
   double setup_ms() const;
-  std::size_t reserved_bytes() const;
+  std::size_t reserved_bytes() const;  // size of the block
+  std::size_t used_bytes() const;      // most of it that was ever handed out
 
   // Takes the first, then the second view, and finds its features at once. What fails here is also what
   // estimate() reports.

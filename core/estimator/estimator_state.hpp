@@ -17,6 +17,7 @@ struct EstimatorState {
   EstimatorMemory memory;
   Extrinsics extrinsics;  // its lists lie in `memory`
   std::size_t reserved_bytes = 0;
+  std::size_t used_bytes = 0;
   double setup_ms = 0.0;
   int views = 0;        // taken so far
   Status views_status;  // the first thing that went wrong with them

@@ -1,9 +1,7 @@
 #include "firmware/memory/memory_command.hpp"
 
-#include <array>
 #include <cstddef>
 #include <ostream>
-#include <span>
 #include <string>
 
 #include "core/estimator/estimator.hpp"
@@ -15,12 +13,13 @@
 namespace traygauge {
 namespace {
 
-constexpr std::size_t kMaxRows = 64;
+constexpr std::size_t kNameWidth = 36;
 constexpr std::size_t kFrames = 2;
 constexpr std::size_t kBytesPerPixel = 3 + 1;  // colour and label
 
 std::string row(const std::string& name, std::size_t bytes) {
-  return pad_right(name, 28) + pad_left(std::to_string(bytes), 12) + pad_left(mebibytes(bytes), 10) + "\n";
+  return pad_right(name, kNameWidth) + pad_left(std::to_string(bytes), 12) + pad_left(mebibytes(bytes), 10) +
+         "\n";
 }
 
 }  // namespace
@@ -37,12 +36,15 @@ int run_memory(const MemoryOptions& options, std::ostream& out) {
   EstimatorLimits limits;
   limits.max_frame_width = options.width;
   limits.max_frame_height = options.height;
-  std::array<MemoryRow, kMaxRows> storage;
-  const std::span<const MemoryRow> rows = memory_rows(limits, storage);
+  Configuration configuration;
+  configuration.limits = limits;
   out << "Frames of " << options.width << " x " << options.height << " pixels\n\n";
-  out << pad_right("part", 28) << pad_left("bytes", 12) << pad_left("MiB", 10) << "\n";
-  for (const MemoryRow& part : rows) out << row(part.name, part.bytes);
-  out << row("reserved at start", required_bytes(limits)) << "\n";
+  out << pad_right("part", kNameWidth) << pad_left("bytes", 12) << pad_left("MiB", 10) << "\n";
+  for (const MemoryRow& part : describe_memory(configuration)) {
+    out << row(part.name + std::string(part.shared ? " *" : ""), part.bytes);
+  }
+  out << row("reserved at start", required_bytes(configuration))
+      << "* one after the other in the same memory: the largest counts\n\n";
   const auto pixels = static_cast<std::size_t>(options.width) * static_cast<std::size_t>(options.height);
   out << row("beside it: frames, labels", kFrames * kBytesPerPixel * pixels);
   return kExitMeasured;
