@@ -7,6 +7,7 @@
 #include <string>
 
 #include "firmware/base/exit_status.hpp"
+#include "firmware/evaluate/evaluate_command.hpp"
 #include "firmware/measure/measure_command.hpp"
 #include "firmware/memory/memory_command.hpp"
 #include "simulator/capture/input_error.hpp"
@@ -26,10 +27,16 @@ int report_parse(const CLI::App& app, const CLI::ParseError& problem, std::ostre
   return report_error(error, std::string(problem.what()) + "; see traygauge --help");
 }
 
-int run_command(const CLI::App& app, const MeasureOptions& measure, const MemoryOptions& memory,
-                std::ostream& out, std::ostream& error) {
-  if (app.got_subcommand("measure")) return run_measure(measure, out, error);
-  return run_memory(memory, out);
+struct Options {
+  MeasureOptions measure;
+  EvaluateOptions evaluate;
+  MemoryOptions memory;
+};
+
+int run_command(const CLI::App& app, const Options& options, std::ostream& out, std::ostream& error) {
+  if (app.got_subcommand("measure")) return run_measure(options.measure, out, error);
+  if (app.got_subcommand("evaluate")) return run_evaluate(options.evaluate, out, error);
+  return run_memory(options.memory, out);
 }
 
 }  // namespace
@@ -39,13 +46,13 @@ int run_command_line(int argument_count, const char* const* arguments, std::ostr
   CLI::App app("Traygauge measures the volume of the food on a tray from two pictures.", "traygauge");
   app.set_version_flag("--version", TRAYGAUGE_VERSION);
   app.require_subcommand(1);
-  MeasureOptions measure;
-  MemoryOptions memory;
-  add_measure_command(app, measure);
-  add_memory_command(app, memory);
+  Options options;
+  add_measure_command(app, options.measure);
+  add_evaluate_command(app, options.evaluate);
+  add_memory_command(app, options.memory);
   try {
     app.parse(argument_count, arguments);
-    const int status = run_command(app, measure, memory, out, error);
+    const int status = run_command(app, options, out, error);
     out.flush();
     return out ? status : report_error(error, "the result could not be written to standard output");
   } catch (const CLI::ParseError& problem) {

@@ -65,15 +65,16 @@ EstimatorLimits limits_for(PictureSize first, PictureSize second) {
 }
 
 CaptureSession::CaptureSession(const Capture& capture, std::array<int, 2> pair,
-                               const std::vector<DishDescription>& dishes)
+                               const std::vector<DishDescription>& dishes, const Configuration& parameters)
     : descriptions_{view_of(capture, pair[0]), view_of(capture, pair[1])},
       lenses_{lens_of(descriptions_[0]->camera), lens_of(descriptions_[1]->camera)},
       views_{load_view(*descriptions_[0]), load_view(*descriptions_[1])},
       pattern_(load_pattern(capture.card)),
       card_(capture.card),
       dishes_(models_of(dishes)),
-      block_(required_bytes(limits_for(descriptions_[0]->camera.size, descriptions_[1]->camera.size))),
-      estimator_(block_.bytes(), configuration()) {
+      configuration_(configure(parameters)),
+      block_(required_bytes(configuration_)),
+      estimator_(block_.bytes(), configuration_) {
   check_inputs(capture);
 }
 
@@ -101,12 +102,14 @@ void CaptureSession::check_inputs(const Capture& capture) {
   }
 }
 
-Configuration CaptureSession::configuration() const {
-  Configuration configuration;
+Configuration CaptureSession::configure(const Configuration& parameters) const {
+  Configuration configuration = parameters;
   configuration.lens = lenses_[0];
   configuration.card = {card_.width_mm, card_.height_mm, card_.thickness_mm, pattern_.gray()};
   configuration.dishes = dishes_;
-  configuration.limits = limits_for(descriptions_[0]->camera.size, descriptions_[1]->camera.size);
+  const EstimatorLimits frames = limits_for(descriptions_[0]->camera.size, descriptions_[1]->camera.size);
+  configuration.limits.max_frame_width = frames.max_frame_width;
+  configuration.limits.max_frame_height = frames.max_frame_height;
   return configuration;
 }
 

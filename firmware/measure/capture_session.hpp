@@ -23,7 +23,9 @@ EstimatorLimits limits_for(PictureSize first, PictureSize second);
 class CaptureSession {
  public:
   // `dishes`: the dish, or candidates for it.
-  CaptureSession(const Capture& capture, std::array<int, 2> pair, const std::vector<DishDescription>& dishes);
+  // `parameters` carries those of the stages; its camera, card and dishes are replaced by the capture's.
+  CaptureSession(const Capture& capture, std::array<int, 2> pair, const std::vector<DishDescription>& dishes,
+                 const Configuration& parameters = {});
 
   // The views of `measurement` point into the session.
   const Measurement& measure(std::uint64_t seed);
@@ -35,7 +37,7 @@ class CaptureSession {
   const std::vector<std::string>& warnings() const { return warnings_; }
 
  private:
-  Configuration configuration() const;
+  Configuration configure(const Configuration& parameters) const;
   ViewInput input(std::size_t i) const;
   void check_inputs(const Capture& capture);
 
@@ -46,6 +48,7 @@ class CaptureSession {
   CardDescription card_;
   std::vector<DishModel> dishes_;
   std::vector<std::string> warnings_;
+  Configuration configuration_;
   AlignedBlock block_;
   Estimator estimator_;
 };

@@ -28,23 +28,6 @@ bool parse_whole(const std::string& text, Number& number) {
   return problem == std::errc() && stop == end;
 }
 
-void check_profile(const std::string& profile) {
-  if (profile.empty() || profile == kProfile) return;
-  if (profile == "best") {
-    throw UsageError("--profile best is not part of this version; use --profile paper, which is the default");
-  }
-  throw UsageError("--profile: expected paper, found " + printable(profile));
-}
-
-void check_label_source(const std::string& source) {
-  if (source.empty() || source == "given") return;
-  if (source == "auto") {
-    throw UsageError(
-        "--labels auto is not part of this version; outline the food in label pictures (labels_N.png)");
-  }
-  throw UsageError("--labels: expected given, found " + printable(source));
-}
-
 void require_labels(const Capture& capture, const std::array<int, 2>& pair) {
   for (const int i : pair) {
     if (capture.views[static_cast<std::size_t>(i)].labels) continue;
@@ -119,6 +102,23 @@ void add_measure_command(CLI::App& app, MeasureOptions& options) {
   command->add_option("--picture", options.picture, "Write a PNG with views, disparity and heights");
   command->add_option("--mesh", options.mesh,
                       "Write the food surface as PLY, in mm over the bottom of the dish");
+}
+
+void check_profile(const std::string& profile) {
+  if (profile.empty() || profile == kProfile) return;
+  if (profile == "best") {
+    throw UsageError("--profile best is not part of this version; use --profile paper, which is the default");
+  }
+  throw UsageError("--profile: expected paper, found " + printable(profile));
+}
+
+void check_label_source(const std::string& source) {
+  if (source.empty() || source == "given") return;
+  if (source == "auto") {
+    throw UsageError(
+        "--labels auto is not part of this version; outline the food in label pictures (labels_N.png)");
+  }
+  throw UsageError("--labels: expected given, found " + printable(source));
 }
 
 std::array<int, 2> choose_pair(const std::string& typed, const Capture& capture) {

@@ -33,6 +33,10 @@ int run_measure(const MeasureOptions& options, std::ostream& out, std::ostream& 
 // The pair that `typed` ("A,B") names; without it the first of the capture's, else 0 and 1.
 std::array<int, 2> choose_pair(const std::string& typed, const Capture& capture);
 
+// UsageError unless this version has the profile, or the source of labels; empty: the default.
+void check_profile(const std::string& profile);
+void check_label_source(const std::string& source);
+
 // A whole number from 0 to 2^64 - 1.
 std::uint64_t parse_seed(const std::string& typed);
 

@@ -1,0 +1,29 @@
+// `traygauge evaluate`.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <iosfwd>
+#include <string>
+#include <vector>
+
+namespace traygauge {
+
+struct EvaluateOptions {
+  std::string set;
+  std::string profile;
+  std::string labels;
+  std::string out;
+  std::string config;
+  int runs = 8;
+  int jobs = 1;
+  std::vector<std::string> settings;
+  bool list_parameters = false;
+};
+
+void add_evaluate_command(CLI::App& app, EvaluateOptions& options);
+
+// Returns the exit status: 0 when at least one item was measured, 1 when none. Throws UsageError, InputError,
+// OutputError.
+int run_evaluate(const EvaluateOptions& options, std::ostream& out, std::ostream& error);
+
+}  // namespace traygauge

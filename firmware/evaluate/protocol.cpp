@@ -1,0 +1,136 @@
+#include "firmware/evaluate/protocol.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <exception>
+#include <mutex>
+#include <thread>
+
+#include "firmware/config/dish_library.hpp"
+#include "firmware/measure/capture_session.hpp"
+#include "simulator/capture/capture.hpp"
+
+namespace traygauge {
+namespace {
+
+struct Task {
+  std::filesystem::path folder;
+  std::array<int, 2> pair{};
+};
+
+Pose pose_of(const WorldToCamera& matrix) {
+  Pose pose;
+  for (int row = 0; row < 3; ++row) {
+    const auto& values = matrix[static_cast<std::size_t>(row)];
+    for (int column = 0; column < 3; ++column)
+      pose.rotation(row, column) = values[static_cast<std::size_t>(column)];
+    pose.translation[row] = values[3];
+  }
+  return pose;
+}
+
+std::optional<PairTruth> truth_of(const Truth& truth, const Task& task, const DishDescription& dish) {
+  const auto first = static_cast<std::size_t>(task.pair[0]);
+  const auto second = static_cast<std::size_t>(task.pair[1]);
+  if (std::max(first, second) >= truth.poses.size()) return {};
+  return PairTruth{pose_of(truth.poses[first]), pose_of(truth.poses[second]), dish.bottom_height_mm};
+}
+
+Run record(const Measurement& measurement, std::uint64_t seed, const std::optional<PairTruth>& truth) {
+  Run run;
+  run.seed = seed;
+  run.status = measurement.status.code();
+  run.relative_angle_deg = measurement.relative_angle_deg;
+  run.total_ms = measurement.total_ms;
+  for (const ItemResult& item : measurement.items)
+    run.items.push_back({item.label, item.status, item.volume_ml});
+  if (truth && !measurement.items.empty()) run.errors = stage_errors(measurement, *truth);
+  return run;
+}
+
+PairRuns run_pair(const std::filesystem::path& set, const Task& task, const ProtocolOptions& options) {
+  const Capture capture = read_capture(task.folder);
+  const std::vector<DishDescription> dishes =
+      capture.dishes.empty() ? read_dish_library(options.config_folder) : capture.dishes;
+  PairRuns result;
+  result.capture = task.folder.lexically_relative(set).string();
+  result.pair = task.pair;
+  result.truth = read_truth(task.folder).value();
+  const auto truth = truth_of(result.truth, task, dishes.front());
+  CaptureSession session(capture, task.pair, dishes, options.parameters);
+  for (int run = 1; run <= options.runs; ++run) {
+    const auto seed = static_cast<std::uint64_t>(run);
+    result.runs.push_back(record(session.measure(seed), seed, truth));
+  }
+  return result;
+}
+
+std::vector<Task> plan_tasks(const std::filesystem::path& set, std::vector<std::string>& skipped) {
+  std::vector<Task> tasks;
+  for (const std::filesystem::path& folder : find_captures(set)) {
+    const Capture capture = read_capture(folder);
+    const std::string name = folder.lexically_relative(set).string();
+    if (capture.dishes.size() > 1) {
+      skipped.push_back(name + ": several dishes; profile paper measures one");
+    } else if (!read_truth(folder)) {
+      skipped.push_back(name + ": no truth.json");
+    } else {
+      const auto pairs = capture.pairs.empty() ? std::vector<std::array<int, 2>>{{0, 1}} : capture.pairs;
+      for (const auto& pair : pairs) tasks.push_back({folder, pair});
+    }
+  }
+  return tasks;
+}
+
+}  // namespace
+
+std::vector<std::filesystem::path> find_captures(const std::filesystem::path& set) {
+  std::vector<std::filesystem::path> folders;
+  std::error_code problem;
+  if (std::filesystem::exists(set / "capture.json", problem)) folders.push_back(set);
+  for (std::filesystem::recursive_directory_iterator entry(set, problem), end; !problem && entry != end;
+       entry.increment(problem)) {
+    if (entry->is_directory() && std::filesystem::exists(entry->path() / "capture.json")) {
+      folders.push_back(entry->path());
+    }
+  }
+  if (problem || folders.empty()) {
+    throw InputError({set, ""}, "a folder with captures below it", problem ? problem.message() : "none",
+                     "name a capture or a folder of captures");
+  }
+  std::sort(folders.begin(), folders.end());
+  return folders;
+}
+
+std::vector<PairRuns> run_protocol(const std::filesystem::path& set, const ProtocolOptions& options,
+                                   std::vector<std::string>& skipped,
+                                   const std::function<void(std::size_t, std::size_t)>& progress) {
+  const std::vector<Task> tasks = plan_tasks(set, skipped);
+  std::vector<PairRuns> results(tasks.size());
+  std::atomic<std::size_t> next{0};
+  std::size_t done = 0;
+  std::mutex mutex;
+  std::exception_ptr failure;
+  const auto work = [&] {
+    for (std::size_t i = next++; i < tasks.size(); i = next++) {
+      try {
+        results[i] = run_pair(set, tasks[i], options);
+      } catch (...) {
+        const std::lock_guard lock(mutex);
+        if (!failure) failure = std::current_exception();
+        next = tasks.size();
+        return;
+      }
+      const std::lock_guard lock(mutex);
+      progress(++done, tasks.size());
+    }
+  };
+  {
+    std::vector<std::jthread> workers;
+    for (int job = 0; job < options.jobs; ++job) workers.emplace_back(work);
+  }
+  if (failure) std::rethrow_exception(failure);
+  return results;
+}
+
+}  // namespace traygauge
