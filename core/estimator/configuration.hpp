@@ -41,8 +41,8 @@ struct EstimatorLimits {
 struct ViewParams {
   double matching_dish_px = 131072.0;  // 2^17: area of the dish for dense matching (paper V-B)
   double working_margin_px = 6.0;      // around the dish: half of census and window
-  double feature_dish_px = 262144.0;   // area of the dish where salient points are looked for
-  double pattern_px_per_mm = 5.0;      // of the card's picture for its features; views show 2 to 4
+  double feature_dish_px = 524288.0;   // 2^19: area of the dish where salient points are looked for; the card needs it
+  double pattern_px_per_mm = 3.0;      // of the card's picture for its features: as a view with 2^19 dish pixels
   double max_card_rotation_deg =
       5.0;  // between the scene's motion and the card's own, which is sure to 1 or 2 degrees
   double min_card_pose_fitness = 0.8;  // eq. (1) of the card's motion over that of the scene's, to replace it

@@ -35,6 +35,7 @@ std::vector<Parameter> sparse_parameters(Configuration& c) {
       {"view.pattern_px_per_mm", &c.view.pattern_px_per_mm},
       {"view.max_card_rotation_deg", &c.view.max_card_rotation_deg},
       {"limits.max_keypoints", &c.limits.max_keypoints},
+      {"limits.max_feature_px", &c.limits.max_feature_px},
       {"surf.octaves", &c.surf.octaves},
       {"surf.first_step_px", &c.surf.first_step_px},
       {"surf.min_response", &c.surf.min_response},
