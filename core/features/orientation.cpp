@@ -14,6 +14,7 @@ namespace {
 constexpr int kRadius = 6;             // in sigmas
 constexpr std::size_t kSamples = 109;  // grid points with i² + j² < 36
 constexpr double kWeightSigma = 2.5;   // in sigmas; [14] has 2, OpenSURF [37] 2.5
+constexpr float kHaarHalf = 3.0F;      // in sigmas; [14] has 2, which gives 5% fewer correct matches
 constexpr int kBins = 72;              // of 5°
 constexpr int kWindowBins = 12;        // 60°
 
@@ -97,7 +98,7 @@ VectorSum find_longest_window(const std::array<VectorSum, kBins>& bins) {
 }  // namespace
 
 Direction find_orientation(ImageView<const std::uint32_t> integral, const Keypoint& keypoint) {
-  const int half = std::max(1, static_cast<int>(2.0F * keypoint.scale_px + 0.5F));
+  const int half = std::max(1, static_cast<int>(kHaarHalf * keypoint.scale_px + 0.5F));
   const double reach = kRadius * static_cast<double>(keypoint.scale_px) + half;
   WeightedResponses responses;
   if (fits_inside(integral, keypoint.pixel.x(), keypoint.pixel.y(), reach)) {

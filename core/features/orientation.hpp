@@ -14,7 +14,7 @@ struct Direction {
   float sine = 0.0F;
 };
 
-// The direction of the largest sum of Haar responses (size 4 sigma, within 6 sigma, Gaussian weights of 2.5
+// The direction of the largest sum of Haar responses (size 6 sigma, within 6 sigma, Gaussian weights of 2.5
 // sigma) in a window of 60°, turned in steps of 5°.
 Direction find_orientation(ImageView<const std::uint32_t> integral, const Keypoint& keypoint);
 
