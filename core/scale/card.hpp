@@ -98,6 +98,8 @@ struct CardPlaneParams {
   CardPlaneSource source = CardPlaneSource::sparse_points;
   double inlier_mm = 1.0;  // twice the depth noise of 0.3 px at 50 cm over a base of 15 cm
   int min_inliers = 6;
+  double min_inlier_share = 0.5;   // of the card's points: fewer and most of the cloud there is wrong
+  double min_tilt_cosine = 0.17;   // between the plane's normal and the view, as in detection
   double min_spread_share = 0.05;  // as in detection: nearly collinear points have no plane
   double confidence = 0.999;
   int min_iterations = 50;
