@@ -55,10 +55,10 @@ struct CardDetectionParams {
   CardModel model = CardModel::homography;
   double inlier_share = 0.03;      // inlier distance on the pattern, as a share of the card's length (paper)
   int min_tracks = 8;              // fewer inliers are no card: four fit any homography, four more confirm it
-  double max_false_alarms = 1e-4;  // expected number of homographies as good among random matches
+  double max_false_alarms = 1e-2;  // expected number of homographies as good among random matches
   double min_spread_share = 0.05;  // least standard deviation of the inliers' places, of the card's length
   double min_triangle_share = 0.002;  // flattest triangle of a sample, of the card's area
-  double max_skew = 0.35;  // how far the sides' lengths and angle may be off those of a rigid card (0: exact)
+  double max_skew = 0.2;  // how far the sides' lengths and angle may be off those of a rigid card (0: exact)
   double min_tilt_cosine = 0.17;   // between the card's normal and the view: 80 degrees, print unreadable
   double min_distance_mm = 100.0;  // of the card from the camera
   double max_distance_mm = 3000.0;
@@ -98,6 +98,8 @@ struct CardPlaneParams {
   CardPlaneSource source = CardPlaneSource::sparse_points;
   double inlier_mm = 1.0;  // twice the depth noise of 0.3 px at 50 cm over a base of 15 cm
   int min_inliers = 6;
+  double min_inlier_share = 0.5;   // of the card's points: fewer and most of the cloud there is wrong
+  double min_tilt_cosine = 0.17;   // between the plane's normal and the view, as in detection
   double min_spread_share = 0.05;  // as in detection: nearly collinear points have no plane
   double confidence = 0.999;
   int min_iterations = 50;

@@ -72,7 +72,9 @@ bool refit_plane(const CardPoints& points, double inlier_mm, double min_spread_m
 
 Status plane_from_points(const CardPoints& points, double card_length_mm, const CardPlaneParams& params,
                          Random& random, Plane& plane) {
-  const int needed = std::max(params.min_inliers, static_cast<int>(kSample));
+  const auto share =
+      static_cast<int>(std::ceil(params.min_inlier_share * static_cast<double>(points.size())));
+  const int needed = std::max({params.min_inliers, static_cast<int>(kSample), share});
   if (static_cast<int>(points.size()) < needed) return StatusCode::table_not_found;
   int best = 0;
   IterationBound bound(params.confidence, params.min_iterations, params.max_iterations);
@@ -81,7 +83,8 @@ Status plane_from_points(const CardPoints& points, double card_length_mm, const 
     Plane hypothesis;
     if (!plane_through(points[sample[0]], points[sample[1]], points[sample[2]], hypothesis)) continue;
     const int count = count_inliers(points, hypothesis, params.inlier_mm);
-    if (count <= best) continue;
+    const Vec3 sight = points[sample[0]].normalized();
+    if (count <= best || -hypothesis.normal.dot(sight) < params.min_tilt_cosine) continue;
     best = count;
     plane = hypothesis;
     bound.update(static_cast<double>(best) / static_cast<double>(points.size()), kSample);
