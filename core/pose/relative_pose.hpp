@@ -37,7 +37,7 @@ struct RelativePoseParams {
   bool refine = true;  // Levenberg-Marquardt (Table III)
   int refine_iterations = 20;
   int refine_rounds = 3;              // refinements, each on the inliers that the one before leaves
-  double robust_scale = 2.0;          // of the refinement's loss, in medians of the inliers' distances
+  double robust_scale = 3.0;          // of the refinement's loss, in medians of the inliers' distances
   double min_displacement_px = 0.5;   // median between the views; below: the camera did not move
   double min_parallax_deg = 1.0;      // median of the inliers; below: the views are too close for depth
   double fitness_threshold_px = 3.0;  // of eq. (1) where hypotheses are compared: one for all of them
