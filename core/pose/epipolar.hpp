@@ -34,14 +34,28 @@ EpipolarTerms<Real> epipolar_terms(const Mat3& e, const Real& x1, const Real& y1
           line_x * line_x + line_y * line_y};
 }
 
-// Zero on an epipole, where every line fits.
+// The squared distance on a picture of focal length 1 is numerator / denominator: kept apart where a
+// comparison can spare the division.
+template <class Real>
+struct SquaredDistanceFraction {
+  Real numerator;
+  Real denominator;
+};
+
+template <class Real>
+SquaredDistanceFraction<Real> squared_distance_fraction(const EpipolarTerms<Real>& terms) {
+  return {0.5 * (terms.constraint * terms.constraint) *
+              (terms.squared_normal_first + terms.squared_normal_second),
+          terms.squared_normal_first * terms.squared_normal_second};
+}
+
+// Stands in for the denominator on an epipole, where every line fits and the numerator is zero, too.
+inline constexpr double kMinDenominator = std::numeric_limits<double>::min();
+
 inline double symmetric_epipolar_distance_px(const Mat3& essential, const RayMatch& match, double focal_px) {
-  const auto terms =
-      epipolar_terms<double>(essential, match.first.x(), match.first.y(), match.second.x(), match.second.y());
-  const double product = terms.squared_normal_first * terms.squared_normal_second;
-  const double sum = terms.squared_normal_first + terms.squared_normal_second;
-  if (!(product > std::numeric_limits<double>::min())) return 0.0;
-  return focal_px * std::abs(terms.constraint) * std::sqrt(0.5 * sum / product);
+  const auto fraction = squared_distance_fraction(epipolar_terms<double>(
+      essential, match.first.x(), match.first.y(), match.second.x(), match.second.y()));
+  return focal_px * std::sqrt(fraction.numerator / std::max(fraction.denominator, kMinDenominator));
 }
 
 // Eq. (1): the sum of max(threshold − distance, 0).

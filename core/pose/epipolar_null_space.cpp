@@ -14,8 +14,8 @@ constexpr int kMaxSweeps = 12;  // Jacobi converges quadratically: 9x9 takes six
 // Off-diagonal square sum, relative to the trace's square, below which rotations change nothing.
 constexpr double kJacobiTolerance = 1e-30;
 
-// The mirror of general direction that mixes the basis: with plain unit vectors a sideways motion without
-// rotation is a combination of two of them, and Nistér's w = 1 would lose it.
+// A mirror of general direction that mixes the basis: a vector of the plain one may well be orthogonal to the
+// true matrix (sideways motion without rotation; ten exact matches), and Nistér's w = 1 would lose that.
 constexpr std::array<double, kBasis> kMixing = {0.31, -0.54, 0.43, 0.71};
 constexpr double kMixingSquaredNorm = 0.31 * 0.31 + 0.54 * 0.54 + 0.43 * 0.43 + 0.71 * 0.71;
 
@@ -49,8 +49,7 @@ void reflect(const Vec9& v, std::size_t start, Vec9& target) {
   for (std::size_t i = start; i < kEntries; ++i) target[i] -= twice * v[i];
 }
 
-// Householder reflections H0…H4 make the five rows triangular; the complement is H0…H4 times any orthonormal
-// vectors over the last four entries.
+// Householder reflections H0…H4 make the five rows triangular; the complement is H0…H4 e5…e8.
 void complement_five_rows(std::span<const RayMatch> matches, std::array<Mat3, kBasis>& basis) {
   std::array<Vec9, kSample> rows;
   for (std::size_t k = 0; k < kSample; ++k) rows[k] = epipolar_row(matches[k]);
@@ -66,9 +65,7 @@ void complement_five_rows(std::span<const RayMatch> matches, std::array<Mat3, kB
   }
   for (std::size_t b = 0; b < kBasis; ++b) {
     Vec9 e{};
-    for (std::size_t i = 0; i < kBasis; ++i) {
-      e[kSample + i] = (i == b ? 1.0 : 0.0) - 2.0 * kMixing[b] * kMixing[i] / kMixingSquaredNorm;
-    }
+    e[kSample + b] = 1.0;
     for (std::size_t k = kSample; k-- > 0;) reflect(mirrors[k], k, e);
     basis[b] = as_matrix(e);
   }
@@ -140,6 +137,12 @@ void smallest_singular_vectors(std::span<const RayMatch> matches, std::array<Mat
   }
 }
 
+void mix(std::array<Mat3, kBasis>& basis) {
+  Mat3 along = Mat3::Zero();
+  for (std::size_t b = 0; b < kBasis; ++b) along += (2.0 * kMixing[b] / kMixingSquaredNorm) * basis[b];
+  for (std::size_t b = 0; b < kBasis; ++b) basis[b] -= kMixing[b] * along;
+}
+
 }  // namespace
 
 void span_epipolar_null_space(std::span<const RayMatch> matches, std::array<Mat3, 4>& basis) {
@@ -148,6 +151,7 @@ void span_epipolar_null_space(std::span<const RayMatch> matches, std::array<Mat3
   } else {
     smallest_singular_vectors(matches, basis);
   }
+  mix(basis);
 }
 
 }  // namespace traygauge

@@ -1,7 +1,6 @@
 #include "core/pose/match_table.hpp"
 
 #include <algorithm>
-#include <limits>
 
 #include "core/pose/epipolar.hpp"
 
@@ -16,17 +15,10 @@ Lanes load(std::span<const double> values, std::size_t i) {
   return Eigen::Map<const Lanes, Eigen::AlignedMax>(values.data() + i);
 }
 
-// Squared distance = scale · constraint² · sum / product, its two halves kept apart to spare the division.
-template <class Real>
-struct DistanceFraction {
-  Real numerator;
-  Real denominator;
-};
-
-template <class Real>
-DistanceFraction<Real> distance_fraction(const EpipolarTerms<Real>& terms) {
-  return {terms.constraint * terms.constraint * (terms.squared_normal_first + terms.squared_normal_second),
-          terms.squared_normal_first * terms.squared_normal_second};
+// Distances of the matches i, i + 1, i + 2, i + 3: the same operations as symmetric_epipolar_distance_px.
+Lanes distances_px(const EpipolarTerms<Lanes>& terms, double focal_px) {
+  const auto fraction = squared_distance_fraction(terms);
+  return focal_px * (fraction.numerator / fraction.denominator.max(kMinDenominator)).sqrt();
 }
 
 }  // namespace
@@ -42,26 +34,19 @@ bool MatchTable::push_back(const RayMatch& match) {
 }
 
 void MatchTable::measure_distances(const Mat3& essential, double focal_px,
-                                   std::span<double> distances_px) const {
-  const double scale = 0.5 * focal_px * focal_px;
-  const double tiny = std::numeric_limits<double>::min();
+                                   std::span<double> distances) const {
   std::size_t i = 0;
   for (; i + kLanes <= size_; i += kLanes) {
-    const auto fraction = distance_fraction(
-        epipolar_terms<Lanes>(essential, load(x1_, i), load(y1_, i), load(x2_, i), load(y2_, i)));
-    Eigen::Map<Lanes>(distances_px.data() + i) =
-        (scale * fraction.numerator / fraction.denominator.max(tiny)).sqrt();
+    const auto terms =
+        epipolar_terms<Lanes>(essential, load(x1_, i), load(y1_, i), load(x2_, i), load(y2_, i));
+    Eigen::Map<Lanes>(distances.data() + i) = distances_px(terms, focal_px);
   }
-  for (; i < size_; ++i) {
-    const auto fraction =
-        distance_fraction(epipolar_terms<double>(essential, x1_[i], y1_[i], x2_[i], y2_[i]));
-    distances_px[i] = std::sqrt(scale * fraction.numerator / std::max(fraction.denominator, tiny));
-  }
+  for (; i < size_; ++i) distances[i] = symmetric_epipolar_distance_px(essential, (*this)[i], focal_px);
 }
 
 std::size_t MatchTable::count_inliers(const Mat3& essential, double focal_px, double threshold_px,
                                       std::size_t to_beat) const {
-  const double limit = 2.0 * (threshold_px / focal_px) * (threshold_px / focal_px);
+  const double limit = (threshold_px / focal_px) * (threshold_px / focal_px);
   std::size_t count = 0;
   for (std::size_t start = 0; start < size_; start += kCheckEvery) {
     if (count + (size_ - start) <= to_beat) return count;
@@ -69,14 +54,14 @@ std::size_t MatchTable::count_inliers(const Mat3& essential, double focal_px, do
     Lanes hits = Lanes::Zero();
     std::size_t i = start;
     for (; i + kLanes <= end; i += kLanes) {
-      const auto fraction = distance_fraction(
+      const auto fraction = squared_distance_fraction(
           epipolar_terms<Lanes>(essential, load(x1_, i), load(y1_, i), load(x2_, i), load(y2_, i)));
       hits += (fraction.numerator <= limit * fraction.denominator).select(Lanes::Ones(), Lanes::Zero());
     }
     count += static_cast<std::size_t>(hits.sum());
     for (; i < end; ++i) {
       const auto fraction =
-          distance_fraction(epipolar_terms<double>(essential, x1_[i], y1_[i], x2_[i], y2_[i]));
+          squared_distance_fraction(epipolar_terms<double>(essential, x1_[i], y1_[i], x2_[i], y2_[i]));
       count += fraction.numerator <= limit * fraction.denominator ? 1U : 0U;
     }
   }
@@ -85,8 +70,6 @@ std::size_t MatchTable::count_inliers(const Mat3& essential, double focal_px, do
 
 double MatchTable::fitness(const Mat3& essential, double focal_px, double threshold_px,
                            double to_beat) const {
-  const double scale = 0.5 * focal_px * focal_px;
-  const double tiny = std::numeric_limits<double>::min();
   double fitness = 0.0;
   for (std::size_t start = 0; start < size_; start += kCheckEvery) {
     if (fitness + static_cast<double>(size_ - start) * threshold_px <= to_beat) return fitness;
@@ -94,17 +77,14 @@ double MatchTable::fitness(const Mat3& essential, double focal_px, double thresh
     Lanes sum = Lanes::Zero();
     std::size_t i = start;
     for (; i + kLanes <= end; i += kLanes) {
-      const auto fraction = distance_fraction(
-          epipolar_terms<Lanes>(essential, load(x1_, i), load(y1_, i), load(x2_, i), load(y2_, i)));
-      const Lanes distance = (scale * fraction.numerator / fraction.denominator.max(tiny)).sqrt();
-      sum += (threshold_px - distance).max(0.0);
+      const auto terms =
+          epipolar_terms<Lanes>(essential, load(x1_, i), load(y1_, i), load(x2_, i), load(y2_, i));
+      sum += (threshold_px - distances_px(terms, focal_px)).max(0.0);
     }
     fitness += sum.sum();
     for (; i < end; ++i) {
-      const auto fraction =
-          distance_fraction(epipolar_terms<double>(essential, x1_[i], y1_[i], x2_[i], y2_[i]));
-      fitness += std::max(
-          threshold_px - std::sqrt(scale * fraction.numerator / std::max(fraction.denominator, tiny)), 0.0);
+      const double distance = symmetric_epipolar_distance_px(essential, (*this)[i], focal_px);
+      fitness += std::max(threshold_px - distance, 0.0);
     }
   }
   return fitness;

@@ -28,8 +28,8 @@ class MatchTable {
   std::size_t capacity() const { return x1_.size(); }
   RayMatch operator[](std::size_t i) const { return {{x1_[i], y1_[i]}, {x2_[i], y2_[i]}}; }
 
-  // Writes the symmetric epipolar distance of every match.
-  void measure_distances(const Mat3& essential, double focal_px, std::span<double> distances_px) const;
+  // Writes the symmetric epipolar distance of every match, in pixels.
+  void measure_distances(const Mat3& essential, double focal_px, std::span<double> distances) const;
 
   // Matches not farther than the threshold. Stops early, with a number not above `to_beat`, as soon as the
   // model can no longer have more than that.

@@ -1,6 +1,7 @@
 #include "core/pose/pose_refinement.hpp"
 
 #include <cmath>
+#include <numbers>
 
 #include "core/pose/epipolar.hpp"
 
@@ -8,7 +9,7 @@ namespace traygauge {
 namespace {
 
 constexpr double kMinNormal = 1e-12;  // of an epipolar line; a point that near the epipole has no direction
-const double kHalf = std::sqrt(0.5);  // a match's distance is the root of the mean of its two squares
+constexpr double kHalf = 0.5 * std::numbers::sqrt2;  // a distance is the root of the mean of its two squares
 
 // Two unit vectors that complete unit t to an orthogonal frame.
 Eigen::Matrix<double, 3, 2> tangents(const Vec3& t) {

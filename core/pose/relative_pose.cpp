@@ -7,6 +7,7 @@
 #include "core/pose/epipolar.hpp"
 #include "core/pose/essential_decomposition.hpp"
 #include "core/pose/model_search.hpp"
+#include "core/pose/planar_twin.hpp"
 #include "core/pose/pose_refinement.hpp"
 #include "core/pose/threshold_estimator.hpp"
 #include "core/pose/triangulation.hpp"
@@ -138,6 +139,32 @@ void refine(double focal_px, const RelativePoseParams& params, const ThresholdEs
   }
 }
 
+// Replaces the pose by its planar twin where that fits better, by eq. (1) on common ground. At a wide
+// threshold the search cannot tell them apart: either has nearly all matches as inliers.
+void choose_between_twins(double focal_px, const RelativePoseParams& params,
+                          const ThresholdEstimator& thresholds, RelativePoseWorkspace& workspace,
+                          RelativePose& pose) {
+  const Mat3 essential = essential_matrix(pose.second_from_first);
+  const auto indices = list_inliers(essential, focal_px, pose.threshold_px, workspace);
+  RelativePose twin = pose;
+  if (!find_planar_twin(workspace.matches, indices, pose.second_from_first, twin.second_from_first)) return;
+  twin.second_from_first =
+      choose_motion(essential_matrix(twin.second_from_first), indices, params, workspace);
+  refine(focal_px, params, thresholds, workspace, twin);
+  const double fitness = workspace.matches.fitness(essential_matrix(pose.second_from_first), focal_px,
+                                                   params.fitness_threshold_px, -1.0);
+  const double twin_fitness = workspace.matches.fitness(essential_matrix(twin.second_from_first), focal_px,
+                                                        params.fitness_threshold_px, -1.0);
+  pose.twin_fitness = twin_fitness;
+  if (twin_fitness <= fitness) return;
+  const auto twin_indices =
+      list_inliers(essential_matrix(twin.second_from_first), focal_px, twin.threshold_px, workspace);
+  const std::size_t in_front = count_in_front(workspace.matches, twin_indices, twin.second_from_first, 0.0);
+  if (2 * in_front <= twin_indices.size()) return;
+  pose = twin;
+  pose.twin_fitness = fitness;
+}
+
 // Fills the report and judges the outcome.
 Status conclude(std::span<const RayMatch> matches, double focal_px, const RelativePoseParams& params,
                 RelativePoseWorkspace& workspace, RelativePose& pose, std::span<std::uint8_t> inliers) {
@@ -191,6 +218,9 @@ Status estimate_relative_pose(std::span<const RayMatch> matches, double focal_px
   const auto indices = list_inliers(found.essential, focal_px, found.threshold_px, workspace);
   pose.second_from_first = choose_motion(found.essential, indices, params, workspace);
   if (params.refine) refine(focal_px, params, thresholds, workspace, pose);
+  if (params.refine && params.try_planar_twin) {
+    choose_between_twins(focal_px, params, thresholds, workspace, pose);
+  }
   return conclude(matches, focal_px, params, workspace, pose, inliers);
 }
 
