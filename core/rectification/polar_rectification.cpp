@@ -109,7 +109,7 @@ bool PolarRectification::find_angle_range(const RectificationParams& params) {
 }
 
 // From the dish pixel nearest to the baseline's direction to the farthest, less what is near the epipole.
-bool PolarRectification::find_column_range(View& view, const RectificationParams& params) const {
+bool PolarRectification::find_column_range(View& view, const RectificationParams& params) {
   const double epipole_depth = view.geometry.epipole().z();
   view.first_along = view.extent.min_along - params.margin_px;
   view.last_along = view.extent.max_along + params.margin_px;

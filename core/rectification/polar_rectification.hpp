@@ -1,7 +1,8 @@
 // Polar rectification for any motion: Pollefeys, Koch, Van Gool 1999 (paper III-B-1, reference [31]).
 // A rectified row is a pair of corresponding epipolar half-lines; a rectified column is the distance along
-// the line. Columns count from the dish pixel nearest to the epipole, so the epipole may lie anywhere, at
-// infinity too.
+// the line, counted in each view from its dish pixel nearest to the baseline's direction (less the margin).
+// Equal columns thus lie on one arc about the epipole, straight when that is at infinity, and buffers depend
+// on the dish alone. The spacing of rows follows the outermost dish pixel of either view, row by row.
 #pragma once
 
 #include <array>
@@ -21,12 +22,12 @@
 namespace traygauge {
 
 struct RectificationParams {
-  int max_rows = 1024;         // rows of the rectified pictures that memory is kept for
-  int max_columns = 1024;      // columns likewise
+  int max_rows = 1024;    // rows of the rectified pictures that memory is kept for; dishes of 2^17 px take
+                          // up to 720, and up to 1900 around an epipole in their middle (reduced then)
+  int max_columns = 768;  // columns likewise; such dishes take up to 670
   double max_reduction = 2.0;  // px that one sample may stand for to keep within the caps; beyond: failure
   double margin_px = 8.0;      // around the dish: half a census and aggregation window, so that rims match
-  double min_epipole_distance_px =
-      40.0;                 // pixels nearer to an epipole are masked: rows there fan out of few pixels
+  double min_epipole_distance_px = 40.0;  // pixels nearer to an epipole are masked: they fan out too far
   int order_samples = 256;  // matches, evenly picked, whose pairs decide on mirroring; the paper takes all
 };
 
@@ -55,8 +56,8 @@ struct RectificationWorkspace {
   }
 };
 
-// Views are 0 and 1, pixels those of the working pictures. Disparity = column in view 1 − column in view 0;
-// unless mirrored it grows towards the cameras, up to a constant offset a build.
+// Views are 0 and 1, pixels those of the working pictures. Disparity = column in view 1 − column in view 0:
+// for a given pixel of view 0 it grows as the point comes nearer, unless mirrored.
 class PolarRectification {
  public:
   // rectification_failed when the cameras coincide, no epipolar line crosses both dishes, or the caps would
@@ -97,7 +98,7 @@ class PolarRectification {
   static constexpr std::size_t index(int i) { return static_cast<std::size_t>(i); }
   bool set_up_geometry(const RectificationInput& first, const RectificationInput& second, const Pose& pose);
   bool find_angle_range(const RectificationParams& params);
-  bool find_column_range(View& view, const RectificationParams& params) const;
+  static bool find_column_range(View& view, const RectificationParams& params);
   double row_spacing(double angle) const;
   int count_rows(double pixels, int max_rows) const;
   bool choose_sampling(const RectificationParams& params);
