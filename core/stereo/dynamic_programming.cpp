@@ -5,7 +5,7 @@
 namespace traygauge {
 namespace {
 
-// Highest cost of a step: with the highest window sum and one more smoothness cost it still fits 16 bits.
+// A step costs at most this; with the highest window sum and one more step it still fits 16 bits.
 constexpr int kHighestStep = 8000;
 
 // Path costs of a column, relative to the best of each row.
@@ -15,13 +15,14 @@ struct PathColumn {
   CostLanes best{};  // its disparity
 };
 
-// The cheapest way to each disparity of `band` from an equal or smaller one.
-void climb(const PathColumn& from, Interval band, CostLanes step, CostLanes limit, CostLanes* costs,
-           CostLanes* origins) {
-  CostLanes cost = limit;
+// The cheapest way to each disparity of `band` from an equal or smaller one. What nothing reaches at a lower
+// cost is reached from the best for kHighestStep.
+void climb(const PathColumn& from, Interval band, CostLanes step, CostLanes* costs, CostLanes* origins) {
+  const CostLanes highest = broadcast(kHighestStep);
+  CostLanes cost = highest;
   CostLanes origin = from.best;
   for (int d = std::min(from.band.lo, band.lo); d <= band.hi; ++d) {
-    cost = smaller(cost + step, limit);
+    cost = smaller(cost + step, highest);
     if (from.band.contains(d)) {
       const CostLanes stay = from.costs[d - from.band.lo];
       const auto better = stay <= cost;
@@ -30,30 +31,20 @@ void climb(const PathColumn& from, Interval band, CostLanes step, CostLanes limi
     }
     if (d < band.lo) continue;
     costs[d - band.lo] = cost;
-    origins[d - band.lo] = origin;
+    origins[d - band.lo] = cost < highest ? origin : from.best;
   }
 }
 
-// The same from a larger disparity, where that is cheaper.
-void descend(const PathColumn& from, Interval band, CostLanes step, CostLanes limit, CostLanes* costs,
-             CostLanes* origins) {
-  CostLanes cost = limit;
-  CostLanes origin = from.best;
-  for (int d = std::max(from.band.hi, band.hi); d >= band.lo; --d) {
-    cost = smaller(cost + step, limit);
-    if (from.band.contains(d)) {
-      const CostLanes stay = from.costs[d - from.band.lo];
-      const auto better = stay <= cost;
-      origin = better ? broadcast(d) : origin;
-      cost = smaller(stay, cost);
-    }
-    if (d > band.hi) continue;
+// The same from the next larger disparity, where that is cheaper: two successive pixels then share a partner.
+// Two or more down would walk backwards in the second picture.
+void descend(const PathColumn& from, Interval band, CostLanes step, CostLanes* costs, CostLanes* origins) {
+  const Interval reached{std::max(band.lo, from.band.lo - 1), std::min(band.hi, from.band.hi - 1)};
+  for (int d = reached.lo; d <= reached.hi; ++d) {
+    const CostLanes cost = from.costs[d + 1 - from.band.lo] + step;
     CostLanes& known = costs[d - band.lo];
-    CostLanes& known_origin = origins[d - band.lo];
-    known_origin = cost < known ? origin : known_origin;
+    CostLanes& origin = origins[d - band.lo];
+    origin = cost < known ? broadcast(d + 1) : origin;
     known = smaller(cost, known);
-    // A step that reached the limit may come from anywhere: from the best.
-    known_origin = known >= limit ? from.best : known_origin;
   }
 }
 
@@ -75,7 +66,7 @@ void settle(const CostLanes* own, PathColumn& column) {
 }  // namespace
 
 void find_best_paths(const PathStates& states, Interval columns, std::span<const CostLanes> smoothness,
-                     int limit_px, std::span<CostLanes> disparities) {
+                     std::span<CostLanes> disparities) {
   const std::size_t half = states.paths.size() / 2;
   PathColumn previous{{}, states.paths.data(), {}};
   PathColumn current{{}, states.paths.data() + half, {}};
@@ -86,12 +77,8 @@ void find_best_paths(const PathStates& states, Interval columns, std::span<const
       std::fill_n(current.costs, current.band.count(), CostLanes{});
     } else {
       const CostLanes step = smaller(smoothness[column], broadcast(kHighestStep));
-      CostLanes limit = broadcast(kHighestStep);
-      for (int r = 0; r < kRowLanes; ++r) {
-        limit[r] = static_cast<std::int16_t>(std::min(kHighestStep, step[r] * limit_px));
-      }
-      climb(previous, current.band, step, limit, current.costs, states.predecessors_of(x));
-      descend(previous, current.band, step, limit, current.costs, states.predecessors_of(x));
+      climb(previous, current.band, step, current.costs, states.predecessors_of(x));
+      descend(previous, current.band, step, current.costs, states.predecessors_of(x));
     }
     settle(states.costs_of(x), current);
     std::swap(previous, current);

@@ -35,10 +35,12 @@ struct PathStates {
 };
 
 // Finds, for each row, the disparities d(x) over `columns` that minimise
-//   Σ cost(x, d(x)) + Σ min(smoothness(x) · |d(x) − d(x − 1)|, smoothness(x) · limit)
-// and writes them, one CostLanes a column. Min-convolution makes it O(columns · disparities). Of equal paths
-// the one that keeps its disparity wins, then the one from a smaller disparity.
+//   Σ cost(x, d(x)) + Σ smoothness(x) · |d(x) − d(x − 1)|   with d(x) ≥ d(x − 1) − 1
+// and writes them, one CostLanes a column. The constraint is the order of [34]: partners in the second
+// picture never go backwards, so what only the first camera sees becomes a ramp. A column that no state of
+// the last one reaches in that way starts anew. Min-convolution makes it O(columns · disparities). Of equal
+// paths the one that keeps its disparity wins, then the one from the largest smaller disparity.
 void find_best_paths(const PathStates& states, Interval columns, std::span<const CostLanes> smoothness,
-                     int limit_px, std::span<CostLanes> disparities);
+                     std::span<CostLanes> disparities);
 
 }  // namespace traygauge

@@ -7,6 +7,8 @@ namespace {
 
 constexpr int kFirstRow = -kFirstPixelRow;  // of the block, within a PixelColumn
 
+constexpr float kHighestCost = 8000.0F;  // as much as find_best_paths() takes for one pixel
+
 // Sums over the window's rows of one column, for each row of the block.
 struct ColumnMoments {
   std::int32_t sum[kRowLanes] = {};
@@ -42,7 +44,7 @@ void smoothness_costs(const BlockPicture& picture, const StereoParams& params, s
       const float mean = static_cast<float>(moments.sum[r]) / area;
       const float variance = static_cast<float>(moments.squares[r]) / area - mean * mean;
       const float falling = highest * halving / (halving + std::max(variance, 0.0F));
-      cost[r] = std::max(static_cast<std::int16_t>(falling), std::int16_t{1});
+      cost[r] = static_cast<std::int16_t>(std::clamp(falling, 1.0F, kHighestCost));
     }
     accumulate(column_at(x - radius), radius, -1, moments);
     accumulate(column_at(x + radius + 1), radius, 1, moments);

@@ -115,14 +115,10 @@ void match_level(const StereoPair& pair, ImageView<const Disparity> coarse, Disp
       prepare_costs(params, workspace);
       smoothness_costs(workspace.block.first, params, workspace.smoothness);
       aggregate_costs(columns, params, workspace);
-      find_best_paths(states, columns, workspace.smoothness, params.smoothness_limit_px, workspace.paths);
+      find_best_paths(states, columns, workspace.smoothness, workspace.paths);
     }
     write_rows(pair, top, columns, range, params, workspace, disparity);
   }
-}
-
-int count_levels(const StereoParams& params) {
-  return std::clamp(params.levels, 1, kMaxLevels);
 }
 
 }  // namespace
@@ -131,21 +127,21 @@ Status match_dense(ImageView<const std::uint8_t> first, ImageView<const std::uin
                    ImageView<const std::uint8_t> second, ImageView<const std::uint8_t> second_mask,
                    DisparityRange range, const StereoParams& params, StereoWorkspace& workspace,
                    ImageView<Disparity> disparity) {
+  if (const Status valid = validate(params); !valid.ok()) return valid;
   if (std::max(first.width, second.width) > workspace.max_columns || first.height > workspace.max_rows) {
     return StatusCode::out_of_memory;
   }
-  const int levels = count_levels(params);
   if (range.count() < 1 || range.count() > workspace.max_disparities) {
     return StatusCode::disparity_range_too_large;
   }
   std::array<StereoPair, kMaxLevels> pairs{};
   pairs[0] = {first, first_mask, second, second_mask};
-  for (int level = 1; level < levels; ++level) {
+  for (int level = 1; level < params.levels; ++level) {
     const auto l = static_cast<std::size_t>(level);
     pairs[l] = halve_pair(pairs[l - 1], workspace.coarser[l]);
   }
   ImageView<const Disparity> coarse;
-  for (int level = levels - 1; level >= 0; --level) {
+  for (int level = params.levels - 1; level >= 0; --level) {
     const auto l = static_cast<std::size_t>(level);
     const StereoPair& pair = pairs[l];
     const auto target =
