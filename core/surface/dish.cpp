@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "core/surface/half_sample_mode.hpp"
-
 namespace traygauge {
 
 Status measure_rim_height(const DishInput& input, const DishParams& params, DishWorkspace& workspace,
@@ -17,7 +15,7 @@ Status measure_rim_height(const DishInput& input, const DishParams& params, Dish
     workspace.heights_mm[i] =
         over_card ? input.table.height(points[i]) : input.card_thickness_mm - input.rim.height(points[i]);
   }
-  rim_height_mm = half_sample_mode(workspace.heights_mm.first(count), params.mode_halvings);
+  rim_height_mm = half_sample_mode(workspace.heights_mm.first(count), params.mode);
   return StatusCode::ok;
 }
 

@@ -7,6 +7,7 @@
 #include "core/base/arena.hpp"
 #include "core/base/geometry.hpp"
 #include "core/base/status.hpp"
+#include "core/surface/half_sample_mode.hpp"
 
 namespace traygauge {
 
@@ -25,7 +26,7 @@ enum class DishHeight : std::uint8_t {
 struct DishParams {
   DishSurface surface = DishSurface::rim_and_card;
   DishHeight height = DishHeight::card_points_under_rim_plane;
-  int mode_halvings = 1;  // of the half-sample mode of the heights
+  ModeParams mode;
 };
 
 // In the first camera, mm.

@@ -4,21 +4,33 @@
 #include <cstddef>
 
 namespace traygauge {
+namespace {
 
-double half_sample_mode(std::span<double> values, int halvings) {
+// The shortest run of sorted values that holds half of them.
+std::span<const double> densest_half(std::span<const double> sorted) {
+  const std::size_t half = (sorted.size() + 1) / 2;
+  std::size_t best = 0;
+  for (std::size_t i = 1; i + half <= sorted.size(); ++i) {
+    if (sorted[i + half - 1] - sorted[i] < sorted[best + half - 1] - sorted[best]) best = i;
+  }
+  return sorted.subspan(best, half);
+}
+
+}  // namespace
+
+double half_sample_mode(std::span<double> values, const ModeParams& params) {
   if (values.empty()) return 0.0;
   std::sort(values.begin(), values.end());
-  for (int round = 0; round < halvings && values.size() > 3; ++round) {
-    const std::size_t half = (values.size() + 1) / 2;
-    std::size_t best = 0;
-    for (std::size_t i = 1; i + half <= values.size(); ++i) {
-      if (values[i + half - 1] - values[i] < values[best + half - 1] - values[best]) best = i;
-    }
-    values = values.subspan(best, half);
-  }
+  std::span<const double> dense = values;
+  for (int round = 0; round < params.halvings && dense.size() > 3; ++round) dense = densest_half(dense);
+
+  const double middle = 0.5 * (dense.front() + dense.back());
+  const double reach = std::max(1.0, params.reach) * 0.5 * (dense.back() - dense.front());
+  const auto begin = std::lower_bound(values.begin(), values.end(), std::min(middle - reach, dense.front()));
+  const auto end = std::upper_bound(values.begin(), values.end(), std::max(middle + reach, dense.back()));
   double sum = 0.0;
-  for (const double value : values) sum += value;
-  return sum / static_cast<double>(values.size());
+  for (auto value = begin; value != end; ++value) sum += *value;
+  return sum / static_cast<double>(end - begin);
 }
 
 }  // namespace traygauge

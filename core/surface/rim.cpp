@@ -135,6 +135,25 @@ bool unproject_inside(const RimInput& input, const RimParams& params, const Dish
   return true;
 }
 
+// Moves the points to the front whose line of sight from both cameras comes from inside the dish, or from
+// outside at a tangent of at most `limit`; returns their number.
+std::size_t count_outer_edge(std::span<Vec3> points_mm, const Plane& rim, const Vec3& second_centre,
+                             double limit) {
+  Vec3 centre = Vec3::Zero();
+  for (const Vec3& point : points_mm) centre += point;
+  centre /= static_cast<double>(points_mm.size());
+  const auto is_edge = [&](const Vec3& point) {
+    const Vec3 radius = point - centre;
+    const Vec3 outward = (radius - rim.normal * rim.normal.dot(radius)).normalized();
+    const auto tangent = [&](const Vec3& camera) {
+      return outward.dot(camera - point) / rim.normal.dot(camera - point);
+    };
+    return tangent(Vec3::Zero()) <= limit && tangent(second_centre) <= limit;
+  };
+  return static_cast<std::size_t>(std::partition(points_mm.begin(), points_mm.end(), is_edge) -
+                                  points_mm.begin());
+}
+
 }  // namespace
 
 Status collect_rim_points(const RimInput& input, const RimParams& params, RimWorkspace& workspace) {
@@ -162,9 +181,23 @@ Status collect_rim_points(const RimInput& input, const RimParams& params, RimWor
   return is_enough ? StatusCode::ok : StatusCode::rim_not_found;
 }
 
-Status fit_rim_plane(BoundedList<Vec3>& points_mm, const RimParams& params, Random& random, PlaneFit& fit) {
+Status fit_rim_plane(const Pose& second_from_first, const RimParams& params, Random& random,
+                     BoundedList<Vec3>& points_mm, PlaneFit& fit) {
   if (!fit_plane(points_mm.items(), params.plane, random, fit)) return StatusCode::rim_not_found;
   points_mm.truncate(static_cast<std::size_t>(fit.inliers));
+  if (params.source == RimSource::dense) return StatusCode::ok;
+
+  const Vec3 second_centre = second_from_first.inverse().translation;
+  const std::size_t edge_points =
+      count_outer_edge(points_mm.items(), fit.plane, second_centre, params.max_outward_tangent);
+  if (edge_points <
+      std::max<std::size_t>(static_cast<std::size_t>(params.plane.min_inliers), points_mm.size() / 3)) {
+    return StatusCode::ok;
+  }
+  PlaneFit edge_fit;
+  if (!fit_plane(points_mm.items().first(edge_points), params.plane, random, edge_fit)) return StatusCode::ok;
+  edge_fit.iterations += fit.iterations;
+  fit = edge_fit;
   return StatusCode::ok;
 }
 

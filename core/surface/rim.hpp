@@ -31,6 +31,10 @@ struct RimParams {
   // Contour: where the border runs along the epipolar line the crossing is uncertain; 0.5 is 30 degrees.
   double min_crossing_sine = 0.5;
   PlaneFitParams plane;
+  // Contour: seen from outside, the near side's border is the outer wall below the edge, in each view another
+  // line of it. The plane is fitted again without the points that either camera sees from further outside
+  // than this; tangent of the angle between the line of sight and the rim's normal.
+  double max_outward_tangent = 0.0;
 };
 
 struct RimWorkspace {
@@ -60,7 +64,10 @@ struct RimInput {
 // tracing.
 Status collect_rim_points(const RimInput& input, const RimParams& params, RimWorkspace& workspace);
 
-// The plane of most rim points; keeps its inliers only in `points_mm`. rim_not_found when too few agree.
-Status fit_rim_plane(BoundedList<Vec3>& points_mm, const RimParams& params, Random& random, PlaneFit& fit);
+// The plane of most rim points, normal towards the first camera. The first `fit.inliers` of `points_mm` are
+// those that it rests on; the others that remain lie near it, on the near side's wall, and serve for the rim's
+// size. rim_not_found when too few agree.
+Status fit_rim_plane(const Pose& second_from_first, const RimParams& params, Random& random,
+                     BoundedList<Vec3>& points_mm, PlaneFit& fit);
 
 }  // namespace traygauge

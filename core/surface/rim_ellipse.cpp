@@ -1,6 +1,5 @@
 #include "core/surface/rim_ellipse.hpp"
 
-#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
@@ -16,6 +15,30 @@ std::array<Vec3, 2> plane_axes(const Plane& plane) {
   const Vec3 helper = std::abs(plane.normal.x()) < 0.5 ? Vec3::UnitX() : Vec3::UnitY();
   const Vec3 first = plane.normal.cross(helper).normalized();
   return {first, plane.normal.cross(first)};
+}
+
+// Solves a symmetric positive definite system by Cholesky's method; false when it is singular.
+bool solve_symmetric(Mat5 matrix, Vec5 right_side, Vec5& solution) {
+  for (int i = 0; i < 5; ++i) {
+    for (int j = 0; j <= i; ++j) {
+      double rest = matrix(i, j);
+      for (int k = 0; k < j; ++k) rest -= matrix(i, k) * matrix(j, k);
+      if (i != j) {
+        matrix(i, j) = rest / matrix(j, j);
+      } else if (rest > 0.0) {
+        matrix(i, i) = std::sqrt(rest);
+      } else {
+        return false;
+      }
+    }
+    for (int k = 0; k < i; ++k) right_side[i] -= matrix(i, k) * right_side[k];
+    right_side[i] /= matrix(i, i);
+  }
+  for (int i = 4; i >= 0; --i) {
+    for (int k = i + 1; k < 5; ++k) right_side[i] -= matrix(k, i) * solution[k];
+    solution[i] = right_side[i] / matrix(i, i);
+  }
+  return true;
 }
 
 }  // namespace
@@ -37,14 +60,16 @@ Status fit_rim_size(std::span<const Vec3> rim_points_mm, const Plane& rim, RimEl
     const double u = axes[0].dot(point - mean) / scale;
     const double v = axes[1].dot(point - mean) / scale;
     const Vec5 row = (Vec5() << u * u, u * v, v * v, u, v).finished();
-    normal_matrix += row * row.transpose();
+    for (int column = 0; column < 5; ++column) normal_matrix.col(column) += row[column] * row;
     right_side += row;
   }
-  const Vec5 conic = normal_matrix.ldlt().solve(right_side);
+  Vec5 conic = Vec5::Zero();
+  if (!solve_symmetric(normal_matrix, right_side, conic)) return StatusCode::rim_not_found;
   Eigen::Matrix2d form;
   form << conic[0], 0.5 * conic[1], 0.5 * conic[1], conic[2];
   const Vec2 linear(conic[3], conic[4]);
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver(form);
+  Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver;
+  solver.computeDirect(form);  // closed form; the iterative one refers to malloc at this size
   if (!(solver.eigenvalues()[0] > 0.0)) return StatusCode::rim_not_found;
 
   const Vec2 centre = -0.5 * solver.eigenvectors() *
