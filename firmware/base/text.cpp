@@ -18,7 +18,9 @@ std::string padding(const std::string& text, std::size_t width) {
 std::string fixed(double number, int decimals) {
   std::array<char, 400> buffer{};  // the largest double has 309 digits
   std::snprintf(buffer.data(), buffer.size(), "%.*f", decimals, number);
-  return buffer.data();
+  const std::string text = buffer.data();
+  const bool is_zero = text.find_first_not_of("-0.") == std::string::npos;
+  return is_zero && text[0] == '-' ? text.substr(1) : text;
 }
 
 std::string mebibytes(std::size_t bytes) {

@@ -6,7 +6,7 @@
 
 namespace traygauge {
 
-// A number with a fixed count of decimals.
+// A number with a fixed count of decimals; never a negative zero.
 std::string fixed(double number, int decimals);
 
 // Bytes in MiB, two decimals.

@@ -19,7 +19,6 @@ constexpr int kBarWidthPx = 18;
 constexpr int kBarColumnPx = 100;  // bar, ticks and margins
 constexpr int kTicks = 5;
 constexpr double kTextScale = 0.55;
-const cv::Scalar kUnknown(60, 56, 52);
 
 cv::Mat apply_scale(const cv::Mat& values, const ColourScale& scale) {
   cv::Mat bytes;
@@ -84,7 +83,7 @@ cv::Mat add_title(const cv::Mat& panel, const std::string& title) {
 }
 
 cv::Mat draw_missing(cv::Size size, const std::string& reason) {
-  cv::Mat panel(size, CV_8UC3, kUnknown);
+  cv::Mat panel(size, CV_8UC3, kUnknownColour);
   const std::vector<std::string> lines = wrap(reason, size.width - 4 * kMarginPx);
   constexpr int line_height = 26;
   int y = size.height / 2 - static_cast<int>(lines.size()) * line_height / 2 + line_height;
@@ -95,12 +94,12 @@ cv::Mat draw_missing(cv::Size size, const std::string& reason) {
   return panel;
 }
 
-cv::Mat fit(const cv::Mat& picture, cv::Size size, int interpolation) {
+cv::Mat fit(const cv::Mat& picture, cv::Size size, int interpolation, const cv::Scalar& background) {
   const double scale = std::min(static_cast<double>(size.width) / picture.cols,
                                 static_cast<double>(size.height) / picture.rows);
   const cv::Size scaled(std::clamp(static_cast<int>(std::lround(scale * picture.cols)), 1, size.width),
                         std::clamp(static_cast<int>(std::lround(scale * picture.rows)), 1, size.height));
-  cv::Mat panel = cv::Mat::zeros(size, picture.type());
+  cv::Mat panel(size, picture.type(), background);
   const cv::Rect place((size.width - scaled.width) / 2, (size.height - scaled.height) / 2, scaled.width,
                        scaled.height);
   cv::Mat target = panel(place);
@@ -113,7 +112,7 @@ cv::Mat colour_values(const cv::Mat& values, const ColourScale& scale) {
   cv::Mat filled = values.clone();
   filled.setTo(scale.low, ~known);
   cv::Mat colours = apply_scale(filled, scale);
-  colours.setTo(kUnknown, ~known);
+  colours.setTo(kUnknownColour, ~known);
   return colours;
 }
 
@@ -121,7 +120,8 @@ cv::Mat draw_map(const cv::Mat& map, const ColourScale& scale, cv::Size size) {
   cv::Mat panel(size, CV_8UC3, kPaper);
   const cv::Size room(size.width - kBarColumnPx, size.height);
   const bool shrinks = map.cols > room.width || map.rows > room.height;
-  fit(map, room, shrinks ? cv::INTER_AREA : cv::INTER_NEAREST).copyTo(panel.colRange(0, room.width));
+  fit(map, room, shrinks ? cv::INTER_AREA : cv::INTER_NEAREST, kUnknownColour)
+      .copyTo(panel.colRange(0, room.width));
   draw_bar(panel, scale);
   return panel;
 }

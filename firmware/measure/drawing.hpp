@@ -10,6 +10,7 @@ namespace traygauge {
 inline constexpr int kTitleHeightPx = 34;
 inline const cv::Scalar kInk(235, 235, 235);
 inline const cv::Scalar kPaper(32, 32, 32);
+inline const cv::Scalar kUnknownColour(60, 56, 52);
 
 // ASCII text, outlined so that it can be read on any picture; `origin` is the left end of its base line.
 void draw_text(cv::Mat& image, const std::string& text, cv::Point origin, double scale,
@@ -22,8 +23,8 @@ cv::Mat add_title(const cv::Mat& panel, const std::string& title);
 // A panel that says why there is nothing to show.
 cv::Mat draw_missing(cv::Size size, const std::string& reason);
 
-// `picture` as large as it fits, in the middle of a panel.
-cv::Mat fit(const cv::Mat& picture, cv::Size size, int interpolation);
+// `picture` as large as it fits, in the middle of a panel of `background`.
+cv::Mat fit(const cv::Mat& picture, cv::Size size, int interpolation, const cv::Scalar& background);
 
 // What numbers look like.
 struct ColourScale {

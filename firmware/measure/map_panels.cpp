@@ -6,7 +6,7 @@
 #include <opencv2/imgproc.hpp>
 #include <string>
 
-#include "firmware/base/text.hpp"
+#include "core/segmentation/label_regions.hpp"
 #include "firmware/measure/drawing.hpp"
 #include "firmware/measure/panels.hpp"
 
@@ -58,13 +58,16 @@ cv::Rect known_part(const cv::Mat& values) {
   return box & cv::Rect({0, 0}, values.size());
 }
 
-// Where the labels change, drawn into the map of the same picture.
+// Where the labels on the dish change, drawn into the map of the same picture.
 void outline_labels(cv::Mat& map, const ImageView<const std::uint8_t>& labels) {
   if (labels.empty() || labels.width != map.cols || labels.height != map.rows) return;
+  const auto label_on_dish = [&](int x, int y) {
+    return is_on_dish(labels.at(x, y)) ? labels.at(x, y) : kBackgroundLabel;
+  };
   for (int y = 0; y + 1 < labels.height; ++y) {
     for (int x = 0; x + 1 < labels.width; ++x) {
-      const std::uint8_t label = labels.at(x, y);
-      if (label != labels.at(x + 1, y) || label != labels.at(x, y + 1)) {
+      const std::uint8_t label = label_on_dish(x, y);
+      if (label != label_on_dish(x + 1, y) || label != label_on_dish(x, y + 1)) {
         map.at<cv::Vec3b>(y, x) = {235, 235, 235};
       }
     }

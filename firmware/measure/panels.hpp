@@ -8,7 +8,7 @@
 
 namespace traygauge {
 
-// A view as stored, its labels tinted and outlined, every item with its number and volume.
+// The labelled part of a view as stored, tinted and outlined, every item with its number and volume.
 cv::Mat draw_view(const LoadedView& view, const Measurement& measurement, cv::Size size);
 
 // Disparity of the rectified pair.

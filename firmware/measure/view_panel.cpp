@@ -11,7 +11,8 @@
 namespace traygauge {
 namespace {
 
-constexpr double kTint = 0.25;  // share of the label's colour inside its outline
+constexpr double kTint = 0.25;    // share of the label's colour inside its outline
+constexpr double kMargin = 1.08;  // around what is labelled
 constexpr double kTextScale = 0.6;
 constexpr int kLineHeightPx = 22;
 
@@ -24,6 +25,20 @@ cv::Mat to_bgr(const Picture& picture) {
   if (picture.format == PixelFormat::bgr8) return view.clone();
   cv::cvtColor(view, bgr, gray ? cv::COLOR_GRAY2BGR : cv::COLOR_RGB2BGR);
   return bgr;
+}
+
+// Everything that has a label, with a margin, in the proportions of the picture.
+cv::Rect labelled_part(const cv::Mat& labels) {
+  const cv::Rect picture({0, 0}, labels.size());
+  const cv::Rect box = cv::boundingRect(labels);
+  if (box.empty()) return picture;
+  const double share = std::max(static_cast<double>(box.width) / picture.width,
+                                static_cast<double>(box.height) / picture.height);
+  const double scale = std::min(1.0, share * kMargin);
+  const cv::Size size(static_cast<int>(scale * picture.width), static_cast<int>(scale * picture.height));
+  const cv::Point middle = (box.tl() + box.br()) / 2;
+  return {std::clamp(middle.x - size.width / 2, 0, picture.width - size.width),
+          std::clamp(middle.y - size.height / 2, 0, picture.height - size.height), size.width, size.height};
 }
 
 void tint_labels(cv::Mat& panel, const cv::Mat& labels) {
@@ -74,11 +89,13 @@ void draw_item(cv::Mat& panel, const cv::Mat& labels, const ItemResult& item) {
 }  // namespace
 
 cv::Mat draw_view(const LoadedView& view, const Measurement& measurement, cv::Size size) {
-  cv::Mat panel = fit(to_bgr(view.picture), size, cv::INTER_AREA);
-  if (view.labels.pixels.empty()) return panel;
+  const cv::Mat picture = to_bgr(view.picture);
+  if (view.labels.pixels.empty()) return fit(picture, size, cv::INTER_AREA, kUnknownColour);
   auto* pixels = const_cast<std::uint8_t*>(view.labels.pixels.data());
   const cv::Mat stored(view.labels.size.height, view.labels.size.width, CV_8UC1, pixels);
-  const cv::Mat labels = fit(stored, size, cv::INTER_NEAREST);
+  const cv::Rect part = labelled_part(stored);
+  cv::Mat panel = fit(picture(part), size, cv::INTER_AREA, kUnknownColour);
+  const cv::Mat labels = fit(stored(part), size, cv::INTER_NEAREST, kBackgroundLabel);
   tint_labels(panel, labels);
   for (const ItemResult& item : measurement.items) draw_item(panel, labels, item);
   return panel;

@@ -11,6 +11,7 @@ namespace traygauge {
 
 inline constexpr int kMinPictureSide = 16;
 inline constexpr int kMaxPictureSide = 8192;
+inline constexpr std::size_t kMaxPictureFileBytes = std::size_t{128} << 20U;
 
 struct PictureSize {
   int width = 0;

@@ -12,7 +12,6 @@
 namespace traygauge {
 namespace {
 
-constexpr std::size_t kMaxFileBytes = std::size_t{128} << 20U;
 constexpr png_alloc_size_t kMaxChunkBytes = png_alloc_size_t{4} << 20U;  // texts and profiles
 
 // libpng reports by leaving through longjmp, so between setjmp and a call into the library no object with a
@@ -106,7 +105,7 @@ void read_header(PngDecoder& decoder, const InputFile& file, std::optional<Pictu
 void read_gray(const InputFile& file, PictureSize required, int bits, const char* hint,
                std::vector<std::uint8_t>& samples) {
   const std::string expected = std::to_string(bits) + "-bit grey PNG";
-  const std::vector<std::uint8_t> bytes = read_bytes(file, kMaxFileBytes, expected.c_str());
+  const std::vector<std::uint8_t> bytes = read_bytes(file, kMaxPictureFileBytes, expected.c_str());
   if (bytes.size() < 8 || png_sig_cmp(bytes.data(), 0, 8) != 0) {
     throw InputError(file, expected, bytes.empty() ? "an empty file" : "bytes of another kind", hint);
   }
