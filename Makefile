@@ -48,7 +48,8 @@ format: packages
 # clang-tidy over everything that is shipped; LINT='core/pose/' for a part of it.
 LINT ?= (core|drivers|simulator|firmware)/
 lint: build
-	run-clang-tidy -quiet -j $(JOBS) -p build '^$(CURDIR)/$(LINT)' 2>&1 | tests/lint/tidy_summary.sh
+	run-clang-tidy -quiet -j $(JOBS) -p build '^$(CURDIR)/$(LINT)' >build/lint.log 2>&1 || \
+	  { grep -A 3 -E '(error|warning): ' build/lint.log; echo 'All of it: build/lint.log' >&2; exit 1; }
 
 sanitize: asan-ubsan tsan
 

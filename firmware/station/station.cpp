@@ -162,6 +162,7 @@ DeviceStatus Station::capture(View& view) {
   return status;
 }
 
+// NOLINTNEXTLINE(readability-make-member-function-const): the station's arm moves
 DeviceStatus Station::begin_return() {
   if (devices_.arm == nullptr) return DeviceCode::ok;
   const DeviceStatus still = devices_.arm->wait_until_still(params_.arm_timeout);
