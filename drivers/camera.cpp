@@ -9,7 +9,7 @@ bool lies_within(const FrameView& view, std::span<const std::uint8_t> buffer) {
   if (view.empty()) return false;
   const std::ptrdiff_t row_bytes = std::ptrdiff_t{view.width} * bytes_per_pixel(view.format);
   if (view.stride_bytes < row_bytes) return false;
-  const std::less<const std::uint8_t*> before;
+  const std::less<> before;  // also orders pointers into different objects
   const std::uint8_t* const end = buffer.data() + buffer.size();
   if (before(view.data, buffer.data()) || !before(view.data, end)) return false;
   return (view.height - 1) * view.stride_bytes + row_bytes <= end - view.data;

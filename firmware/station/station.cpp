@@ -72,10 +72,12 @@ StationState Station::wait_for_press() {
       now < result_until_ ? std::min(result_until_ - now, params_.press_wait) : params_.press_wait;
   Press press;
   const DeviceStatus status = devices_.trigger.wait_for_press(wait, press);
-  if (status.code() == DeviceCode::ended) return StationState::finished;
-  if (!status.ok() && status.code() != DeviceCode::timed_out) return enter_fault(devices_.trigger, status);
+  const bool is_alive =
+      status.ok() || status.code() == DeviceCode::timed_out || status.code() == DeviceCode::ended;
+  if (!is_alive) return enter_fault(devices_.trigger, status);
   confirm_recovery();
-  if (!status.ok()) return StationState::waiting;
+  if (!status.ok())
+    return status.code() == DeviceCode::ended ? StationState::finished : StationState::waiting;
   ++totals_.scans;
   pressed_at_ = press.at;
   return StationState::taking_first_view;
@@ -160,6 +162,7 @@ DeviceStatus Station::capture(View& view) {
   return status;
 }
 
+// NOLINTNEXTLINE(readability-make-member-function-const): the station's arm moves
 DeviceStatus Station::begin_return() {
   if (devices_.arm == nullptr) return DeviceCode::ok;
   const DeviceStatus still = devices_.arm->wait_until_still(params_.arm_timeout);

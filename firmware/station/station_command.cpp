@@ -42,8 +42,8 @@ int play(const StationCommand& command, MeasurableCaptures& captures, const std:
   params.second_view_deg = command.second_view_deg;
   params.max_scans = command.scans;
   if (!command.by_hand && !arm.limits().contains(params.second_view_deg)) {
-    log << "--second-view " << params.second_view_deg << ": the arm moves from " << arm.limits().min_deg
-        << " to " << arm.limits().max_deg << " degrees." << std::endl;
+    log << "traygauge: --second-view " << params.second_view_deg << ": the arm moves from "
+        << arm.limits().min_deg << " to " << arm.limits().max_deg << " degrees." << std::endl;
     return kWrongUse;
   }
   Station station({camera, trigger, command.by_hand ? nullptr : &arm, lamp, clock}, measurer, printer, stop,
@@ -77,21 +77,17 @@ CLI::App* add_station_command(CLI::App& app, StationCommand& command) {
 int run_station(const StationCommand& command, const OpenCaptures& open_captures,
                 const std::atomic<bool>& stop, std::ostream& out, std::ostream& log) {
   if (!command.devices.starts_with(kSimulatorPrefix)) {
-    log << "--devices " << command.devices << ": expected simulator:FOLDER." << std::endl;
+    log << "traygauge: --devices " << command.devices << ": expected simulator:FOLDER." << std::endl;
     return kWrongUse;
   }
   const std::filesystem::path folder = command.devices.substr(kSimulatorPrefix.size());
   const auto folders = find_capture_folders(folder);
   if (folders.empty()) {
-    log << folder.string() << ": neither capture.json here nor captures in folders below." << std::endl;
+    log << "traygauge: " << folder.string() << ": neither capture.json here nor captures in folders below."
+        << std::endl;
     return kWrongUse;
   }
-  std::string problem;
-  const auto captures = open_captures(folders, problem);
-  if (captures == nullptr) {
-    log << problem << std::endl;
-    return kWrongUse;
-  }
+  const auto captures = open_captures(folders);
   return play(command, *captures, stop, out, log);
 }
 

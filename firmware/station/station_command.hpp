@@ -22,18 +22,19 @@ struct StationCommand {
   bool json = false;
   bool by_hand = false;  // no arm: a second press takes the second view
   double second_view_deg = StationParams{}.second_view_deg;
-  std::uint64_t seed = 1;
+  std::uint64_t seed = 0;
 };
 
-// Reads what belongs to these folders; null, and `problem` says which file and key, when one is not as
-// expected.
-using OpenCaptures = std::function<std::unique_ptr<MeasurableCaptures>(
-    const std::vector<std::filesystem::path>& folders, std::string& problem)>;
+// Reads what belongs to these folders, of which there is at least one; throws where a file or key of it is
+// not as expected.
+using OpenCaptures =
+    std::function<std::unique_ptr<MeasurableCaptures>(const std::vector<std::filesystem::path>& folders)>;
 
 // Adds the command to `app`; when it is given, parsing fills `command`.
 CLI::App* add_station_command(CLI::App& app, StationCommand& command);
 
 // Runs the loop until its end or until `stop`. Exit status: 0 all scans measured, 1 some not, 2 wrong use.
+// Throws what `open_captures` throws, before anything is printed.
 int run_station(const StationCommand& command, const OpenCaptures& open_captures,
                 const std::atomic<bool>& stop, std::ostream& out, std::ostream& log);
 

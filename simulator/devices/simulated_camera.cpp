@@ -3,6 +3,19 @@
 #include <cstring>
 
 namespace traygauge {
+namespace {
+
+// The first rows of `source` as a picture of their own in `buffer`.
+FrameView copy_rows(const FrameView& source, int rows, std::span<std::uint8_t> buffer) {
+  const std::ptrdiff_t row_bytes = std::ptrdiff_t{source.width} * bytes_per_pixel(source.format);
+  for (int y = 0; y < rows; ++y) {
+    std::memcpy(buffer.data() + y * row_bytes, source.data + y * source.stride_bytes,
+                static_cast<std::size_t>(row_bytes));
+  }
+  return {buffer.data(), source.width, rows, row_bytes, source.format};
+}
+
+}  // namespace
 
 SimulatedCamera::SimulatedCamera(Clock& clock, TrayPlayer& player, const SimulatedArm* arm,
                                  const SimulatedCameraParams& params)
@@ -32,27 +45,17 @@ DeviceStatus SimulatedCamera::do_capture(std::span<std::uint8_t> buffer, Nanosec
     return DeviceCode::unreadable;
   }
   const FrameView& source = player_.captures().pair()[static_cast<std::size_t>(seen)].frame;
-  if (fault.code() == DeviceCode::torn_frame) copy_rows(source, source.height / 2, buffer, frame);
+  if (fault.code() == DeviceCode::torn_frame) copy_rows(source, source.height / 2, buffer);
   const bool repeats = fault.code() == DeviceCode::stale_frame && last_sequence_ > 0;
   if (!fault.ok() && !repeats) return fault;
 
-  copy_rows(source, source.height, buffer, frame);
+  frame.view = copy_rows(source, source.height, buffer);
   frame.exposed_at = exposed_at;
   frame.delivered_at = delivered_at;
   frame.sequence = repeats ? last_sequence_ : static_cast<std::uint64_t>(frames_so_far + 1);
   last_sequence_ = frame.sequence;
   player_.note_played(frame.sequence, seen);
   return DeviceCode::ok;
-}
-
-void SimulatedCamera::copy_rows(const FrameView& source, int rows, std::span<std::uint8_t> buffer,
-                                CapturedFrame& frame) const {
-  const auto row_bytes = static_cast<std::size_t>(source.width * bytes_per_pixel(source.format));
-  for (int y = 0; y < rows; ++y) {
-    std::memcpy(buffer.data() + static_cast<std::size_t>(y) * row_bytes,
-                source.data + y * source.stride_bytes, row_bytes);
-  }
-  frame.view = {buffer.data(), source.width, rows, static_cast<std::ptrdiff_t>(row_bytes), source.format};
 }
 
 }  // namespace traygauge

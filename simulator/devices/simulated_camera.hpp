@@ -33,8 +33,6 @@ class SimulatedCamera final : public Camera {
   void do_stop() override {}
   CameraFormat do_format() const override { return player_.captures().largest_frame(); }
   DeviceStatus do_capture(std::span<std::uint8_t> buffer, Nanoseconds timeout, CapturedFrame& frame) override;
-  void copy_rows(const FrameView& source, int rows, std::span<std::uint8_t> buffer,
-                 CapturedFrame& frame) const;
 
   Clock& clock_;
   TrayPlayer& player_;

@@ -1,15 +1,24 @@
 #include "simulator/devices/simulated_trigger.hpp"
 
+#include <algorithm>
 #include <utility>
 
 namespace traygauge {
 
 SimulatedTrigger::SimulatedTrigger(Clock& clock, std::vector<Instant> presses)
-    : Trigger("simulated button"), clock_(clock), schedule_(std::move(presses)), count_(schedule_.size()) {}
+    : Trigger("simulated button"), clock_(clock), schedule_(std::move(presses)), count_(schedule_.size()) {
+  std::sort(schedule_.begin(), schedule_.end());
+}
 
 SimulatedTrigger::SimulatedTrigger(Clock& clock, const SimulatedIndicator& lamp, std::uint64_t count,
                                    Nanoseconds delay)
     : Trigger("simulated button"), clock_(clock), lamp_(&lamp), delay_(delay), count_(count) {}
+
+void SimulatedTrigger::add_press(Instant at) {
+  const auto next = schedule_.begin() + static_cast<std::ptrdiff_t>(pressed_);
+  schedule_.insert(std::upper_bound(next, schedule_.end(), at), at);
+  ++count_;
+}
 
 DeviceStatus SimulatedTrigger::do_wait_for_press(Nanoseconds timeout, Press& press) {
   const DeviceStatus fault = faults_.next();

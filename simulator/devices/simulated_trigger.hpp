@@ -13,11 +13,13 @@ namespace traygauge {
 
 class SimulatedTrigger final : public Trigger {
  public:
-  // Pressed at these times, which rise.
+  // Pressed at these times, in any order.
   SimulatedTrigger(Clock& clock, std::vector<Instant> presses);
   // Pressed `count` times, each `delay` after the lamp says ready.
   SimulatedTrigger(Clock& clock, const SimulatedIndicator& lamp, std::uint64_t count, Nanoseconds delay);
 
+  // One more press at a time of its own; only for a schedule.
+  void add_press(Instant at);
   // What a person does before pressing, such as putting the next tray there; called for each press that
   // wait_for_press delivers.
   void before_press(std::function<void()> action) { before_press_ = std::move(action); }

@@ -1,0 +1,69 @@
+# make build | demo | test | bench: each installs what config/packages.txt names and is missing, then does it.
+# make lint | format | sanitize: further checks; CI=true adds them to `make test`.
+
+JOBS ?= $(shell nproc)
+# Recorded captures, which many tests measure. Without them these tests say skipped; on CI that is a failure.
+TRAYGAUGE_CAPTURES ?= $(abspath ../shared/captures)
+export TRAYGAUGE_CAPTURES
+
+launcher := $(if $(shell command -v ccache),-DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
+sources = git ls-files '*.cpp' '*.hpp'
+ctest = ctest --output-on-failure --no-tests=error -j $(JOBS) -LE '^bench$$'
+
+.PHONY: build demo test bench lint format check-format check-captures sanitize asan-ubsan tsan packages clean
+
+build: packages
+	cmake --preset release $(launcher)
+	cmake --build --preset release -j $(JOBS)
+
+demo: build
+	build/traygauge station --devices simulator:simulator/demo
+
+test: check-captures build
+	$(ctest) --test-dir build
+	$(MAKE) check-format
+ifeq ($(CI),true)
+	$(MAKE) lint
+	$(MAKE) sanitize
+endif
+
+# Benchmarks are tests with the label bench: they print figures and run alone.
+bench: build
+	ctest --test-dir build -L '^bench$$' -V --no-tests=error
+
+packages:
+	@config/install_packages.sh
+
+check-captures:
+ifeq ($(CI),true)
+	@test -d '$(TRAYGAUGE_CAPTURES)' || { echo 'No captures in $(TRAYGAUGE_CAPTURES): their tests would be skipped.' >&2; exit 1; }
+endif
+
+check-format: packages
+	$(sources) | xargs clang-format --dry-run --Werror
+
+format: packages
+	$(sources) | xargs clang-format -i
+
+# clang-tidy over everything that is shipped; LINT='core/pose/' for a part of it.
+LINT ?= (core|drivers|simulator|firmware)/
+lint: build
+	run-clang-tidy -quiet -j $(JOBS) -p build '^$(CURDIR)/$(LINT)' >build/lint.log 2>&1 || \
+	  { grep -A 3 -E '(error|warning): ' build/lint.log; echo 'All of it: build/lint.log' >&2; exit 1; }
+
+sanitize: asan-ubsan tsan
+
+asan-ubsan: packages
+	cmake --preset asan-ubsan $(launcher)
+	cmake --build --preset asan-ubsan -j $(JOBS)
+	$(ctest) --test-dir build-asan-ubsan
+
+# Where there is concurrency, or will be: the devices and the station.
+TSAN_TESTS = drivers_test simulated_devices_test station_test
+tsan: packages
+	cmake --preset tsan $(launcher)
+	cmake --build --preset tsan -j $(JOBS) --target $(TSAN_TESTS)
+	for test in $(TSAN_TESTS); do find build-tsan -type f -name $$test -exec {} --gtest_brief=1 \; -quit || exit; done
+
+clean:
+	rm -rf build build-debug build-asan-ubsan build-tsan

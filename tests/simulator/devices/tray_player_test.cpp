@@ -1,0 +1,78 @@
+#include "simulator/devices/tray_player.hpp"
+
+#include <gtest/gtest.h>
+
+#include "tests/simulator/devices/synthetic_captures.hpp"
+
+namespace traygauge {
+namespace {
+
+TEST(TrayPlayer, HasNoTrayBeforeTheFirstPressAndStartsOverAfterTheLast) {
+  SyntheticCaptures captures(2);
+  TrayPlayer player(captures);
+  EXPECT_FALSE(player.has_tray());
+  for (const std::size_t expected : {0U, 1U, 0U}) {
+    player.handle_press();
+    EXPECT_TRUE(player.has_tray());
+    EXPECT_EQ(player.capture_index(), expected);
+  }
+}
+
+TEST(TrayPlayer, WithoutAnglesShowsTheSecondViewOnceTheArmHasLeftHome) {
+  SyntheticCaptures captures(1);
+  TrayPlayer player(captures);
+  player.handle_press();
+  EXPECT_EQ(player.second_view_angle_deg(), std::nullopt);
+  EXPECT_EQ(player.view_seen_at(0.0), 0);
+  EXPECT_EQ(player.view_seen_at(18.0), 1);
+  EXPECT_EQ(player.view_seen_at(-18.0), 1);
+}
+
+TEST(TrayPlayer, WithAnglesShowsTheNearerView) {
+  SyntheticCaptures captures(std::vector{SyntheticCapture{8, 6, 10.0, -6.0}});
+  TrayPlayer player(captures);
+  player.handle_press();
+  EXPECT_DOUBLE_EQ(player.second_view_angle_deg().value(), -16.0);  // counted from the first view
+  EXPECT_EQ(player.view_seen_at(0.0), 0);
+  EXPECT_EQ(player.view_seen_at(-7.9), 0);
+  EXPECT_EQ(player.view_seen_at(-8.1), 1);
+  EXPECT_EQ(player.view_seen_at(16.0), 0);
+}
+
+TEST(TrayPlayer, EveryOtherPressMovesTheHand) {
+  SyntheticCaptures captures(2);
+  TrayPlayer player(captures, CameraMover::hand);
+  for (const auto& [capture, view] : {std::pair(0U, 0), {0U, 1}, {1U, 0}, {1U, 1}, {0U, 0}}) {
+    player.handle_press();
+    EXPECT_EQ(player.capture_index(), capture);
+    EXPECT_EQ(player.view_seen_by_hand(), view);
+  }
+}
+
+TEST(TrayPlayer, FindsAFrameOfThisTrayByItsNumber) {
+  SyntheticCaptures captures(1);
+  TrayPlayer player(captures);
+  player.handle_press();
+  player.note_played(7, 0);
+  player.note_played(9, 1);
+  EXPECT_EQ(player.view_played_as(7), 0);
+  EXPECT_EQ(player.view_played_as(9), 1);
+  EXPECT_EQ(player.view_played_as(8), std::nullopt);
+  player.note_played(11, 1);
+  EXPECT_EQ(player.view_played_as(7), std::nullopt);
+  player.handle_press();
+  EXPECT_EQ(player.view_played_as(9), std::nullopt);
+}
+
+TEST(TrayPlayer, SaysWhatCannotBeRead) {
+  SyntheticCaptures captures(std::vector{SyntheticCapture{.readable = false}, SyntheticCapture{}});
+  TrayPlayer player(captures);
+  player.handle_press();
+  EXPECT_FALSE(player.has_tray());
+  EXPECT_EQ(player.problem(), "tray 0/view_0.jpg: damaged");
+  player.handle_press();
+  EXPECT_TRUE(player.has_tray());
+}
+
+}  // namespace
+}  // namespace traygauge
