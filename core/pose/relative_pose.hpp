@@ -41,9 +41,9 @@ struct RelativePoseParams {
   bool try_planar_twin = true;       // refine the second motion of a plane, too; not in the paper
   double min_displacement_px = 0.5;  // median between the views; below: the camera did not move
   double min_parallax_deg = 1.0;     // median of the inliers; below: the views are too close for depth
-  // Of eq. (1) where hypotheses are compared: one for all of them, and wide, because the few points off a
-  // plane, which decide, lie many pixels off a wrong motion.
-  double fitness_threshold_px = 15.0;
+  // Of eq. (1) where hypotheses are compared: one for all of them. Too narrow, and the few points off a
+  // plane, which decide, count no more than outliers; too wide, and chance outliers decide.
+  double fitness_threshold_px = 8.0;
 };
 
 struct RelativePose {

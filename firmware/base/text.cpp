@@ -10,7 +10,8 @@ namespace {
 std::string padding(const std::string& text, std::size_t width) {
   const auto is_first_byte = [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; };
   const auto length = static_cast<std::size_t>(std::count_if(text.begin(), text.end(), is_first_byte));
-  return std::string(width > length ? width - length : 0, ' ');
+  std::string spaces(width > length ? width - length : 0, ' ');
+  return spaces;
 }
 
 }  // namespace

@@ -72,7 +72,7 @@ std::filesystem::path find_config_folder(const std::string& named) {
   const std::filesystem::path program =
       std::filesystem::read_symlink("/proc/self/exe", ignored).parent_path();
   for (const char* place : {"config", "../config", "../share/traygauge/config"}) {
-    const std::filesystem::path folder = (program / place).lexically_normal();
+    std::filesystem::path folder = (program / place).lexically_normal();
     if (std::filesystem::is_directory(folder / "dishes", ignored)) return folder;
   }
   throw InputError({program / "config", ""}, "the folder with dishes/, because the capture names no dish",

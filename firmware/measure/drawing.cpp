@@ -107,8 +107,12 @@ cv::Mat fit(const cv::Mat& picture, cv::Size size, int interpolation, const cv::
   return panel;
 }
 
+cv::Mat known_pixels(const cv::Mat& values) {
+  return values == values;  // NOLINT(misc-redundant-expression): false for NaN
+}
+
 cv::Mat colour_values(const cv::Mat& values, const ColourScale& scale) {
-  cv::Mat known = values == values;  // false for NaN
+  const cv::Mat known = known_pixels(values);
   cv::Mat filled = values.clone();
   filled.setTo(scale.low, ~known);
   cv::Mat colours = apply_scale(filled, scale);
@@ -129,7 +133,7 @@ cv::Mat draw_map(const cv::Mat& map, const ColourScale& scale, cv::Size size) {
 bool spanned_range(const cv::Mat& values, double share, double& low, double& high) {
   std::vector<float> known;
   for (int y = 0; y < values.rows; ++y) {
-    const float* row = values.ptr<float>(y);
+    const auto* row = values.ptr<float>(y);
     std::copy_if(row, row + values.cols, std::back_inserter(known), [](float v) { return std::isfinite(v); });
   }
   if (known.empty()) return false;

@@ -8,9 +8,11 @@
 namespace traygauge {
 
 inline constexpr int kTitleHeightPx = 34;
+// NOLINTBEGIN(readability-identifier-naming): constants; this type cannot be constexpr
 inline const cv::Scalar kInk(235, 235, 235);
 inline const cv::Scalar kPaper(32, 32, 32);
 inline const cv::Scalar kUnknownColour(60, 56, 52);
+// NOLINTEND(readability-identifier-naming)
 
 // ASCII text, outlined so that it can be read on any picture; `origin` is the left end of its base line.
 void draw_text(cv::Mat& image, const std::string& text, cv::Point origin, double scale,
@@ -32,6 +34,9 @@ struct ColourScale {
   double high = 1.0;
   std::string unit;
 };
+
+// Where `values` (float) are not NaN: 255.
+cv::Mat known_pixels(const cv::Mat& values);
 
 // `values` (float, NaN where unknown) in colour; the unknown is dark.
 cv::Mat colour_values(const cv::Mat& values, const ColourScale& scale);

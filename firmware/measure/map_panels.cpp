@@ -51,8 +51,7 @@ cv::Mat heights_mm(const MeasurementViews& views) {
 
 // The known part, with a margin.
 cv::Rect known_part(const cv::Mat& values) {
-  cv::Mat known = values == values;
-  cv::Rect box = cv::boundingRect(known);
+  cv::Rect box = cv::boundingRect(known_pixels(values));
   box -= cv::Point(kMarginPx, kMarginPx);
   box += cv::Size(2 * kMarginPx, 2 * kMarginPx);
   return box & cv::Rect({0, 0}, values.size());

@@ -31,7 +31,7 @@ TruthItem read_item(const JsonNode& node) {
   if (const auto kind = node.find("kind")) {
     item.kind = kind->text();
     if (item.kind != "heightfield" && item.kind != "scan")
-      kind->fail("\"heightfield\" or \"scan\"", "correct it");
+      kind->fail(R"("heightfield" or "scan")", "correct it");
   }
   item.volume_above_bottom_plane_ml = read_volume(node, "volume_above_bottom_plane_ml");
   item.column_volume_ml = read_volume(node, "column_volume_ml");

@@ -139,7 +139,8 @@ inline PhotographSet read_capture(const std::string& folder, int max_features) {
 // A folder of `real` with cameras.json.
 inline PhotographSet read_real(const std::string& folder, int max_features) {
   std::vector<View> views;
-  for (const nlohmann::json& entry : read_json(folder + "/cameras.json").at("views")) {
+  const nlohmann::json cameras = read_json(folder + "/cameras.json");
+  for (const nlohmann::json& entry : cameras.at("views")) {
     View view;
     view.image = folder + "/" + entry.at("image").get<std::string>();
     const auto camera = entry.at("K").get<std::vector<double>>();

@@ -64,7 +64,8 @@ TEST_F(Photographs, TheFountainIsFoundBetterThanByTheReference) {
 TEST_F(Photographs, AppleAndBananaAgreeWithStructureFromMotion) {
   const std::string folder = testing::captures_folder() + "/real/fruit_colmap_apple_banana";
   testing::PhotographSet set = testing::read_real(folder, 3000);
-  const nlohmann::json pairs = testing::read_json(folder + "/cameras.json").at("pairs");
+  const nlohmann::json cameras = testing::read_json(folder + "/cameras.json");
+  const nlohmann::json& pairs = cameras.at("pairs");
   for (std::size_t i = 0; i < 7; ++i) {
     const std::string a = pairs.at(i).at("a");
     const std::string b = pairs.at(i).at("b");

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <iostream>
 #include <random>
 #include <string>
 
@@ -35,17 +36,16 @@ TEST(CaptureFuzz, DamagedBytesAreAcceptedOrNamed) {
   const TemporaryCapture files;
   const std::string whole = files.document.dump();
   const unsigned seed = std::random_device{}();
-  SCOPED_TRACE("seed " + std::to_string(seed));
-  RecordProperty("seed", std::to_string(seed));
+  std::cout << "seed " << seed << std::endl;  // flushed: a crash must not swallow it
   std::mt19937 random(seed);
   int refused = 0;
-  for (int round = 0; round < 4000; ++round) {
+  for (int round = 0; round < 1500; ++round) {
     std::string damaged = whole;
     const unsigned flips = 1 + random() % 4;
     for (unsigned i = 0; i < flips; ++i) damaged[random() % damaged.size()] = static_cast<char>(random());
     refused += is_accepted(files, damaged) ? 0 : 1;
   }
-  EXPECT_GT(refused, 2000);
+  EXPECT_GT(refused, 750);
 }
 
 TEST(CaptureFuzz, TokensInTheWrongPlaceAreAcceptedOrNamed) {
@@ -55,11 +55,10 @@ TEST(CaptureFuzz, TokensInTheWrongPlaceAreAcceptedOrNamed) {
   const TemporaryCapture files;
   const std::string whole = files.document.dump();
   const unsigned seed = std::random_device{}();
-  SCOPED_TRACE("seed " + std::to_string(seed));
-  RecordProperty("seed", std::to_string(seed));
+  std::cout << "seed " << seed << std::endl;  // flushed: a crash must not swallow it
   std::mt19937 random(seed);
   int refused = 0;
-  for (int round = 0; round < 4000; ++round) {
+  for (int round = 0; round < 1500; ++round) {
     std::string damaged = whole;
     const std::size_t colon = damaged.find_first_of(":,[", random() % damaged.size());
     if (colon == std::string::npos) continue;
@@ -67,7 +66,7 @@ TEST(CaptureFuzz, TokensInTheWrongPlaceAreAcceptedOrNamed) {
     damaged.replace(colon + 1, end - colon - 1, tokens[random() % tokens.size()]);
     refused += is_accepted(files, damaged) ? 0 : 1;
   }
-  EXPECT_GT(refused, 2000);
+  EXPECT_GT(refused, 750);
 }
 
 }  // namespace

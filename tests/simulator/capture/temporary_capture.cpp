@@ -31,6 +31,9 @@ std::string read_text(const std::filesystem::path& file) {
 }
 
 void write_text(const std::filesystem::path& file, const std::string& text) {
+  // A new file each time: ext4 waits for the disk when an old one is cut to nothing and rewritten.
+  std::error_code ignored;
+  std::filesystem::remove(file, ignored);
   std::ofstream(file, std::ios::binary) << text;
 }
 
