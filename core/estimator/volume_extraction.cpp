@@ -49,11 +49,12 @@ Status find_dish_bottom(const ReferencePair& pair, const TableReference& table,
   Status status = collect_rim_points(rim_input, configuration.rim, workspace.rim);
   if (!status.ok()) return status;
   PlaneFit rim;
-  status = fit_rim_plane(workspace.rim.points_mm, configuration.rim, random, rim);
+  status = fit_rim_plane(pair.other_from_reference, configuration.rim, random, workspace.rim.points_mm, rim);
   if (!status.ok()) return status;
   report.rim_points = rim.inliers;
 
-  const DishInput dish_input{rim.plane, workspace.rim.points_mm.items(), table.table, table.card_points,
+  const auto rim_points = workspace.rim.points_mm.items().first(static_cast<std::size_t>(rim.inliers));
+  const DishInput dish_input{rim.plane, rim_points, table.table, table.card_points,
                              configuration.card.thickness_mm};
   status = measure_rim_height(dish_input, configuration.dish, workspace.dish, report.rim_height_mm);
   if (!status.ok()) return status;

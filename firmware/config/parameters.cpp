@@ -57,6 +57,7 @@ std::vector<Parameter> sparse_parameters(Configuration& c) {
       {"pose.min_iterations", &c.pose.min_iterations},
       {"pose.max_iterations", &c.pose.max_iterations},
       {"pose.refine", &c.pose.refine},
+      {"pose.try_planar_twin", &c.pose.try_planar_twin},
       {"pose.robust_scale", &c.pose.robust_scale},
       {"card.tracks", choice(c.card_search.tracks, {"triangle", "one_side"})},
       {"card.model", choice(c.card_search.detection.model, {"homography", "absolute_pose"})},
@@ -92,7 +93,7 @@ std::vector<Parameter> dense_parameters(Configuration& c) {
       {"rim.plane_threshold_mm", &c.rim.plane.threshold_mm},
       {"dish.surface", choice(c.dish.surface, {"rim_and_card", "card_alone"})},
       {"dish.height", choice(c.dish.height, {"rim_points_over_card_plane", "card_points_under_rim_plane"})},
-      {"dish.mode_halvings", &c.dish.mode_halvings},
+      {"dish.mode_halvings", &c.dish.mode.halvings},
       {"volume.folded", choice(c.volume.folded, {"subtracted", "added"})},
   };
 }
