@@ -7,9 +7,6 @@
 namespace traygauge {
 namespace {
 
-// Balances Dxy against Dxx Dyy for boxes in place of Gaussians: (0.9)² (Bay et al., equation 3).
-constexpr float kMixedWeight = 0.81F;
-
 // Vertical sums per column of the integral image, from which horizontal differences give the three
 // derivatives. Unsigned sums that wrap around come out right as differences, so they are kept as bits.
 void sum_columns(ImageView<const std::uint32_t> integral, BoxFilter filter, int y, SurfWorkspace& workspace) {
@@ -36,6 +33,11 @@ void sum_columns(ImageView<const std::uint32_t> integral, BoxFilter filter, int 
   }
 }
 
+// Grey values become 0…1, and filters of all sizes comparable.
+float response_scale(BoxFilter filter) {
+  return 1.0F / (255.0F * static_cast<float>(filter.size() * filter.size()));
+}
+
 std::int32_t minus(std::int32_t a, std::int32_t b) {
   return static_cast<std::int32_t>(static_cast<std::uint32_t>(a) - static_cast<std::uint32_t>(b));
 }
@@ -50,7 +52,7 @@ void combine_columns(const SurfWorkspace& workspace, BoxFilter filter, int any_s
   const std::int32_t* xx = workspace.columns_xx.data();
   const std::int32_t* yy = workspace.columns_yy.data();
   const std::int32_t* xy = workspace.columns_xy.data();
-  const float scale = 1.0F / (255.0F * static_cast<float>(filter.size() * filter.size()));
+  const float scale = response_scale(filter);
   for (int i = first; i <= last; ++i) {
     const int x = i * step;
     const std::int32_t whole = minus(xx[x + radius + 1], xx[x - radius]);
@@ -60,7 +62,7 @@ void combine_columns(const SurfWorkspace& workspace, BoxFilter filter, int any_s
     const std::int32_t left = minus(xy[x], xy[x - lobe]);
     const std::int32_t right = minus(xy[x + lobe + 1], xy[x + 1]);
     const float dxy = static_cast<float>(left - right) * scale;
-    responses[i] = dxx * dyy - kMixedWeight * dxy * dxy;
+    responses[i] = BoxDerivatives{dxx, dyy, dxy}.response();
   }
 }
 
@@ -90,18 +92,22 @@ void compute_response_row(ImageView<const std::uint32_t> integral, BoxFilter fil
   std::fill_n(responses.data() + last + 1, samples - 1 - last, 0.0F);
 }
 
-std::int8_t laplacian_sign(ImageView<const std::uint32_t> integral, BoxFilter filter, int x, int y) {
+BoxDerivatives derivatives_at(ImageView<const std::uint32_t> integral, BoxFilter filter, int x, int y) {
   const int lobe = filter.lobe;
+  const int half = lobe / 2;
   const int radius = filter.radius();
   const int band = 2 * lobe - 1;
   const auto sum = [&](int left, int top, int width, int height) {
-    return static_cast<std::int64_t>(box_sum(integral, left, top, width, height));
+    return static_cast<std::int32_t>(box_sum(integral, left, top, width, height));
   };
-  const std::int64_t dxx =
-      sum(x - radius, y - lobe + 1, filter.size(), band) - 3 * sum(x - lobe / 2, y - lobe + 1, lobe, band);
-  const std::int64_t dyy =
-      sum(x - lobe + 1, y - radius, band, filter.size()) - 3 * sum(x - lobe + 1, y - lobe / 2, band, lobe);
-  return dxx + dyy >= 0 ? std::int8_t{1} : std::int8_t{-1};
+  const std::int32_t xx = sum(x - radius, y - lobe + 1, filter.size(), band) -  //
+                          3 * sum(x - half, y - lobe + 1, lobe, band);
+  const std::int32_t yy =
+      sum(x - lobe + 1, y - radius, band, filter.size()) - 3 * sum(x - lobe + 1, y - half, band, lobe);
+  const std::int32_t xy = sum(x - lobe, y - lobe, lobe, lobe) + sum(x + 1, y + 1, lobe, lobe) -
+                          sum(x + 1, y - lobe, lobe, lobe) - sum(x - lobe, y + 1, lobe, lobe);
+  const float scale = response_scale(filter);
+  return {static_cast<float>(xx) * scale, static_cast<float>(yy) * scale, static_cast<float>(xy) * scale};
 }
 
 }  // namespace traygauge

@@ -33,7 +33,17 @@ constexpr BoxFilter filter_of(int octave, int layer) {
 void compute_response_row(ImageView<const std::uint32_t> integral, BoxFilter filter, int y, int step,
                           SurfWorkspace& workspace, std::span<float> responses);
 
-// Sign of the trace of the Hessian at a pixel where the filter fits: +1 a dark blob, −1 a bright one.
-std::int8_t laplacian_sign(ImageView<const std::uint32_t> integral, BoxFilter filter, int x, int y);
+// The three derivatives at one pixel where the filter fits, as compute_response_row has them.
+struct BoxDerivatives {
+  float xx = 0.0F;
+  float yy = 0.0F;
+  float xy = 0.0F;
+
+  // det(H), with (0.9)² to balance boxes against Gaussians (Bay et al., equation 3).
+  constexpr float response() const { return xx * yy - 0.81F * xy * xy; }
+  // Sign of the trace: +1 for a dark blob, −1 for a bright one.
+  constexpr std::int8_t laplacian() const { return xx + yy >= 0.0F ? std::int8_t{1} : std::int8_t{-1}; }
+};
+BoxDerivatives derivatives_at(ImageView<const std::uint32_t> integral, BoxFilter filter, int x, int y);
 
 }  // namespace traygauge

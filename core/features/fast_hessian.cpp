@@ -1,4 +1,5 @@
 // The detector of SURF (Bay et al., section 3): maxima of det(H) in space and scale.
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -12,6 +13,9 @@ namespace {
 // How far from its sample, in samples, an interpolated maximum may lie. OpenSURF's 0.5 loses a tenth of the
 // correct matches: the box filters' responses are no quadrics, and their vertex overshoots.
 constexpr float kMaxOffset = 1.0F;
+
+// How far a refinement may jump, in thirds of a lobe; beyond, the quadric describes another blob.
+constexpr double kMaxRefinement = 2.0;
 
 // The 3 × 3 × 3 responses around a sample: [layer][row][column].
 using Neighbourhood = std::array<std::array<std::array<float, 3>, 3>, 3>;
@@ -66,6 +70,40 @@ struct Octave {
   int step = 1;
 };
 
+// Moves a maximum that was interpolated between coarse samples to the vertex of the quadric through nine
+// responses around its own pixel, of the filter nearest to its scale and a third of a lobe apart. So near to
+// the vertex the errors of a quadric cancel.
+void refine_position(ImageView<const std::uint32_t> integral, Keypoint& keypoint) {
+  constexpr int kMaxMoves = 3;
+  const float lobe = keypoint.scale_px / (3.0F * kSigmaPerFilterPixel);
+  const BoxFilter filter{2 * static_cast<int>(0.5F * lobe) + 1};
+  Vec2& pixel = keypoint.pixel;
+  const int distance = std::max(1, filter.lobe / 3);
+  const int margin = filter.radius() + distance;
+  for (int move = 0; move < kMaxMoves; ++move) {
+    const int x = static_cast<int>(std::floor(pixel.x() + 0.5));
+    const int y = static_cast<int>(std::floor(pixel.y() + 0.5));
+    if (x < margin || y < margin || x + margin >= integral.width - 1 || y + margin >= integral.height - 1)
+      return;
+    const auto at = [&](int column, int row) {
+      return derivatives_at(integral, filter, x + column * distance, y + row * distance).response();
+    };
+    const float centre = at(0, 0);
+    const float left = at(-1, 0), right = at(1, 0), above = at(0, -1), below = at(0, 1);
+    const float gx = 0.5F * (right - left);
+    const float gy = 0.5F * (below - above);
+    const float xx = right + left - 2.0F * centre;
+    const float yy = below + above - 2.0F * centre;
+    const float xy = 0.25F * (at(1, 1) - at(-1, 1) - at(1, -1) + at(-1, -1));
+    const float determinant = xx * yy - xy * xy;
+    if (!(determinant > 0.0F) || xx >= 0.0F) return;
+    const Vec2 offset((xy * gy - yy * gx) / determinant, (xy * gx - xx * gy) / determinant);
+    if (offset.cwiseAbs().maxCoeff() > kMaxRefinement) return;
+    pixel = Vec2(x, y) + distance * offset;
+    if (std::abs(pixel.x() - x) <= 0.5 && std::abs(pixel.y() - y) <= 0.5) return;
+  }
+}
+
 void add_maximum(ImageView<const std::uint32_t> integral, const SurfWorkspace& workspace, Octave octave,
                  int layer, int row, int column, StrongestKeypoints& strongest) {
   const Neighbourhood values = neighbourhood_of(workspace, layer, row, column);
@@ -81,7 +119,7 @@ void add_maximum(ImageView<const std::uint32_t> integral, const SurfWorkspace& w
       kSigmaPerFilterPixel *
       (static_cast<float>(filter.size()) + offset.z() * static_cast<float>(filter_increment(octave.index)));
   keypoint.response = values[1][1][1];
-  keypoint.laplacian = laplacian_sign(integral, filter, column * octave.step, row * octave.step);
+  keypoint.laplacian = derivatives_at(integral, filter, column * octave.step, row * octave.step).laplacian();
   strongest.add(keypoint);
 }
 
@@ -133,6 +171,7 @@ void detect_surf(ImageView<const std::uint32_t> integral, const SurfParams& para
     }
   }
   strongest.sort();
+  for (Keypoint& keypoint : keypoints) refine_position(integral, keypoint);
 }
 
 }  // namespace traygauge

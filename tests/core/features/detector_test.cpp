@@ -14,7 +14,7 @@ using testing::planned_bytes;
 using testing::run_surf;
 using testing::textured_picture;
 
-static_assert(planned_bytes(1264, 948, SurfParams{}) < 64U * 1024U,
+static_assert(planned_bytes(1264, 948, SurfParams{}) < 80U * 1024U,
               "three rows a layer, whatever the height");
 static_assert(planned_bytes(1264, 10, SurfParams{}) == planned_bytes(1264, 948, SurfParams{}));
 
@@ -59,17 +59,15 @@ TEST_P(GaussianBlob, IsFoundWhereItIsAndAsLargeAsItIs) {
           run_surf(gaussian_blob(centre, sigma, amplitude), {.first_step_px = step});
       ASSERT_FALSE(found.keypoints.empty()) << "at " << centre.transpose() << " step " << step;
       const Keypoint& keypoint = found.keypoints.front();
-      // Quadrics through samples 1, 2, 4 … pixels apart: the error grows with the octave's step.
-      const double tolerance = step == 1 ? std::max(0.1, 0.02 * sigma) : 0.08 * sigma;
-      EXPECT_LT((keypoint.pixel - centre).norm(), tolerance)
-          << "at " << centre.transpose() << " step " << step;
+      EXPECT_LT((keypoint.pixel - centre).norm(), 0.1) << "at " << centre.transpose() << " step " << step;
       EXPECT_NEAR(static_cast<double>(keypoint.scale_px) / strongest_scale(sigma), 1.0, 0.15)
           << "step " << step;
       EXPECT_EQ(keypoint.laplacian, amplitude > 0.0 ? -1 : 1);
     }
   }
 }
-INSTANTIATE_TEST_SUITE_P(Sigmas, GaussianBlob, ::testing::Values(2.5, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0, 12.0));
+INSTANTIATE_TEST_SUITE_P(Sigmas, GaussianBlob,
+                         ::testing::Values(2.5, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0, 12.0, 16.0));
 
 // det(H) of the box filters by direct sums over the picture, in double precision.
 double direct_response(const cv::Mat& picture, int x, int y, int size) {

@@ -75,22 +75,24 @@ cv::Matx33d homography_of(const Change& change, cv::Size size) {
 }
 
 TEST_F(OnCaptures, KeypointsAreFoundAgainAndMatched) {
+  // The shares lie a tenth below what the detector reached when it was written; chance would give 4%. Boxes
+  // are not round: rotations by odd multiples of 45° cost most (Bay et al., section 3.2).
   constexpr Change kChanges[] = {
-      {"darker", 0.0, 1.0, 0.7, 0.0, 0.75, 0.95},
-      {"turned by 10°", 10.0, 1.0, 1.0, 0.0, 0.60, 0.80},
-      {"turned by 45°", 45.0, 1.0, 1.0, 0.0, 0.50, 0.75},
-      {"turned by 180°", 180.0, 1.0, 1.0, 0.0, 0.70, 0.85},
-      {"smaller", 0.0, 0.8, 1.0, 0.0, 0.50, 0.70},
-      {"in perspective", 5.0, 0.95, 0.9, 0.2, 0.50, 0.70},
+      {"darker", 0.0, 1.0, 0.7, 0.0, 0.90, 0.95},
+      {"turned by 10°", 10.0, 1.0, 1.0, 0.0, 0.50, 0.60},
+      {"turned by 45°", 45.0, 1.0, 1.0, 0.0, 0.40, 0.50},
+      {"turned by 180°", 180.0, 1.0, 1.0, 0.0, 0.95, 0.95},
+      {"smaller", 0.0, 0.8, 1.0, 0.0, 0.42, 0.65},
+      {"in perspective", 5.0, 0.95, 0.9, 0.2, 0.55, 0.70},
   };
   for (const std::string path : {"/meals/m11/view_0.jpg", "/trays/t01/view_0.jpg"}) {
     const cv::Mat picture = read_picture(path);
-    const PictureFeatures before = run_surf(picture, {}, 2500);
+    const PictureFeatures before = run_surf(picture);
     for (const Change& change : kChanges) {
       const cv::Matx33d map = homography_of(change, picture.size());
       cv::Mat changed;
       cv::warpPerspective(picture * change.gain, changed, map, picture.size(), cv::INTER_CUBIC);
-      const PictureFeatures after = run_surf(changed, {}, 2500);
+      const PictureFeatures after = run_surf(changed);
       const auto mapped = [&](const Keypoint& keypoint) {
         const cv::Vec3d p = map * cv::Vec3d(keypoint.pixel.x(), keypoint.pixel.y(), 1.0);
         return Vec2(p[0] / p[2], p[1] / p[2]);
