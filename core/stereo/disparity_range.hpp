@@ -16,7 +16,8 @@ struct DisparityRangeParams {
   int max_count = 192;      // disparities that memory is kept for
 };
 
-// `match_disparities_px` is reordered. too_few_matches, or disparity_range_too_large beyond max_count.
+// `match_disparities_px` is reordered. too_few_matches, or disparity_range_too_large beyond max_count or
+// kMaxDisparityPx.
 Status estimate_disparity_range(std::span<double> match_disparities_px, const DisparityRangeParams& params,
                                 DisparityRange& range);
 
