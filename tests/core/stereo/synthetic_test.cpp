@@ -150,7 +150,7 @@ TEST_P(EachCost, PartnersOutsideTheSecondMaskAreAvoided) {
       } else {
         ASSERT_NE(disparity(y, x), kNoDisparity) << x << ", " << y;
       }
-      if (x < 90) {
+      if (x < 100 - 2 * kBorder) {
         ASSERT_NEAR(disparity(y, x), 0, kDisparityScale / 2) << x << ", " << y;
       }
     }
