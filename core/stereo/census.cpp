@@ -57,7 +57,7 @@ void transform_census(const BlockPicture& block, int radius_px, std::span<ByteLa
         if (dx == 0 && dy == 0) continue;
         const SignLanes neighbour = ordered(block.pixels[column].row + kMaxCensusRadius + dy);
         const auto greater = reinterpret_cast<ByteLanes>(neighbour > centre);
-        code[bit / 8] |= greater & static_cast<std::uint8_t>(1 << (bit % 8));
+        code[bit / 8] |= greater & broadcast_byte(static_cast<std::uint8_t>(1 << (bit % 8)));
         ++bit;
       }
     }

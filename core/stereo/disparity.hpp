@@ -10,6 +10,9 @@ using Disparity = std::int16_t;  // in sixteenths of a pixel
 inline constexpr int kDisparityScale = 16;
 inline constexpr Disparity kNoDisparity = std::numeric_limits<Disparity>::min();
 
+inline constexpr int kMaxDisparityPx =
+    std::numeric_limits<Disparity>::max() / kDisparityScale - 1;  // either sign
+
 // Inclusive, in whole pixels.
 struct DisparityRange {
   int min_px = 0;

@@ -12,7 +12,7 @@ ByteLanes absolute_difference(ByteLanes a, ByteLanes b) {
 void absolute_differences(const MatchingBlock& block, int x, Interval partners, int limit, ByteLanes* costs) {
   const auto first =
       load_lanes<ByteLanes>(block.first.pixels[static_cast<std::size_t>(x)].row + kMaxCensusRadius);
-  const ByteLanes highest = ByteLanes{} + static_cast<std::uint8_t>(limit);
+  const ByteLanes highest = broadcast_byte(static_cast<std::uint8_t>(limit));
   for (int partner = partners.lo; partner <= partners.hi; ++partner) {
     const auto second =
         load_lanes<ByteLanes>(block.second.pixels[static_cast<std::size_t>(partner)].row + kMaxCensusRadius);
@@ -30,7 +30,7 @@ int highest_local_cost(const StereoParams& params) {
 void local_costs(const MatchingBlock& block, int x, Interval interval, const StereoParams& params,
                  ByteLanes* costs) {
   const ByteLanes wanted = block.first.inside[static_cast<std::size_t>(x)];
-  const ByteLanes outside = wanted & static_cast<std::uint8_t>(highest_local_cost(params));
+  const ByteLanes outside = wanted & broadcast_byte(static_cast<std::uint8_t>(highest_local_cost(params)));
   const Interval partners{std::max(x + interval.lo, 0), std::min(x + interval.hi, block.second.width - 1)};
   if (partners.empty()) {
     std::fill_n(costs, interval.count(), outside);

@@ -29,6 +29,10 @@ inline CostLanes broadcast(int value) {
   return CostLanes{} + static_cast<std::int16_t>(value);
 }
 
+inline ByteLanes broadcast_byte(std::uint8_t value) {
+  return ByteLanes{} + value;
+}
+
 inline CostLanes smaller(CostLanes a, CostLanes b) {
   return a < b ? a : b;
 }

@@ -131,7 +131,8 @@ Status match_dense(ImageView<const std::uint8_t> first, ImageView<const std::uin
   if (std::max(first.width, second.width) > workspace.max_columns || first.height > workspace.max_rows) {
     return StatusCode::out_of_memory;
   }
-  if (range.count() < 1 || range.count() > workspace.max_disparities) {
+  if (range.min_px < -kMaxDisparityPx || range.max_px > kMaxDisparityPx || range.max_px < range.min_px ||
+      range.count() > workspace.max_disparities) {
     return StatusCode::disparity_range_too_large;
   }
   std::array<StereoPair, kMaxLevels> pairs{};
