@@ -37,8 +37,8 @@ Status trace_dish_contour(ImageView<const std::uint8_t> labels, DishContour& con
 struct ContourFitParams {
   // Sides on each side of a place that its curve is fitted to: fewer let the pixel grid through, more cut
   // corners at notches.
-  int radius_sides = 12;
-  double max_rms_px = 0.6;  // of the sides about the curve; a smooth border's own grid noise is 0.3 to 0.4
+  int radius_sides = 16;
+  double max_rms_px = 1.0;  // of the sides about the curve; a smooth border's own grid noise is 0.3 to 0.4
 };
 
 // The border near one side as a parabola: origin + u tangent + (a + b u + c u²) inward.

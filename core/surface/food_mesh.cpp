@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <limits>
 
 #include "core/segmentation/label_regions.hpp"
@@ -59,9 +60,10 @@ class DepthSampler {
     double weighted = 0.0;
     double total = 0.0;
     const auto add_line = [&](const Known& before, const Known& after) {
-      if (before.cells == 0 || after.cells == 0) return;
-      const double gap = before.cells + after.cells;
-      const double inverse = (before.inverse_depth * after.cells + after.inverse_depth * before.cells) / gap;
+      if (before.distance_px == 0 || after.distance_px == 0) return;
+      const double gap = before.distance_px + after.distance_px;
+      const double inverse =
+          (before.inverse_depth * after.distance_px + after.inverse_depth * before.distance_px) / gap;
       weighted += inverse / gap;
       total += 1.0 / gap;
     };
@@ -72,7 +74,7 @@ class DepthSampler {
 
  private:
   struct Known {
-    int cells = 0;  // 0: none found
+    int distance_px = 0;  // 0: none found
     double inverse_depth = 0.0;
   };
 
@@ -91,7 +93,9 @@ class DepthSampler {
   }
 
   Known walk(std::size_t column, std::size_t row, int step_x, int step_y) const {
-    const std::uint8_t label = labels_.at(grid_.columns[column], grid_.rows[row]);
+    const int start_x = grid_.columns[column];
+    const int start_y = grid_.rows[row];
+    const std::uint8_t label = labels_.at(start_x, start_y);
     for (int k = 1; k <= params_.max_gap_cells; ++k) {
       const std::ptrdiff_t i = static_cast<std::ptrdiff_t>(column) + k * step_x;
       const std::ptrdiff_t j = static_cast<std::ptrdiff_t>(row) + k * step_y;
@@ -100,7 +104,7 @@ class DepthSampler {
       const int y = grid_.rows[static_cast<std::size_t>(j)];
       if (labels_.at(x, y) != label) break;
       const double depth = sample(x, y);
-      if (!std::isnan(depth)) return {k, 1.0 / depth};
+      if (!std::isnan(depth)) return {std::abs(x - start_x) + std::abs(y - start_y), 1.0 / depth};
     }
     return {};
   }

@@ -12,16 +12,16 @@ Plane plane_through(const Vec3& normal, const Vec3& point) {
   return offset > 0.0 ? Plane{-normal, -offset} : Plane{normal, offset};
 }
 
-bool sample_plane(std::span<const Vec3> points, double min_triangle_mm2, Random& random, Plane& plane) {
+bool sample_plane(std::span<const Vec3> points, const PlaneFitParams& params, Random& random, Plane& plane) {
   const auto count = static_cast<std::uint32_t>(points.size());
   const Vec3& a = points[random.below(count)];
   const Vec3& b = points[random.below(count)];
   const Vec3& c = points[random.below(count)];
   const Vec3 normal = (b - a).cross(c - a);
   const double twice_area = normal.norm();
-  if (!(twice_area > 2.0 * min_triangle_mm2)) return false;
+  if (!(twice_area > 2.0 * params.min_triangle_mm2)) return false;
   plane = plane_through(normal / twice_area, a);
-  return true;
+  return -plane.offset >= params.min_facing_cosine * a.norm();
 }
 
 // Sum of min(distance², threshold²); counts the inliers.
@@ -53,16 +53,22 @@ bool is_sampled_enough(int iterations, int inliers, std::size_t points, double c
   return power(1.0 - share * share * share, iterations) <= 1.0 - confidence;
 }
 
+// Principal spreads of the points about their mean, ascending, and their directions.
+Eigen::SelfAdjointEigenSolver<Mat3> measure_spread(std::span<const Vec3> points, Vec3& mean) {
+  mean = Vec3::Zero();
+  for (const Vec3& point : points) mean += point;
+  mean /= static_cast<double>(points.size());
+  Mat3 scatter = Mat3::Zero();
+  for (const Vec3& point : points) scatter += (point - mean) * (point - mean).transpose();
+  return Eigen::SelfAdjointEigenSolver<Mat3>(scatter);
+}
+
 }  // namespace
 
 bool fit_plane_least_squares(std::span<const Vec3> points_mm, Plane& plane) {
   if (points_mm.size() < 3) return false;
-  Vec3 mean = Vec3::Zero();
-  for (const Vec3& point : points_mm) mean += point;
-  mean /= static_cast<double>(points_mm.size());
-  Mat3 scatter = Mat3::Zero();
-  for (const Vec3& point : points_mm) scatter += (point - mean) * (point - mean).transpose();
-  const Eigen::SelfAdjointEigenSolver<Mat3> solver(scatter);
+  Vec3 mean;
+  const Eigen::SelfAdjointEigenSolver<Mat3> solver = measure_spread(points_mm, mean);
   // On a line two of the three spreads vanish.
   constexpr double kLineShare = 1e-12;
   if (!(solver.eigenvalues()[1] > kLineShare * solver.eigenvalues()[2])) return false;
@@ -79,7 +85,7 @@ bool fit_plane(std::span<Vec3> points_mm, const PlaneFitParams& params, Random& 
   for (; fit.iterations < params.max_iterations; ++fit.iterations) {
     if (is_sampled_enough(fit.iterations, best_inliers, points_mm.size(), params.confidence)) break;
     Plane plane;
-    if (!sample_plane(points_mm, params.min_triangle_mm2, random, plane)) continue;
+    if (!sample_plane(points_mm, params, random, plane)) continue;
     int inliers = 0;
     const double cost = truncated_cost(points_mm, plane, params.threshold_mm, inliers);
     if (best_inliers > 0 && cost >= best_cost) continue;
@@ -104,7 +110,10 @@ bool fit_plane(std::span<Vec3> points_mm, const PlaneFitParams& params, Random& 
   for (const Vec3& point : inliers) squares += best.height(point) * best.height(point);
   fit.plane = best;
   fit.inliers = static_cast<int>(inliers.size());
-  fit.rms_mm = std::sqrt(squares / static_cast<double>(inliers.size()));
+  const auto count = static_cast<double>(inliers.size());
+  fit.rms_mm = std::sqrt(squares / count);
+  Vec3 mean;
+  fit.weak_spread_mm = std::sqrt(measure_spread(inliers, mean).eigenvalues()[1] / count);
   return true;
 }
 

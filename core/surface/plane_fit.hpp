@@ -10,19 +10,21 @@
 namespace traygauge {
 
 struct PlaneFitParams {
-  double threshold_mm = 1.5;      // distance of an inlier
-  int max_iterations = 500;       // bound of the loop
-  double confidence = 0.9999;     // that one sample was free of outliers
-  double min_triangle_mm2 = 100;  // samples that span less say little about the normal
-  int refits = 4;                 // rounds of least squares and new inliers
-  int min_inliers = 12;           // fewer are no plane
+  double threshold_mm = 3.0;       // distance of an inlier; rough borders need twice what exact ones do
+  int max_iterations = 500;        // bound of the loop
+  double confidence = 0.9999;      // that one sample was free of outliers
+  double min_triangle_mm2 = 100;   // samples that span less say little about the normal
+  double min_facing_cosine = 0.4;  // of the line of sight to the normal; a flatter view sees no dish
+  int refits = 4;                  // rounds of least squares and new inliers
+  int min_inliers = 12;            // fewer are no plane
 };
 
 struct PlaneFit {
   Plane plane;  // normal towards the camera
   int inliers = 0;
   int iterations = 0;
-  double rms_mm = 0.0;  // of the inliers' distances
+  double rms_mm = 0.0;          // of the inliers' distances
+  double weak_spread_mm = 0.0;  // standard deviation of the inliers along the plane where they spread least
 };
 
 // Least-squares plane through at least three points, normal towards the camera (the origin).

@@ -2,13 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 namespace traygauge {
 namespace {
 
-// Sides whose mean place stands for all of them when crossings are looked for: the staircase of single sides
-// would cross a slanted line several times.
-constexpr std::size_t kBlockSides = 4;
+constexpr std::size_t kBlockSides = RimWorkspace::kBlockSides;
 constexpr int kNewtonSteps = 3;
 
 // Line of a picture: normal · (x, y) + offset = 0.
@@ -48,7 +47,11 @@ bool cross_curve(const ContourCurve& curve, const PixelLine& line, double reach_
 class ContourMatcher {
  public:
   ContourMatcher(const RimInput& input, const RimParams& params, const RimWorkspace& workspace)
-      : cameras_(input.cameras), params_(params), first_(workspace.first), second_(workspace.second) {}
+      : cameras_(input.cameras),
+        params_(params),
+        first_(workspace.first),
+        second_(workspace.second),
+        blocks_(workspace.second_blocks.items()) {}
 
   bool match(std::size_t first_side, Vec3& point_mm) const {
     ContourCurve curve;
@@ -78,13 +81,13 @@ class ContourMatcher {
   // crosses it in the same sense: that tells the near side from the far side. More than one such crossing is
   // ambiguous and gives none.
   bool find_crossing(const PixelLine& line, bool rising, Vec2& pixel) const {
-    const std::size_t blocks = second_.sides.size() / kBlockSides;
+    const std::size_t blocks = blocks_.size();
     if (blocks < 3) return false;
-    double previous = line.value(block_place(blocks - 1));
+    double previous = line.value(blocks_[blocks - 1]);
     std::size_t found = blocks;
     double share = 0.0;
     for (std::size_t block = 0; block < blocks; ++block) {
-      const double value = line.value(block_place(block));
+      const double value = line.value(blocks_[block]);
       const bool is_crossing = rising ? (previous < 0.0 && value >= 0.0) : (previous >= 0.0 && value < 0.0);
       if (is_crossing) {
         if (found != blocks) return false;
@@ -108,17 +111,21 @@ class ContourMatcher {
     return std::abs(line.normal.dot(curve.direction(u))) >= params_.min_crossing_sine;
   }
 
-  Vec2 block_place(std::size_t block) const {
-    Vec2 sum = Vec2::Zero();
-    for (std::size_t k = 0; k < kBlockSides; ++k) sum += second_.place(block * kBlockSides + k);
-    return sum / static_cast<double>(kBlockSides);
-  }
-
   const CameraPair& cameras_;
   const RimParams& params_;
   const DishContour& first_;
   const DishContour& second_;
+  std::span<const Vec2> blocks_;
 };
+
+void average_blocks(const DishContour& contour, BoundedList<Vec2>& blocks) {
+  blocks.clear();
+  for (std::size_t side = 0; side + kBlockSides <= contour.sides.size(); side += kBlockSides) {
+    Vec2 sum = Vec2::Zero();
+    for (std::size_t k = 0; k < kBlockSides; ++k) sum += contour.place(side + k);
+    blocks.push_back(sum / static_cast<double>(kBlockSides));
+  }
+}
 
 // The measured depth inset_px inside the border.
 bool unproject_inside(const RimInput& input, const RimParams& params, const DishContour& contour,
@@ -165,6 +172,7 @@ Status collect_rim_points(const RimInput& input, const RimParams& params, RimWor
   if (params.source != RimSource::dense) {
     const Status second = trace_dish_contour(input.second_labels, workspace.second);
     if (!second.ok()) return second;
+    average_blocks(workspace.second, workspace.second_blocks);
     const ContourMatcher matcher(input, params, workspace);
     for (std::size_t side = 0; side < workspace.first.sides.size(); side += step) {
       if (matcher.match(side, point_mm)) workspace.points_mm.push_back(point_mm);
@@ -179,6 +187,12 @@ Status collect_rim_points(const RimInput& input, const RimParams& params, RimWor
   }
   const bool is_enough = workspace.points_mm.size() >= static_cast<std::size_t>(params.plane.min_inliers);
   return is_enough ? StatusCode::ok : StatusCode::rim_not_found;
+}
+
+double tilt_sigma_rad(const PlaneFit& fit, const RimParams& params) {
+  const double overlap = (2.0 * params.curve.radius_sides + 1.0) / params.step_sides;
+  const double independent = fit.inliers / std::max(1.0, overlap);
+  return fit.rms_mm / (fit.weak_spread_mm * std::sqrt(independent));
 }
 
 Status fit_rim_plane(const Pose& second_from_first, const RimParams& params, Random& random,
@@ -196,6 +210,7 @@ Status fit_rim_plane(const Pose& second_from_first, const RimParams& params, Ran
   }
   PlaneFit edge_fit;
   if (!fit_plane(points_mm.items().first(edge_points), params.plane, random, edge_fit)) return StatusCode::ok;
+  if (tilt_sigma_rad(edge_fit, params) > params.max_edge_sigma_rad) return StatusCode::ok;
   edge_fit.iterations += fit.iterations;
   fit = edge_fit;
   return StatusCode::ok;

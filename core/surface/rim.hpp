@@ -26,7 +26,7 @@ enum class RimSource : std::uint8_t {
 struct RimParams {
   RimSource source = RimSource::contour;
   int step_sides = 3;      // every so many sides of the first border give a point
-  double inset_px = 4.0;   // dense: so far inside the border lies the rim's crest, clear of the table
+  double inset_px = 3.0;   // dense: so far inside the border lies the rim's crest, clear of the table
   ContourFitParams curve;  // contour: subpixel place of the border
   // Contour: where the border runs along the epipolar line the crossing is uncertain; 0.5 is 30 degrees.
   double min_crossing_sine = 0.5;
@@ -35,17 +35,25 @@ struct RimParams {
   // line of it. The plane is fitted again without the points that either camera sees from further outside
   // than this; tangent of the angle between the line of sight and the rim's normal.
   double max_outward_tangent = 0.0;
+  // … unless what is left fixes the plane's direction worse than the wall would spoil it.
+  double max_edge_sigma_rad = 0.0035;
 };
 
 struct RimWorkspace {
+  // The mean of so many sides stands for them when crossings are looked for: the staircase of single sides
+  // would cross a slanted line several times.
+  static constexpr std::size_t kBlockSides = 4;
+
   DishContour first;
   DishContour second;
+  BoundedList<Vec2> second_blocks;  // mean places of a few consecutive sides of the second border
   BoundedList<Vec3> points_mm;
 
   template <class Allocator>
   constexpr void allocate(Allocator& arena, std::size_t max_sides, std::size_t max_points) {
     first.allocate(arena, max_sides);
     second.allocate(arena, max_sides);
+    second_blocks = BoundedList<Vec2>(arena.template take<Vec2>(max_sides / kBlockSides));
     points_mm = BoundedList<Vec3>(arena.template take<Vec3>(max_points));
   }
 };
@@ -64,9 +72,13 @@ struct RimInput {
 // tracing.
 Status collect_rim_points(const RimInput& input, const RimParams& params, RimWorkspace& workspace);
 
+// Standard deviation of a rim plane's direction about its weakest axis, from its residuals. Points whose
+// fitted stretches of border overlap repeat each other's error.
+double tilt_sigma_rad(const PlaneFit& fit, const RimParams& params);
+
 // The plane of most rim points, normal towards the first camera. The first `fit.inliers` of `points_mm` are
-// those that it rests on; the others that remain lie near it, on the near side's wall, and serve for the rim's
-// size. rim_not_found when too few agree.
+// those that it rests on; the others that remain lie near it, on the near side's wall, and serve for the
+// rim's size. rim_not_found when too few agree.
 Status fit_rim_plane(const Pose& second_from_first, const RimParams& params, Random& random,
                      BoundedList<Vec3>& points_mm, PlaneFit& fit);
 

@@ -29,9 +29,9 @@ enum class FoldedArea : std::uint8_t {
 
 struct VolumeParams {
   FoldedArea folded = FoldedArea::subtracted;
-  // Quantile of the heights of an item's points that is its greatest height; 1 is the highest point, which
-  // depth noise pushes up.
-  double max_height_quantile = 0.99;
+  // Quantile of the heights of an item's points that is its greatest height: 1 is the highest point, which
+  // depth noise pushes up; lower cuts peaks.
+  double max_height_quantile = 0.998;
 };
 
 struct VolumeWorkspace {

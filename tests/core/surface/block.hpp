@@ -19,11 +19,11 @@ class Allocated {
     Workspace planned;
     planned.allocate(plan, caps...);
     bytes_ = plan.high_water_bytes();
-    block_ = static_cast<std::byte*>(::operator new(bytes_, std::align_val_t{kArenaAlignmentBytes}));
+    block_ = static_cast<std::byte*>(::operator new (bytes_, std::align_val_t{kArenaAlignmentBytes}));
     Arena arena(std::span<std::byte>(block_, bytes_));
     workspace_.allocate(arena, caps...);
   }
-  ~Allocated() { ::operator delete(block_, std::align_val_t{kArenaAlignmentBytes}); }
+  ~Allocated() { ::operator delete (block_, std::align_val_t{kArenaAlignmentBytes}); }
   Allocated(const Allocated&) = delete;
   Allocated& operator=(const Allocated&) = delete;
 

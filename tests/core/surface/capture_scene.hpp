@@ -53,8 +53,8 @@ inline std::filesystem::path captures_folder() {
 
 // Captures with a single dish.
 inline std::vector<std::string> single_dish_captures() {
-  return {"angles/a01",  "meals/m01",       "meals/m04",     "meals/m06",    "meals/m08",
-          "meals/m11",   "plates/c1_dinner", "plates/c1_oval", "plates/c1_soup"};
+  return {"angles/a01", "meals/m01",        "meals/m04",      "meals/m06",     "meals/m08",
+          "meals/m11",  "plates/c1_dinner", "plates/c1_oval", "plates/c1_soup"};
 }
 
 template <class T>
@@ -153,11 +153,14 @@ inline CaptureScene load_scene(const std::string& name, double dish_px = 131072.
     view.camera = remap.pinhole;
     view.labels = remap.apply(stored, cv::INTER_NEAREST);
     for (int r = 0; r < 3; ++r) {
-      for (int c = 0; c < 3; ++c) view.camera_from_world.rotation(r, c) = truth["poses"][i][static_cast<std::size_t>(r)][static_cast<std::size_t>(c)];
+      for (int c = 0; c < 3; ++c)
+        view.camera_from_world.rotation(r, c) =
+            truth["poses"][i][static_cast<std::size_t>(r)][static_cast<std::size_t>(c)];
       view.camera_from_world.translation[r] = truth["poses"][i][static_cast<std::size_t>(r)][3];
     }
     if (i == 0) {
-      scene.depth_mm = remap_depth(remap, cv::imread((folder / "depth_0.png").string(), cv::IMREAD_UNCHANGED));
+      scene.depth_mm =
+          remap_depth(remap, cv::imread((folder / "depth_0.png").string(), cv::IMREAD_UNCHANGED));
     }
     scene.views.push_back(view);
   }
