@@ -25,6 +25,10 @@ class BoundedList {
     size_ = 0;
     dropped_ = 0;
   }
+  // Takes in elements that were written behind the end of the list, in its storage.
+  constexpr void extend(std::size_t count) {
+    size_ = size_ + count < storage_.size() ? size_ + count : storage_.size();
+  }
   // Shortens the list; never grows it.
   constexpr void truncate(std::size_t size) { size_ = size < size_ ? size : size_; }
 

@@ -29,7 +29,8 @@ namespace traygauge {
 struct EstimatorLimits {
   int max_frame_width = 1600;
   int max_frame_height = 1200;
-  int max_keypoints = 3000;  // per view
+  int max_keypoints = 3000;      // per view
+  int max_card_keypoints = 800;  // of those, kept for the card where it is labelled
   int max_pattern_keypoints = 1500;
   int max_feature_px = 1200 * 1000;  // area of the picture in which salient points are looked for
   int max_working_px =
@@ -41,8 +42,12 @@ struct EstimatorLimits {
 struct ViewParams {
   double matching_dish_px = 131072.0;  // 2^17: area of the dish for dense matching (paper V-B)
   double working_margin_px = 6.0;      // around the dish: half of census and window
-  double feature_dish_px = 524288.0;   // 2^19: area of the dish where salient points are looked for; the card needs it
-  double pattern_px_per_mm = 3.0;      // of the card's picture for its features: as a view with 2^19 dish pixels
+  double feature_dish_px =
+      524288.0;  // 2^19: area of the dish where salient points are looked for; the card needs it
+  // Scale at which the card and its pattern are searched for salient points. Views show the card with 2 to 4
+  // px per mm, where the box filters find few; enlarging as in [14], 3.3 gives four times as many.
+  double card_px_per_mm = 6.0;
+  double max_card_enlargement = 3.0;  // of a view's picture of the card; more only blurs
   double max_card_rotation_deg =
       5.0;  // between the scene's motion and the card's own, which is sure to 1 or 2 degrees
   double min_card_pose_fitness = 0.8;  // eq. (1) of the card's motion over that of the scene's, to replace it

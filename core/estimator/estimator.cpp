@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/estimator/estimator_state.hpp"
+#include "core/estimator/feature_preparation.hpp"
 #include "core/image/integral.hpp"
 
 namespace traygauge {
@@ -53,7 +54,7 @@ std::size_t required_bytes(const EstimatorLimits& limits) {
 // structures.
 void EstimatorState::set_up_pattern(ImageView<const std::uint8_t> picture) {
   PreparationWorkspace& scratch = memory.preparation;
-  const double wanted_px = configuration.view.pattern_px_per_mm * configuration.card.width_mm;
+  const double wanted_px = configuration.view.card_px_per_mm * configuration.card.width_mm;
   const double scale = std::min(1.0, wanted_px / picture.width);
   const int width = static_cast<int>(picture.width * scale);
   const int height = static_cast<int>(picture.height * scale);

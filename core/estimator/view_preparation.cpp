@@ -4,12 +4,9 @@
 #include <cmath>
 
 #include "core/image/exposure.hpp"
-#include "core/image/integral.hpp"
 
 namespace traygauge {
 namespace {
-
-constexpr double kFullAreaScale = 1.0;  // pictures are never enlarged for features
 
 // Scale that brings `pixels` to `target_pixels`.
 double area_scale(double pixels, double target_pixels) {
@@ -71,14 +68,6 @@ Status choose_cutout(const Configuration& configuration, PreparedView& view) {
   return StatusCode::out_of_memory;
 }
 
-// The picture in which salient points are looked for: the dish at the configured area, within the memory.
-double feature_scale(const Configuration& configuration, const PreparedView& view) {
-  const double frame_px = static_cast<double>(view.lens.width) * view.lens.height;
-  const double by_dish = area_scale(view.regions.dish_pixels, configuration.view.feature_dish_px);
-  const double by_memory = area_scale(frame_px, configuration.limits.max_feature_px);
-  return std::min({kFullAreaScale, by_dish, by_memory});
-}
-
 }  // namespace
 
 Status prepare_picture(const FrameView& frame, const Configuration& configuration,
@@ -106,57 +95,6 @@ Status prepare_picture(const FrameView& frame, const Configuration& configuratio
   resample_undistorted(frame, view.lens, view.cutout, view.gray);
   resample_labels_undistorted(view.labels, view.lens, view.cutout, view.working_labels);
   return StatusCode::ok;
-}
-
-Status prepare_features(const Configuration& configuration, PreparationWorkspace& workspace,
-                        PreparedView& view) {
-  const ImageView<std::uint8_t> gray = workspace.frame_gray;
-  const double scale = feature_scale(configuration, view);
-  const int width = std::max(1, static_cast<int>(std::floor(gray.width * scale)));
-  const int height = std::max(1, static_cast<int>(std::floor(gray.height * scale)));
-  ImageView<std::uint8_t> picture = gray;
-  if (width < gray.width || height < gray.height) {
-    picture = {workspace.feature_picture.data(), width, height};
-    reduce_area(gray, picture);
-  }
-  const ImageView<std::uint32_t> integral{workspace.integral.data(), width + 1, height + 1};
-  build_integral(picture, integral);
-  view.keypoints.clear();
-  detect_surf(integral, configuration.surf, workspace.surf, view.keypoints);
-  view.keypoints_capped = view.keypoints.dropped() > 0;
-
-  const double scale_x = static_cast<double>(gray.width) / width;
-  const double scale_y = static_cast<double>(gray.height) / height;
-  std::size_t kept = 0;
-  for (const Keypoint& keypoint : view.keypoints.items()) {
-    const Vec2 pixel(scale_coordinate(keypoint.pixel.x(), scale_x),
-                     scale_coordinate(keypoint.pixel.y(), scale_y));
-    Vec2 ray;
-    if (!view.lens.undistort_pixel(pixel, ray)) continue;
-    view.ray_storage[kept] = ray;
-    view.keypoints[kept++] = keypoint;
-  }
-  view.keypoints.truncate(kept);
-  describe_surf(integral, configuration.surf, view.keypoints.items(), view.descriptor_storage.first(kept));
-  return kept < static_cast<std::size_t>(configuration.view.min_keypoints) ? StatusCode::too_few_features
-                                                                           : StatusCode::ok;
-}
-
-Status take_features(std::span<const Keypoint> keypoints, std::span<const Descriptor> descriptors,
-                     const ViewParams& params, PreparedView& view) {
-  if (keypoints.size() != descriptors.size()) return StatusCode::invalid_configuration;
-  const std::size_t count = std::min(keypoints.size(), view.descriptor_storage.size());
-  view.keypoints_capped = count < keypoints.size();
-  view.keypoints.clear();
-  for (std::size_t i = 0; i < count; ++i) {
-    Vec2 ray;
-    if (!view.lens.undistort_pixel(keypoints[i].pixel, ray)) continue;
-    view.ray_storage[view.keypoints.size()] = ray;
-    view.descriptor_storage[view.keypoints.size()] = descriptors[i];
-    view.keypoints.push_back(keypoints[i]);
-  }
-  return view.keypoints.size() < static_cast<std::size_t>(params.min_keypoints) ? StatusCode::too_few_features
-                                                                                : StatusCode::ok;
 }
 
 }  // namespace traygauge

@@ -26,7 +26,8 @@ struct PreparedView {
   std::optional<double> arm_angle_deg;
   ImageView<const std::uint8_t> labels;  // of the stored picture, the caller's
   LabelRegions regions;
-  BoundedList<Keypoint> keypoints;  // positions in the feature picture
+  BoundedList<Keypoint> keypoints;  // positions in the picture that was searched; `rays` say where they are
+  std::span<Keypoint> keypoint_storage;
   std::span<Descriptor> descriptor_storage;
   std::span<Vec2> ray_storage;
   Cutout cutout;  // the working picture's geometry
@@ -39,7 +40,8 @@ struct PreparedView {
   template <class Allocator>
   constexpr void allocate(Allocator& arena, const EstimatorLimits& limits) {
     const auto keypoint_count = static_cast<std::size_t>(limits.max_keypoints);
-    keypoints = BoundedList<Keypoint>(arena.template take<Keypoint>(keypoint_count));
+    keypoint_storage = arena.template take<Keypoint>(keypoint_count);
+    keypoints = BoundedList<Keypoint>(keypoint_storage);
     descriptor_storage = arena.template take<Descriptor>(keypoint_count);
     ray_storage = arena.template take<Vec2>(keypoint_count);
     const auto pixels = static_cast<std::size_t>(limits.max_working_px);
@@ -55,9 +57,9 @@ struct PreparedView {
 
 // Scratch that is free again once the view is prepared.
 struct PreparationWorkspace {
-  ImageView<std::uint8_t> gray;        // memory for the largest frame
-  ImageView<std::uint8_t> frame_gray;  // the current frame in it
-  std::span<std::uint8_t> feature_picture;
+  ImageView<std::uint8_t> gray;             // memory for the largest frame
+  ImageView<std::uint8_t> frame_gray;       // the current frame in it
+  std::span<std::uint8_t> feature_picture;  // reduced frame, or enlarged card
   std::span<std::uint32_t> integral;
   SurfWorkspace surf;
 
@@ -77,14 +79,5 @@ struct PreparationWorkspace {
 // Checks sizes, labels and exposure, and cuts the dish out.
 Status prepare_picture(const FrameView& frame, const Configuration& configuration,
                        PreparationWorkspace& workspace, PreparedView& view);
-
-// Detects and describes; rays from the lens. Points whose pixel the lens model cannot invert are dropped.
-// Call after prepare_picture. too_few_features when the picture has next to none.
-Status prepare_features(const Configuration& configuration, PreparationWorkspace& workspace,
-                        PreparedView& view);
-
-// Takes features from elsewhere instead, in pixels of the stored picture.
-Status take_features(std::span<const Keypoint> keypoints, std::span<const Descriptor> descriptors,
-                     const ViewParams& params, PreparedView& view);
 
 }  // namespace traygauge

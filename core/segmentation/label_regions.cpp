@@ -42,6 +42,8 @@ LabelRegions measure_regions(ImageView<const std::uint8_t> labels) {
       if (is_on_dish(row[begin])) {
         regions.dish_pixels += length;
         extend_box(regions.dish, begin, end, y);
+      } else if (row[begin] == kCardLabel) {
+        extend_box(regions.card, begin, end, y);
       }
       begin = end;
     }

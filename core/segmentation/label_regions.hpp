@@ -38,6 +38,7 @@ struct LabelRegions {
   std::array<std::uint32_t, 256> pixels{};  // per label
   std::uint32_t dish_pixels = 0;            // dish and items together
   PixelBox dish;                            // around dish and items
+  PixelBox card;                            // around the card, where it is labelled
   bool dish_cut_off = false;                // the dish touches the edge of the picture
 };
 

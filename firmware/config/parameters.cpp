@@ -32,9 +32,12 @@ std::vector<Parameter> sparse_parameters(Configuration& c) {
   return {
       {"view.matching_dish_px", &c.view.matching_dish_px},
       {"view.feature_dish_px", &c.view.feature_dish_px},
-      {"view.pattern_px_per_mm", &c.view.pattern_px_per_mm},
+      {"view.card_px_per_mm", &c.view.card_px_per_mm},
+      {"view.max_card_enlargement", &c.view.max_card_enlargement},
       {"view.max_card_rotation_deg", &c.view.max_card_rotation_deg},
       {"limits.max_keypoints", &c.limits.max_keypoints},
+      {"limits.max_card_keypoints", &c.limits.max_card_keypoints},
+      {"limits.max_pattern_keypoints", &c.limits.max_pattern_keypoints},
       {"limits.max_feature_px", &c.limits.max_feature_px},
       {"surf.octaves", &c.surf.octaves},
       {"surf.first_step_px", &c.surf.first_step_px},
