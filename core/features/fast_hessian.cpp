@@ -104,12 +104,23 @@ void refine_position(ImageView<const std::uint32_t> integral, Keypoint& keypoint
   }
 }
 
-void add_maximum(ImageView<const std::uint32_t> integral, const SurfWorkspace& workspace, Octave octave,
-                 int layer, int row, int column, StrongestKeypoints& strongest) {
+// Lowe 2004, section 4.1: the ratio of the eigenvalues of H from its trace and determinant.
+bool is_elongated(const BoxDerivatives& derivatives, float max_elongation) {
+  const float trace = derivatives.xx + derivatives.yy;
+  const float sum = max_elongation + 1.0F;
+  return trace * trace * max_elongation > sum * sum * derivatives.response();
+}
+
+void add_maximum(ImageView<const std::uint32_t> integral, const SurfParams& params,
+                 const SurfWorkspace& workspace, Octave octave, int layer, int row, int column,
+                 StrongestKeypoints& strongest) {
   const Neighbourhood values = neighbourhood_of(workspace, layer, row, column);
   Eigen::Vector3f offset;
   if (!is_maximum(values) || !interpolate_maximum(values, offset)) return;
   const BoxFilter filter = filter_of(octave.index, layer);
+  const BoxDerivatives derivatives =
+      derivatives_at(integral, filter, column * octave.step, row * octave.step);
+  if (is_elongated(derivatives, params.max_elongation)) return;
   const auto step = static_cast<float>(octave.step);
   Keypoint keypoint;
   keypoint.pixel = {(static_cast<float>(column) + offset.x()) * step,
@@ -119,7 +130,7 @@ void add_maximum(ImageView<const std::uint32_t> integral, const SurfWorkspace& w
       kSigmaPerFilterPixel *
       (static_cast<float>(filter.size()) + offset.z() * static_cast<float>(filter_increment(octave.index)));
   keypoint.response = values[1][1][1];
-  keypoint.laplacian = derivatives_at(integral, filter, column * octave.step, row * octave.step).laplacian();
+  keypoint.laplacian = derivatives.laplacian();
   strongest.add(keypoint);
 }
 
@@ -140,7 +151,7 @@ void find_maxima(ImageView<const std::uint32_t> integral, const SurfParams& para
       const float response = responses[column];
       if (response < params.min_response) continue;
       if (response <= responses[column - 1] || response < responses[column + 1]) continue;
-      add_maximum(integral, workspace, octave, layer, row, column, strongest);
+      add_maximum(integral, params, workspace, octave, layer, row, column, strongest);
     }
   }
 }
@@ -150,7 +161,7 @@ void find_maxima(ImageView<const std::uint32_t> integral, const SurfParams& para
 Status validate(const SurfParams& params) {
   const bool valid = params.octaves >= 1 && params.octaves <= kMaxOctaves && params.first_step_px >= 1 &&
                      params.first_step_px <= 4 && params.min_response > 0.0F &&
-                     std::isfinite(params.min_response);
+                     std::isfinite(params.min_response) && params.max_elongation >= 1.0F;
   return valid ? StatusCode::ok : StatusCode::invalid_configuration;
 }
 

@@ -125,8 +125,8 @@ TEST(Detector, FindsExactlyTheMaximaOfTheDefinition) {
       }
     }
   }
-  const PictureFeatures found =
-      run_surf(picture, {.octaves = 1, .first_step_px = kStep, .min_response = 3e-4F});
+  const PictureFeatures found = run_surf(
+      picture, {.octaves = 1, .first_step_px = kStep, .min_response = 3e-4F, .max_elongation = 1e6F});
   ASSERT_GT(maxima, 30U);
   EXPECT_LE(found.keypoints.size(), maxima);  // some have no vertex among their neighbours
   EXPECT_GE(found.keypoints.size(), maxima - maxima / 10 - 1);
@@ -156,6 +156,32 @@ TEST(Detector, FindsNothingOnUniformGroundOrARamp) {
     for (int x = 0; x < ramp.cols; ++x) ramp.at<std::uint8_t>(y, x) = static_cast<std::uint8_t>(x);
   }
   EXPECT_TRUE(run_surf(ramp, sensitive).keypoints.empty());
+}
+
+// A Gaussian blob of axes a > b through a Gaussian filter of sigma f has curvatures in the ratio
+// (a² + f²) / (b² + f²); f lies between b and 2 b here. So 4 : 1 gives at least 4, and 1.2 : 1 at most 1.3.
+TEST(Detector, ElongatedBlobsAreNoKeypoints) {
+  for (const double turn : {0.0, 0.4, 0.8}) {
+    for (const double elongation : {1.0, 1.2, 4.0}) {
+      cv::Mat picture(301, 301, CV_8U);
+      for (int y = 0; y < picture.rows; ++y) {
+        for (int x = 0; x < picture.cols; ++x) {
+          const double along = (std::cos(turn) * (x - 150) + std::sin(turn) * (y - 150)) / (6.0 * elongation);
+          const double across = (std::cos(turn) * (y - 150) - std::sin(turn) * (x - 150)) / 6.0;
+          const double height = std::exp(-0.5 * (along * along + across * across));
+          picture.at<std::uint8_t>(y, x) = cv::saturate_cast<std::uint8_t>(60.0 + 150.0 * height);
+        }
+      }
+      const auto middle_found = [&](float max_elongation) {
+        const auto found =
+            run_surf(picture, {.min_response = 1e-3F, .max_elongation = max_elongation}).keypoints;
+        return std::any_of(found.begin(), found.end(),
+                           [](const Keypoint& k) { return (k.pixel - Vec2(150.0, 150.0)).norm() < 3.0; });
+      };
+      EXPECT_TRUE(middle_found(1e6F)) << turn << " " << elongation;
+      EXPECT_EQ(middle_found(3.0F), elongation < 2.0) << turn << " " << elongation;
+    }
+  }
 }
 
 TEST(Detector, SurvivesPicturesSmallerThanItsFilters) {
@@ -214,6 +240,7 @@ TEST(SurfParamsValidation, RefusesWhatCannotRun) {
   EXPECT_FALSE(validate(SurfParams{.octaves = kMaxOctaves + 1}).ok());
   EXPECT_FALSE(validate(SurfParams{.first_step_px = 0}).ok());
   EXPECT_FALSE(validate(SurfParams{.min_response = 0.0F}).ok());
+  EXPECT_FALSE(validate(SurfParams{.max_elongation = 0.5F}).ok());
   EXPECT_FALSE(validate(SurfParams{.min_response = std::numeric_limits<float>::quiet_NaN()}).ok());
   EXPECT_FALSE(validate(SurfParams{.min_response = std::numeric_limits<float>::infinity()}).ok());
 }
