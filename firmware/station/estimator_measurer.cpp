@@ -1,25 +1,9 @@
 #include "firmware/station/estimator_measurer.hpp"
 
-#include <new>
-
 namespace traygauge {
 
-namespace {
-
-constexpr std::align_val_t kBlockAlignment{kArenaAlignmentBytes};
-
-}  // namespace
-
-void EstimatorMeasurer::FreeAligned::operator()(std::byte* block) const {
-  ::operator delete[](block, kBlockAlignment);
-}
-
 EstimatorMeasurer::EstimatorMeasurer(Scene& scene, const EstimatorLimits& limits, std::uint64_t seed)
-    : scene_(scene),
-      limits_(limits),
-      seed_(seed),
-      block_bytes_(required_bytes(limits)),
-      block_(new (kBlockAlignment) std::byte[block_bytes_]) {}
+    : scene_(scene), limits_(limits), seed_(seed), block_(required_bytes(limits)) {}
 
 // The card's pattern is learned again only when the configuration is another one.
 void EstimatorMeasurer::begin_scan() {
@@ -37,7 +21,7 @@ void EstimatorMeasurer::begin_scan() {
 void EstimatorMeasurer::configure(const Configuration& configuration) {
   Configuration own = configuration;
   own.limits = limits_;
-  estimator_.emplace(std::span(block_.get(), block_bytes_), own);
+  estimator_.emplace(block_.bytes(), own);
 }
 
 Status EstimatorMeasurer::add_view(const StationView& view) {

@@ -3,11 +3,10 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <memory>
 #include <optional>
 
-#include "core/base/arena.hpp"
 #include "core/estimator/estimator.hpp"
+#include "firmware/base/aligned_block.hpp"
 #include "firmware/station/measurer.hpp"
 
 namespace traygauge {
@@ -37,19 +36,15 @@ class EstimatorMeasurer final : public Measurer {
   Status add_view(const StationView& view) override;
   const Measurement& measure() override;
   std::string_view tray_name() const override { return scene_.tray_name(); }
-  std::size_t reserved_bytes() const { return block_bytes_; }
+  std::size_t reserved_bytes() const { return block_.bytes().size(); }
 
  private:
-  struct FreeAligned {
-    void operator()(std::byte* block) const;
-  };
   void configure(const Configuration& configuration);
 
   Scene& scene_;
   EstimatorLimits limits_;
   std::uint64_t seed_;
-  std::size_t block_bytes_;
-  std::unique_ptr<std::byte[], FreeAligned> block_;
+  AlignedBlock block_;
   const Configuration* configured_with_ = nullptr;
   std::optional<Estimator> estimator_;
   Measurement unmeasured_;  // where there is no estimator to ask

@@ -5,6 +5,8 @@
 #include <nlohmann/json.hpp>
 #include <ostream>
 
+#include "firmware/measure/measure_report.hpp"
+
 namespace traygauge {
 namespace {
 
@@ -35,7 +37,7 @@ std::string message(const ScanResult& result) {
     case ScanOutcome::not_measurable:
       break;
   }
-  return sentence(result.measurement->status.code());
+  return compose_message(*result.measurement);
 }
 
 std::string item_text(const ItemResult& item) {
@@ -52,6 +54,7 @@ Json item_json(const ItemResult& item) {
           {"dish", item.dish},
           {"status", name(item.status)},
           {"volume_ml", number(item.volume_ml)},
+          {"sigma_ml", nullptr},  // profile `paper` states no uncertainty
           {"area_mm2", number(item.area_mm2)},
           {"mean_height_mm", number(item.mean_height_mm)},
           {"max_height_mm", number(item.max_height_mm)}};

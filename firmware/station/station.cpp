@@ -5,16 +5,14 @@
 #include <cstddef>
 #include <optional>
 
+#include "firmware/measure/measure_report.hpp"
+
 namespace traygauge {
 namespace {
 
 // What spoils one scan and leaves the camera usable; anything else needs the device to be opened again.
 bool spoils_one_scan(DeviceCode code) {
   return code == DeviceCode::torn_frame || code == DeviceCode::stale_frame || code == DeviceCode::unreadable;
-}
-
-bool is_measured(const Status& status) {
-  return status.ok() || status.code() == StatusCode::partial;
 }
 
 }  // namespace
@@ -139,7 +137,7 @@ StationState Station::measure() {
   show(Signal::busy);
   const DeviceStatus returning = begin_return();
   const Measurement& measurement = measurer_.measure();
-  const bool measured = is_measured(measurement.status);
+  const bool measured = is_measured(measurement);
   ScanResult result;
   result.outcome = measured ? ScanOutcome::measured : ScanOutcome::not_measurable;
   result.measurement = &measurement;

@@ -3,7 +3,9 @@
 #include <ostream>
 #include <string_view>
 
+#include "firmware/base/exit_status.hpp"
 #include "firmware/station/scan_printer.hpp"
+#include "simulator/capture/input_error.hpp"
 #include "simulator/devices/capture_folders.hpp"
 #include "simulator/devices/simulated_arm.hpp"
 #include "simulator/devices/simulated_camera.hpp"
@@ -14,8 +16,6 @@
 namespace traygauge {
 namespace {
 
-constexpr int kNotAllMeasured = 1;
-constexpr int kWrongUse = 2;
 constexpr std::string_view kSimulatorPrefix = "simulator:";
 constexpr Nanoseconds kPersonPresses = std::chrono::seconds(1);  // after the lamp says ready
 
@@ -42,13 +42,12 @@ int play(const StationCommand& command, MeasurableCaptures& captures, const std:
   params.second_view_deg = command.second_view_deg;
   params.max_scans = command.scans;
   if (!command.by_hand && !arm.limits().contains(params.second_view_deg)) {
-    log << "traygauge: --second-view " << params.second_view_deg << ": the arm moves from "
-        << arm.limits().min_deg << " to " << arm.limits().max_deg << " degrees." << std::endl;
-    return kWrongUse;
+    throw UsageError("--second-view: expected " + std::to_string(arm.limits().min_deg) + " to " +
+                     std::to_string(arm.limits().max_deg) + " degrees, where the arm can go");
   }
   Station station({camera, trigger, command.by_hand ? nullptr : &arm, lamp, clock}, measurer, printer, stop,
                   params);
-  return station.run().all_worked() ? 0 : kNotAllMeasured;
+  return station.run().all_worked() ? kExitMeasured : kExitNotMeasurable;
 }
 
 }  // namespace
@@ -77,15 +76,13 @@ CLI::App* add_station_command(CLI::App& app, StationCommand& command) {
 int run_station(const StationCommand& command, const OpenCaptures& open_captures,
                 const std::atomic<bool>& stop, std::ostream& out, std::ostream& log) {
   if (!command.devices.starts_with(kSimulatorPrefix)) {
-    log << "traygauge: --devices " << command.devices << ": expected simulator:FOLDER." << std::endl;
-    return kWrongUse;
+    throw UsageError("--devices: expected simulator:FOLDER, found " + printable(command.devices));
   }
   const std::filesystem::path folder = command.devices.substr(kSimulatorPrefix.size());
   const auto folders = find_capture_folders(folder);
   if (folders.empty()) {
-    log << "traygauge: " << folder.string() << ": neither capture.json here nor captures in folders below."
-        << std::endl;
-    return kWrongUse;
+    throw InputError({folder, ""}, "capture.json here, or captures in the folders below", "neither",
+                     "name a capture, or a folder of captures");
   }
   const auto captures = open_captures(folders);
   return play(command, *captures, stop, out, log);

@@ -33,8 +33,8 @@ using OpenCaptures =
 // Adds the command to `app`; when it is given, parsing fills `command`.
 CLI::App* add_station_command(CLI::App& app, StationCommand& command);
 
-// Runs the loop until its end or until `stop`. Exit status: 0 all scans measured, 1 some not, 2 wrong use.
-// Throws what `open_captures` throws, before anything is printed.
+// Runs the loop until its end or until `stop`. Exit status: all scans measured, or some not.
+// Throws UsageError, InputError and what `open_captures` throws, before anything is printed.
 int run_station(const StationCommand& command, const OpenCaptures& open_captures,
                 const std::atomic<bool>& stop, std::ostream& out, std::ostream& log);
 

@@ -6,6 +6,8 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "firmware/measure/measure_report.hpp"
+
 namespace traygauge {
 namespace {
 
@@ -31,8 +33,8 @@ class Printed : public testing::Test {
 };
 
 TEST_F(Printed, TextNamesItemsAndVolumes) {
-  EXPECT_EQ(scan_text(result_), "Scan 3 (soup): item 2 123.4 ml, item 7 item_hidden. " +
-                                    std::string(sentence(StatusCode::partial)) + "\n");
+  EXPECT_EQ(scan_text(result_),
+            "Scan 3 (soup): item 2 123.4 ml, item 7 item_hidden. " + compose_message(measurement_) + "\n");
 }
 
 TEST_F(Printed, JsonIsOneLineAndHasNullForWhatWasNotMeasured) {

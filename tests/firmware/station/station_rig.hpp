@@ -16,7 +16,9 @@
 
 namespace traygauge {
 
-inline void PrintTo(Signal signal, std::ostream* out) { *out << name(signal); }
+inline void PrintTo(Signal signal, std::ostream* out) {
+  *out << name(signal);
+}
 
 // Its one item's volume is ten times the first view's grey plus the second's.
 class FakeMeasurer final : public Measurer {

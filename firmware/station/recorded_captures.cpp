@@ -1,0 +1,64 @@
+#include "firmware/station/recorded_captures.hpp"
+
+#include <algorithm>
+
+#include "firmware/config/dish_library.hpp"
+#include "firmware/measure/capture_session.hpp"
+#include "firmware/measure/measure_command.hpp"
+
+namespace traygauge {
+
+RecordedCaptures::RecordedCaptures(const std::vector<std::filesystem::path>& folders) {
+  for (const auto& folder : folders) add(folder);
+}
+
+void RecordedCaptures::add(const std::filesystem::path& folder) {
+  const Capture capture = read_capture(folder);
+  auto recording = std::make_unique<Recording>();
+  recording->name = capture.file.parent_path().filename().string();
+  const std::array<int, 2> pair = choose_pair("", capture);
+  for (std::size_t i = 0; i < 2; ++i) {
+    recording->views[i] = capture.views[static_cast<std::size_t>(pair[i])];
+    recording->lenses[i] = lens_of(recording->views[i].camera);
+    largest_.width = std::max(largest_.width, recording->views[i].camera.size.width);
+    largest_.height = std::max(largest_.height, recording->views[i].camera.size.height);
+  }
+  recording->pattern = load_pattern(capture.card);
+  const auto dishes = capture.dishes.empty() ? read_dish_library(find_config_folder("")) : capture.dishes;
+  for (const DishDescription& dish : dishes) recording->dishes.push_back(dish_of(dish));
+
+  Configuration& configuration = recording->configuration;
+  configuration.lens = recording->lenses[0];
+  configuration.card = {capture.card.width_mm, capture.card.height_mm, capture.card.thickness_mm,
+                        recording->pattern.gray()};
+  configuration.dishes = recording->dishes;
+  recordings_.push_back(std::move(recording));
+}
+
+bool RecordedCaptures::open(std::size_t index) {
+  open_ = recordings_[index].get();
+  pair_ = {};
+  try {
+    for (std::size_t i = 0; i < 2; ++i) {
+      loaded_[i] = load_view(open_->views[i]);
+      pair_[i] = {loaded_[i].picture.frame(), loaded_[i].labels.gray(), open_->views[i].arm_angle_deg};
+    }
+  } catch (const InputError& problem) {
+    problem_ = problem.what();
+    return false;
+  }
+  problem_.clear();
+  return true;
+}
+
+EstimatorLimits RecordedCaptures::limits() const {
+  const PictureSize size{largest_.width, largest_.height};
+  return limits_for(size, size);
+}
+
+std::unique_ptr<MeasurableCaptures> open_recorded_captures(
+    const std::vector<std::filesystem::path>& folders) {
+  return std::make_unique<RecordedCaptures>(folders);
+}
+
+}  // namespace traygauge

@@ -1,0 +1,56 @@
+// Capture folders for the simulated devices and for the measurement of what they show.
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "firmware/station/played_scene.hpp"
+#include "simulator/capture/capture.hpp"
+
+namespace traygauge {
+
+class RecordedCaptures final : public MeasurableCaptures {
+ public:
+  // Reads every capture.json and card pattern; throws InputError. `config_folder` is for captures without a
+  // dish, empty: the usual one.
+  explicit RecordedCaptures(const std::vector<std::filesystem::path>& folders);
+
+  std::size_t capture_count() const override { return recordings_.size(); }
+  CameraFormat largest_frame() const override { return largest_; }
+  bool open(std::size_t index) override;
+  std::string_view problem() const override { return problem_; }
+  std::string_view capture_name() const override { return open_->name; }
+  const std::array<PlayedView, 2>& pair() const override { return pair_; }
+
+  const Configuration& configuration() const override { return open_->configuration; }
+  std::optional<LensModel> lens(int view) const override {
+    return open_->lenses[static_cast<std::size_t>(view)];
+  }
+  EstimatorLimits limits() const override;
+
+ private:
+  struct Recording {
+    std::string name;
+    std::array<ViewDescription, 2> views;
+    std::array<LensModel, 2> lenses;
+    Picture pattern;
+    std::vector<DishModel> dishes;
+    Configuration configuration;  // views pattern and dishes
+  };
+  void add(const std::filesystem::path& folder);
+
+  std::vector<std::unique_ptr<Recording>> recordings_;
+  CameraFormat largest_{0, 0, PixelFormat::bgr8};
+  const Recording* open_ = nullptr;
+  std::array<LoadedView, 2> loaded_;
+  std::array<PlayedView, 2> pair_;
+  std::string problem_;
+};
+
+// A RecordedCaptures, for run_station.
+std::unique_ptr<MeasurableCaptures> open_recorded_captures(const std::vector<std::filesystem::path>& folders);
+
+}  // namespace traygauge
