@@ -73,7 +73,6 @@ void warn_about_views(const EstimatorState& state, Measurement& measurement) {
   const Extrinsics& extrinsics = state.extrinsics;
   const ViewGeometryParams& params = state.configuration.geometry;
   const auto& views = state.memory.views;
-  warn(Warning::keypoints_capped, views[0].keypoints_capped || views[1].keypoints_capped);
   warn(Warning::matches_capped, extrinsics.matches_capped);
   warn(Warning::pose_from_card, extrinsics.pose_from_card);
   warn(Warning::few_card_points, measurement.report.card_tracks < params.few_card_tracks);
@@ -138,8 +137,9 @@ Status measure_views(EstimatorState& state, std::uint64_t seed, StageClock& cloc
 void run_measurement(EstimatorState& state, std::uint64_t seed, StageClock& clock, Measurement& measurement) {
   state.memory.extraction.items.clear();
   for (int i = 0; i < 2; ++i) {
-    measurement.report.keypoints[static_cast<std::size_t>(i)] =
-        static_cast<int>(state.view(i).keypoints.size());
+    const auto k = static_cast<std::size_t>(i);
+    measurement.report.keypoints[k] = static_cast<int>(state.view(i).keypoints.size());
+    measurement.report.keypoints_found[k] = static_cast<int>(state.view(i).keypoints_found);
   }
   if (state.views != 2) {
     measurement.status = StatusCode::frame_missing;
