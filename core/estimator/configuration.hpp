@@ -88,12 +88,22 @@ struct VolumeExtractionParams {
   double min_covered_share = 0.5;  // of the item's pixels under triangles; the rest has no depth
 };
 
+// Outlines of the wrong view give a rim that no dish on a table has.
+struct RimCheckParams {
+  // Between rim and table. Right outlines stay below 0.9 degrees (5 degrees between the views) and 0.7 (10
+  // and more); exchanged ones give 4 to 45.
+  double max_tilt_deg = 3.0;
+  // Outlines and dense depth, each giving a rim: right ones differ by up to 2.5 mm, since depth is read
+  // inside the edge. Names the cause when the dish is not a known one: beyond, it is the outlines.
+  double max_depth_deviation_mm = 4.0;
+};
+
 inline constexpr std::size_t kMaxDishCandidates = 64;
 
 struct Configuration {
   LensModel lens;
   ReferenceCard card;
-  std::span<const DishModel> dishes;  // one: it is that; several: the nearest by rim size and height
+  std::span<const DishModel> dishes;  // the nearest by rim size and height; none near: dish_unknown
   EstimatorLimits limits;
   ViewParams view;
   ExposureParams exposure;
@@ -106,6 +116,7 @@ struct Configuration {
   StereoParams stereo;
   FoodMeshParams mesh;
   RimParams rim;
+  RimCheckParams rim_check;
   DishParams dish;
   DishChoiceParams dish_choice;
   VolumeParams volume;

@@ -11,7 +11,6 @@ namespace {
 
 // Checks the picture and cuts the dish out of it; the view counts once finish_view was called.
 Status start_view(EstimatorState& state, const ViewInput& input) {
-  if (state.views >= 2) return StatusCode::invalid_configuration;
   if (state.views == 0) {
     state.preparation_clock = {};
     state.memory.given.matches.clear();
@@ -25,6 +24,10 @@ Status start_view(EstimatorState& state, const ViewInput& input) {
   if (const Status status = validate(view.lens); !status.ok()) return status;
   state.preparation_clock.enter(Stage::image);
   return prepare_picture(input.frame, state.configuration, state.memory.preparation, view);
+}
+
+bool takes_views(const EstimatorState& state) {
+  return state.views < 2;
 }
 
 Status finish_view(EstimatorState& state, Status status) {
@@ -55,9 +58,10 @@ std::size_t required_bytes(const EstimatorLimits& limits) {
 void EstimatorState::set_up_pattern(ImageView<const std::uint8_t> picture) {
   PreparationWorkspace& scratch = memory.preparation;
   const double wanted_px = configuration.view.card_px_per_mm * configuration.card.width_mm;
-  const double scale = std::min(1.0, wanted_px / picture.width);
-  const int width = static_cast<int>(picture.width * scale);
-  const int height = static_cast<int>(picture.height * scale);
+  const double scale = fit_search_scale(std::min(1.0, wanted_px / picture.width), picture.width,
+                                        picture.height, configuration.limits);
+  const int width = std::max(1, static_cast<int>(picture.width * scale));
+  const int height = std::max(1, static_cast<int>(picture.height * scale));
   const ImageView<std::uint8_t> reduced{scratch.feature_picture.data(), width, height};
   reduce_area(picture, reduced);
   const ImageView<std::uint32_t> integral{scratch.integral.data(), width + 1, height + 1};
@@ -122,6 +126,7 @@ std::size_t Estimator::used_bytes() const {
 
 Status Estimator::add_view(const ViewInput& input) {
   if (!status_.ok()) return status_;
+  if (!takes_views(*state_)) return StatusCode::invalid_configuration;
   Status status = start_view(*state_, input);
   if (status.ok()) {
     state_->preparation_clock.enter(Stage::features);
@@ -132,6 +137,7 @@ Status Estimator::add_view(const ViewInput& input) {
 
 Status Estimator::add_view(const ViewInput& input, const GivenFeatures& features) {
   if (!status_.ok()) return status_;
+  if (!takes_views(*state_)) return StatusCode::invalid_configuration;
   Status status = start_view(*state_, input);
   if (status.ok()) {
     state_->preparation_clock.enter(Stage::features);
@@ -143,6 +149,7 @@ Status Estimator::add_view(const ViewInput& input, const GivenFeatures& features
 
 Status Estimator::add_view_without_features(const ViewInput& input) {
   if (!status_.ok()) return status_;
+  if (!takes_views(*state_)) return StatusCode::invalid_configuration;
   return finish_view(*state_, start_view(*state_, input));
 }
 

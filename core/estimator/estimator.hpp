@@ -57,7 +57,7 @@ class Estimator {
   std::size_t used_bytes() const;      // most of it that was ever handed out
 
   // Takes the first, then the second view, and finds its features at once. What fails here is also what
-  // estimate() reports.
+  // estimate() reports. A third view is refused (invalid_configuration) and changes nothing.
   Status add_view(const ViewInput& view);
   // The same with features from elsewhere; `set_pattern` gives those of the card's picture.
   Status add_view(const ViewInput& view, const GivenFeatures& features);

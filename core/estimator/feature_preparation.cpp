@@ -48,10 +48,9 @@ bool search_card(const Configuration& configuration, PreparationWorkspace& works
   if (box.empty()) return false;
   const double card_mm2 = configuration.card.width_mm * configuration.card.height_mm;
   const double seen_px_per_mm = std::sqrt(view.regions.pixels[kCardLabel] / card_mm2);
-  const double box_px = static_cast<double>(box.width()) * box.height();
-  const double by_memory = std::sqrt(configuration.limits.max_feature_px / box_px);
-  const double scale = std::min({configuration.view.card_px_per_mm / seen_px_per_mm,
-                                 configuration.view.max_card_enlargement, by_memory});
+  const double wanted =
+      std::min(configuration.view.card_px_per_mm / seen_px_per_mm, configuration.view.max_card_enlargement);
+  const double scale = fit_search_scale(wanted, box.width(), box.height(), configuration.limits);
   if (scale <= 1.0) return false;
   const ImageView<const std::uint8_t> source =
       ImageView<const std::uint8_t>(workspace.frame_gray).sub(box.left, box.top, box.width(), box.height());
@@ -101,6 +100,12 @@ void append_features(const SearchPicture& picture, bool card_apart, std::size_t 
 }
 
 }  // namespace
+
+double fit_search_scale(double wanted, int width, int height, const EstimatorLimits& limits) {
+  const double by_area = std::sqrt(limits.max_feature_px / (static_cast<double>(width) * height));
+  return std::min({wanted, by_area, static_cast<double>(limits.max_frame_width) / width,
+                   static_cast<double>(limits.max_frame_height) / height});
+}
 
 Status prepare_features(const Configuration& configuration, PreparationWorkspace& workspace,
                         PreparedView& view) {

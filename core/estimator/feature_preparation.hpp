@@ -15,6 +15,9 @@ namespace traygauge {
 Status prepare_features(const Configuration& configuration, PreparationWorkspace& workspace,
                         PreparedView& view);
 
+// The largest scale up to `wanted` at which a picture, scaled, can be searched in the memory.
+double fit_search_scale(double wanted, int width, int height, const EstimatorLimits& limits);
+
 // Takes features from elsewhere instead, in pixels of the stored picture.
 Status take_features(std::span<const Keypoint> keypoints, std::span<const Descriptor> descriptors,
                      const ViewParams& params, PreparedView& view);

@@ -18,14 +18,22 @@ struct LinesOfSight {
   double angle_deg() const { return kDegrees * std::acos(std::clamp(first.dot(second), -1.0, 1.0)); }
 };
 
-// The dish stands where the ray through the middle of its box meets the table: right to a few centimetres,
-// which turns neither line of sight by more than a degree or two.
-LinesOfSight look_from_dish(const PreparedView& first, const Extrinsics& extrinsics) {
-  const Vec2 middle = first.cutout.camera.ray(Vec2(0.5 * first.cutout.width, 0.5 * first.cutout.height));
-  const Vec3 ray = middle.homogeneous();
-  const Vec3 dish = ray * (extrinsics.table.offset / extrinsics.table.normal.dot(ray));
-  const Vec3 second_camera = extrinsics.second_from_first.inverse().translation;
-  return {(-dish).normalized(), (second_camera - dish).normalized()};
+// Where the ray from a camera through the middle of its picture of the dish meets the table.
+Vec3 place_dish(const PreparedView& view, const Pose& first_from_view, const Plane& table) {
+  const Vec2 middle = view.cutout.camera.ray(Vec2(0.5 * view.cutout.width, 0.5 * view.cutout.height));
+  const Vec3 direction = first_from_view.rotation * middle.homogeneous();
+  return first_from_view.translation -
+         direction * (table.height(first_from_view.translation) / table.normal.dot(direction));
+}
+
+// The dish stands between the places that both views give it, each right to a few centimetres; the mean
+// serves both orders of the views alike.
+LinesOfSight look_from_dish(const PreparedView& first, const PreparedView& second,
+                            const Extrinsics& extrinsics) {
+  const Pose first_from_second = extrinsics.second_from_first.inverse();
+  const Vec3 dish = 0.5 * (place_dish(first, Pose{}, extrinsics.table) +
+                           place_dish(second, first_from_second, extrinsics.table));
+  return {(-dish).normalized(), (first_from_second.translation - dish).normalized()};
 }
 
 Status check_angle(double angle_deg, const ViewGeometryParams& params) {
@@ -106,7 +114,7 @@ Status calibrate(EstimatorState& state, Random& random, StageClock& clock, Measu
 Status measure_views(EstimatorState& state, std::uint64_t seed, StageClock& clock, Measurement& measurement) {
   Random random(seed);
   if (const Status status = calibrate(state, random, clock, measurement); !status.ok()) return status;
-  const LinesOfSight lines = look_from_dish(state.view(0), state.extrinsics);
+  const LinesOfSight lines = look_from_dish(state.view(0), state.view(1), state.extrinsics);
   measurement.relative_angle_deg = lines.angle_deg();
   warn_about_views(state, measurement);
   if (const Status status = check_angle(measurement.relative_angle_deg, state.configuration.geometry);
@@ -141,10 +149,10 @@ void run_measurement(EstimatorState& state, std::uint64_t seed, StageClock& cloc
     measurement.report.keypoints[k] = static_cast<int>(state.view(i).keypoints.size());
     measurement.report.keypoints_found[k] = static_cast<int>(state.view(i).keypoints_found);
   }
-  if (state.views != 2) {
-    measurement.status = StatusCode::frame_missing;
-  } else if (!state.views_status.ok()) {
+  if (state.views > 0 && !state.views_status.ok()) {
     measurement.status = state.views_status;
+  } else if (state.views != 2) {
+    measurement.status = StatusCode::frame_missing;
   } else {
     report_pictures(state, measurement.views);
     measurement.status = measure_views(state, seed, clock, measurement);

@@ -1,14 +1,17 @@
 #include "core/estimator/volume_extraction.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "core/surface/half_sample_mode.hpp"
 
 namespace traygauge {
 namespace {
 
-// Which of the candidate dishes stands there; −1 when none fits. One candidate is taken without a look.
+// Which of the candidate dishes stands there; −1 when none fits.
 int identify_dish(const VolumeExtractionWorkspace& workspace, const Configuration& configuration,
                   const Plane& rim, double rim_height_mm) {
-  if (configuration.dishes.size() == 1) return 0;
   RimEllipse ellipse;
   if (!fit_rim_size(workspace.rim.points_mm.items(), rim, ellipse).ok()) return -1;
   std::array<DishCandidate, kMaxDishCandidates> candidates{};
@@ -17,6 +20,28 @@ int identify_dish(const VolumeExtractionWorkspace& workspace, const Configuratio
   }
   return choose_dish(std::span(candidates).first(configuration.dishes.size()), ellipse.size_mm, rim_height_mm,
                      configuration.dish_choice);
+}
+
+// A rim that belongs to no known dish: are the outlines wrong, or is it another dish? The dense depth just
+// inside the reference view's outline tells.
+StatusCode judge_unknown_dish(const RimInput& input, const Plane& rim, const Configuration& configuration,
+                              VolumeExtractionWorkspace& workspace) {
+  RimParams dense = configuration.rim;
+  dense.source = RimSource::dense;
+  if (!collect_rim_points(input, dense, workspace.rim).ok()) return StatusCode::labels_inconsistent;
+  const auto points = workspace.rim.points_mm.items();
+  const std::size_t count = std::min(points.size(), workspace.dish.heights_mm.size());
+  const auto heights = workspace.dish.heights_mm.first(count);
+  std::transform(points.begin(), points.begin() + static_cast<std::ptrdiff_t>(count), heights.begin(),
+                 [&](const Vec3& point) { return rim.height(point); });
+  const double deviation_mm = half_sample_mode(heights, configuration.dish.mode);
+  return std::abs(deviation_mm) > configuration.rim_check.max_depth_deviation_mm
+             ? StatusCode::labels_inconsistent
+             : StatusCode::dish_unknown;
+}
+
+bool is_level(const Plane& rim, const Plane& table, const RimCheckParams& params) {
+  return rim.normal.dot(table.normal) >= std::cos(params.max_tilt_deg * std::numbers::pi / 180.0);
 }
 
 // Why this item has no volume, or ok.
@@ -54,12 +79,13 @@ Status find_dish_bottom(const ReferencePair& pair, const TableReference& table,
   report.rim_points = rim.inliers;
 
   const auto rim_points = workspace.rim.points_mm.items().first(static_cast<std::size_t>(rim.inliers));
+  if (!is_level(rim.plane, table.table, configuration.rim_check)) return StatusCode::labels_inconsistent;
   const DishInput dish_input{rim.plane, rim_points, table.table, table.card_points,
                              configuration.card.thickness_mm};
   status = measure_rim_height(dish_input, configuration.dish, workspace.dish, report.rim_height_mm);
   if (!status.ok()) return status;
   report.dish_index = identify_dish(workspace, configuration, rim.plane, report.rim_height_mm);
-  if (report.dish_index < 0) return StatusCode::dish_unknown;
+  if (report.dish_index < 0) return judge_unknown_dish(rim_input, rim.plane, configuration, workspace);
   const DishModel& dish = configuration.dishes[static_cast<std::size_t>(report.dish_index)];
   views.table = table.table;
   views.dish_bottom =
