@@ -63,8 +63,8 @@ asan-ubsan: packages
 	cmake --build --preset asan-ubsan -j $(JOBS)
 	$(ctest) --test-dir build-asan-ubsan
 
-# Where there is concurrency, or will be: the devices and the station.
-TSAN_TESTS = drivers_test simulated_devices_test station_test
+# Where there is concurrency: the devices. The measurement runs on one thread.
+TSAN_TESTS = drivers_test simulated_devices_test
 tsan: packages
 	cmake --preset tsan $(launcher)
 	cmake --build --preset tsan -j $(JOBS) --target $(TSAN_TESTS)
