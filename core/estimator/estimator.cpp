@@ -1,6 +1,7 @@
 #include "core/estimator/estimator.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "core/estimator/estimator_state.hpp"
 #include "core/estimator/feature_preparation.hpp"
@@ -181,6 +182,7 @@ Status Estimator::set_matches(std::span<const GivenMatch> matches,
     RayMatch rays;
     if (!first.undistort_pixel(match.first, rays.first) || !second.undistort_pixel(match.second, rays.second))
       continue;
+    if (state_->works_in_reverse()) std::swap(rays.first, rays.second);
     given.matches.push_back(rays);
   }
   for (const GivenCardMatch& match : card_matches) {
@@ -188,6 +190,7 @@ Status Estimator::set_matches(std::span<const GivenMatch> matches,
     track.pattern_mm = match.pattern_mm;
     if (!first.undistort_pixel(match.first, track.first)) continue;
     if (!second.undistort_pixel(match.second, track.second)) continue;
+    if (state_->works_in_reverse()) std::swap(track.first, track.second);
     given.card_tracks.push_back(track);
   }
   return StatusCode::ok;

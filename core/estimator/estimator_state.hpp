@@ -25,6 +25,15 @@ struct EstimatorState {
 
   PreparedView& view(int i) { return memory.views[static_cast<std::size_t>(i)]; }
 
+  // The stages take the view that shows more of the dish first, so that a pair measures the same bits in
+  // either order.
+  bool works_in_reverse() const {
+    return configuration.geometry.reference_is_steeper &&
+           memory.views[1].regions.dish_pixels > memory.views[0].regions.dish_pixels;
+  }
+  int worked_index(int i) const { return works_in_reverse() ? 1 - i : i; }
+  PreparedView& worked_view(int i) { return view(worked_index(i)); }
+
   void set_up_pattern(ImageView<const std::uint8_t> picture);
   // Where each feature of a picture of the pattern, `width_px` wide, lies on the card.
   void place_pattern(int width_px);

@@ -56,13 +56,16 @@ ReferencePair choose_reference(EstimatorState& state, const LinesOfSight& lines,
   const bool keep = !state.configuration.geometry.reference_is_steeper ||
                     lines.first.dot(plane.normal) >= lines.second.dot(plane.normal);
   table = {plane, extrinsics.card_points.items()};
-  views.reference_view = keep ? 0 : 1;
-  if (keep) return {&state.view(0), &state.view(1), extrinsics.second_from_first, extrinsics.inliers.items()};
+  views.reference_view = state.worked_index(keep ? 0 : 1);
+  if (keep)
+    return {&state.worked_view(0), &state.worked_view(1), extrinsics.second_from_first,
+            extrinsics.inliers.items()};
 
   table.table = in_other_camera(plane, extrinsics.second_from_first);
   for (Vec3& point : extrinsics.card_points.items()) point = extrinsics.second_from_first * point;
   for (RayMatch& match : extrinsics.inliers.items()) std::swap(match.first, match.second);
-  return {&state.view(1), &state.view(0), extrinsics.second_from_first.inverse(), extrinsics.inliers.items()};
+  return {&state.worked_view(1), &state.worked_view(0), extrinsics.second_from_first.inverse(),
+          extrinsics.inliers.items()};
 }
 
 void report_pictures(EstimatorState& state, MeasurementViews& views) {
@@ -96,8 +99,8 @@ void warn_about_views(const EstimatorState& state, Measurement& measurement) {
 Status calibrate(EstimatorState& state, Random& random, StageClock& clock, Measurement& measurement) {
   const PatternMemory& pattern = state.memory.pattern;
   const std::size_t pattern_count = pattern.keypoints.size();
-  const ExtrinsicInput input{&state.view(0),
-                             &state.view(1),
+  const ExtrinsicInput input{&state.worked_view(0),
+                             &state.worked_view(1),
                              {pattern.keypoints.items(), pattern.descriptors.first(pattern_count)},
                              pattern.positions_mm.first(pattern_count),
                              &state.memory.given};
@@ -105,7 +108,8 @@ Status calibrate(EstimatorState& state, Random& random, StageClock& clock, Measu
                                              clock, measurement.report, state.extrinsics);
   if (!status.ok()) return status;
   measurement.has_pose = true;
-  measurement.second_from_first = state.extrinsics.second_from_first;
+  const Pose& motion = state.extrinsics.second_from_first;
+  measurement.second_from_first = state.works_in_reverse() ? motion.inverse() : motion;
   measurement.rotation_angle_deg =
       kDegrees * std::abs(Eigen::AngleAxisd(measurement.second_from_first.rotation).angle());
   return StatusCode::ok;
@@ -114,7 +118,7 @@ Status calibrate(EstimatorState& state, Random& random, StageClock& clock, Measu
 Status measure_views(EstimatorState& state, std::uint64_t seed, StageClock& clock, Measurement& measurement) {
   Random random(seed);
   if (const Status status = calibrate(state, random, clock, measurement); !status.ok()) return status;
-  const LinesOfSight lines = look_from_dish(state.view(0), state.view(1), state.extrinsics);
+  const LinesOfSight lines = look_from_dish(state.worked_view(0), state.worked_view(1), state.extrinsics);
   measurement.relative_angle_deg = lines.angle_deg();
   warn_about_views(state, measurement);
   if (const Status status = check_angle(measurement.relative_angle_deg, state.configuration.geometry);
