@@ -83,7 +83,7 @@ double EpipolarProblem::cost(const Pose& pose) const {
   return cost;
 }
 
-Pose EpipolarProblem::moved(const Pose& pose, const Equations::Vector& step) const {
+Pose EpipolarProblem::moved(const Pose& pose, const Equations::Vector& step) {
   const Vec3 w = step.head<3>();
   const double angle = w.norm();
   const Mat3 turn =

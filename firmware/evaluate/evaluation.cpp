@@ -128,6 +128,7 @@ std::vector<ItemSeries> collect_series(const std::vector<PairRuns>& runs, TruthV
     }
   }
   std::vector<ItemSeries> list;
+  list.reserve(series.size());
   for (auto& [key, own] : series) list.push_back(std::move(own));
   return list;
 }
