@@ -35,8 +35,11 @@ bool is_plausible(const EstimatorLimits& limits) {
   constexpr int kMaxCount = 1 << 16;
   return is_within(limits.max_frame_width, 16, kMaxSide) &&
          is_within(limits.max_frame_height, 16, kMaxSide) && is_within(limits.max_keypoints, 16, kMaxCount) &&
-         is_within(limits.max_pattern_keypoints, 16, kMaxCount) && limits.max_feature_px > 0 &&
-         limits.max_working_px > 0 && limits.max_working_side_px > 0;
+         is_within(limits.max_card_keypoints, 0, kMaxCount) &&
+         is_within(limits.max_pattern_keypoints, 16, kMaxCount) &&
+         is_within(limits.max_feature_px, 1, kMaxSide * kMaxSide) &&
+         is_within(limits.max_working_px, 1, kMaxSide * kMaxSide) &&
+         is_within(limits.max_working_side_px, 1, kMaxSide);
 }
 
 }  // namespace

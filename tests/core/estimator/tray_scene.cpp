@@ -30,7 +30,8 @@ bool print_at(const TrayPattern& pattern, const Vec3& point, double& gray) {
   const double u_mm = point.x() - kCardLeft_mm;
   const double v_mm = kCardTop_mm - point.y();
   if (u_mm < 0.0 || v_mm < 0.0 || u_mm >= card.width_mm || v_mm >= card.height_mm) return false;
-  const double x = std::clamp(u_mm * TrayPattern::kWidth / card.width_mm - 0.5, 0.0, TrayPattern::kWidth - 1.001);
+  const double x =
+      std::clamp(u_mm * TrayPattern::kWidth / card.width_mm - 0.5, 0.0, TrayPattern::kWidth - 1.001);
   const double y =
       std::clamp(v_mm * TrayPattern::kHeight / card.height_mm - 0.5, 0.0, TrayPattern::kHeight - 1.001);
   const int left = static_cast<int>(x);
@@ -43,25 +44,34 @@ bool print_at(const TrayPattern& pattern, const Vec3& point, double& gray) {
   return true;
 }
 
-void lay_card(const TrayPattern& pattern, const SyntheticCamera& camera, RenderedView& view) {
+// Mean of the print over a pixel; false unless all of the pixel shows it.
+bool print_in_pixel(const TrayPattern& pattern, const SyntheticCamera& camera, const Vec2& pixel,
+                    double& gray) {
   constexpr int kSamples = 3;
+  const Vec3 origin = camera.centre();
+  const auto sample = [&](const Vec2& at, double& value) {
+    const Vec3 ray = camera.direction(at);
+    return print_at(pattern, origin - ray * (origin.z() / ray.z()), value);
+  };
+  if (!sample(pixel, gray)) return false;
+  double sum = 0.0;
+  for (int i = 0; i < kSamples * kSamples; ++i) {
+    const Vec2 offset(i % kSamples, i / kSamples);
+    if (!sample(pixel + (offset.array() + 0.5).matrix() / kSamples - Vec2(0.5, 0.5), gray)) return false;
+    sum += gray;
+  }
+  gray = sum / (kSamples * kSamples);
+  return true;
+}
+
+void lay_card(const TrayPattern& pattern, const SyntheticCamera& camera, RenderedView& view) {
   for (int y = 0; y < view.height; ++y) {
     for (int x = 0; x < view.width; ++x) {
-      double sum = 0.0;
-      int hits = 0;
-      for (int i = 0; i < kSamples * kSamples; ++i) {
-        const Vec2 offset(i % kSamples, i / kSamples);
-        const Vec3 ray = camera.direction(Vec2(x, y) + (offset.array() + 0.5).matrix() / kSamples - Vec2(0.5, 0.5));
-        const Vec3 origin = camera.centre();
-        double gray = 0.0;
-        if (!print_at(pattern, origin - ray * (origin.z() / ray.z()), gray)) continue;
-        sum += gray;
-        ++hits;
-      }
-      if (hits < kSamples * kSamples) continue;
-      const auto index = static_cast<std::size_t>(y) * static_cast<std::size_t>(view.width) +
-                         static_cast<std::size_t>(x);
-      view.gray[index] = static_cast<std::uint8_t>(std::lround(sum / hits));
+      double gray = 0.0;
+      if (!print_in_pixel(pattern, camera, Vec2(x, y), gray)) continue;
+      const auto index =
+          static_cast<std::size_t>(y) * static_cast<std::size_t>(view.width) + static_cast<std::size_t>(x);
+      view.gray[index] = static_cast<std::uint8_t>(std::lround(gray));
       view.labels[index] = kCardLabel;
     }
   }
@@ -92,7 +102,7 @@ TrayScene::TrayScene(const TrayOptions& options) : pattern(options.pattern_seed)
   solid.texture_seed = options.texture_seed;
   for (std::size_t i = 0; i < 2; ++i) {
     cameras[i] = camera_at(options.tilt_deg[i], options.distance_mm);
-    views[i] = render(solid, cameras[i], 2);
+    views[i] = render(solid, cameras[i], 1);  // the texture is six pixels and more long
     if (options.with_card) lay_card(pattern, cameras[i], views[i]);
   }
   dish[0].outer_size_mm = {2.0 * kDishRadius_mm, 2.0 * kDishRadius_mm};

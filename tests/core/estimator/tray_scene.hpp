@@ -1,5 +1,5 @@
-// A whole measurement's input without files: a textured solid on a flat dish, a card with a random print beside
-// it, two cameras. Volume and motion follow from closed forms.
+// A whole measurement's input without files: a textured solid on a flat dish, a card with a random print
+// beside it, two cameras. Volume and motion follow from closed forms.
 #pragma once
 
 #include <array>
