@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/ransac.hpp"
 #include "core/scale/card_pose.hpp"
 #include "core/scale/homography.hpp"
-#include "core/scale/ransac.hpp"
 
 namespace traygauge {
 
