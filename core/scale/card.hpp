@@ -8,6 +8,7 @@
 #include "core/base/arena.hpp"
 #include "core/base/bounded_list.hpp"
 #include "core/base/geometry.hpp"
+#include "core/base/half_sample_mode.hpp"
 #include "core/base/random.hpp"
 #include "core/base/status.hpp"
 
@@ -82,6 +83,7 @@ enum class ScaleMethod : std::uint8_t {
 
 struct ScaleParams {
   ScaleMethod method = ScaleMethod::half_sample_mode;
+  ModeParams mode;
   double min_distance_share = 0.25;  // pairs of points nearer than this share of the card's length are noise
   int min_pairs = 10;                // fewer have no mode
   double max_spread =
