@@ -103,6 +103,7 @@ struct CardPlaneParams {
   double min_inlier_share = 0.5;   // of the card's points: fewer and most of the cloud there is wrong
   double min_tilt_cosine = 0.17;   // between the plane's normal and the view, as in detection
   double min_spread_share = 0.05;  // as in detection: nearly collinear points have no plane
+  int refits = 4;                  // rounds of least squares and new inliers
   double confidence = 0.999;
   int min_iterations = 50;
   int max_iterations = 500;
@@ -123,6 +124,7 @@ struct CardWorkspace {
   std::span<std::uint8_t> inliers;
   std::span<std::uint8_t> trial_inliers;
   std::span<std::int32_t> indices;
+  std::span<Vec3> points_mm;
   std::span<double> ratios;
 
   template <class Allocator>
@@ -131,6 +133,7 @@ struct CardWorkspace {
     inliers = arena.template take<std::uint8_t>(count);
     trial_inliers = arena.template take<std::uint8_t>(count);
     indices = arena.template take<std::int32_t>(count);
+    points_mm = arena.template take<Vec3>(count);
     ratios = arena.template take<double>(static_cast<std::size_t>(max_pairs));
   }
 };
