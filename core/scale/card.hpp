@@ -71,7 +71,6 @@ struct CardDetectionParams {
 
 struct CardPoseParams {
   int iterations = 20;      // Levenberg-Marquardt; it converges in about five
-  double min_step = 1e-10;  // of rotation (rad) and relative translation: below any pixel's effect
   bool try_flipped = true;  // a small plane has two nearly equal poses; start from both
 };
 
