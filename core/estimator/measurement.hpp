@@ -34,6 +34,7 @@ const char* name(Stage stage);
 enum class Warning : std::uint8_t {
   angle_small,          // relative angle below 10 degrees: depth is noisy
   angle_large,          // above 30 degrees: matching gets hard
+  keypoints_capped,     // most were left out
   matches_capped,       // more corresponding points than memory was reserved for
   few_card_points,      // scale rests on few points
   dish_guessed,         // the dish was chosen from several candidates

@@ -84,6 +84,12 @@ void warn_about_views(const EstimatorState& state, Measurement& measurement) {
   const Extrinsics& extrinsics = state.extrinsics;
   const ViewGeometryParams& params = state.configuration.geometry;
   const auto& views = state.memory.views;
+  const double min_kept_share = state.configuration.view.min_kept_keypoint_share;
+  const auto is_crowded = [&](const PreparedView& view) {
+    return static_cast<double>(view.keypoints.size()) <
+           min_kept_share * static_cast<double>(view.keypoints_found);
+  };
+  warn(Warning::keypoints_capped, is_crowded(views[0]) || is_crowded(views[1]));
   warn(Warning::matches_capped, extrinsics.matches_capped);
   warn(Warning::pose_from_card, extrinsics.pose_from_card);
   warn(Warning::few_card_points, measurement.report.card_tracks < params.few_card_tracks);

@@ -71,12 +71,6 @@ std::string compose_document(const MeasureReport& report) {
   document["items"] = items_of(measurement);
   document["relative_angle_deg"] = number_or_null(measurement.relative_angle_deg, measurement.has_pose);
   document["pose"] = pose_of(measurement);
-  const MeasurementReport& counts = measurement.report;
-  document["points"] = {{"found", counts.keypoints_found},
-                        {"kept", counts.keypoints},
-                        {"matches", counts.matches},
-                        {"inliers", counts.inliers},
-                        {"card", counts.card_tracks}};
   document["timing_ms"] = timing_of(report);
   document["memory_bytes"] = {{"reserved", report.reserved_bytes}, {"used", report.used_bytes}};
   document["warnings"] = report.warnings;
