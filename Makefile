@@ -10,16 +10,21 @@ launcher := $(if $(shell command -v ccache),-DCMAKE_CXX_COMPILER_LAUNCHER=ccache
 sources = git ls-files '*.cpp' '*.hpp'
 ctest = ctest --output-on-failure --no-tests=error -j $(JOBS) -LE '^bench$$'
 
-.PHONY: build demo test bench lint format check-format check-captures sanitize asan-ubsan tsan packages clean
+.PHONY: configure build build-all demo test bench lint format check-format check-captures sanitize asan-ubsan tsan packages clean
 
-build: packages
+configure: packages
 	cmake --preset release $(launcher)
+
+build: configure
+	cmake --build --preset release -j $(JOBS) --target traygauge
+
+build-all: configure
 	cmake --build --preset release -j $(JOBS)
 
 demo: build
 	build/traygauge station --devices simulator:simulator/demo
 
-test: check-captures build
+test: check-captures build-all
 	$(ctest) --test-dir build
 	$(MAKE) check-format
 ifeq ($(CI),true)
@@ -28,7 +33,7 @@ ifeq ($(CI),true)
 endif
 
 # Benchmarks are tests with the label bench: they print figures and run alone.
-bench: build
+bench: build-all
 	ctest --test-dir build -L '^bench$$' -V --no-tests=error
 
 packages:
@@ -47,7 +52,7 @@ format: packages
 
 # clang-tidy over everything that is shipped; LINT='core/pose/' for a part of it.
 LINT ?= (core|drivers|simulator|firmware)/
-lint: build
+lint: configure
 	run-clang-tidy -quiet -j $(JOBS) -p build '^$(CURDIR)/$(LINT)' >build/lint.log 2>&1 || \
 	  { grep -A 3 -E '(error|warning): ' build/lint.log; echo 'All of it: build/lint.log' >&2; exit 1; }
 
@@ -58,8 +63,8 @@ asan-ubsan: packages
 	cmake --build --preset asan-ubsan -j $(JOBS)
 	$(ctest) --test-dir build-asan-ubsan
 
-# Where there is concurrency, or will be: the devices and the station.
-TSAN_TESTS = drivers_test simulated_devices_test station_test
+# Where there is concurrency: the devices. The measurement runs on one thread.
+TSAN_TESTS = drivers_test simulated_devices_test
 tsan: packages
 	cmake --preset tsan $(launcher)
 	cmake --build --preset tsan -j $(JOBS) --target $(TSAN_TESTS)

@@ -16,6 +16,8 @@ struct Pose {
   Vec3 translation = Vec3::Zero();
 
   Vec3 operator*(const Vec3& point) const { return rotation * point + translation; }
+  // This motion after `first`: c_from_a = c_from_b * b_from_a.
+  Pose operator*(const Pose& first) const { return {rotation * first.rotation, *this * first.translation}; }
   Pose inverse() const { return {rotation.transpose(), -(rotation.transpose() * translation)}; }
 };
 
@@ -28,6 +30,20 @@ struct Plane {
   // The parallel plane `distance` higher.
   Plane raised(double distance) const { return {normal, offset + distance}; }
 };
+
+// The plane through `point` with this unit normal, or its opposite, so that the camera (the origin) lies
+// above.
+inline Plane plane_towards_camera(const Vec3& normal, const Vec3& point) {
+  const double offset = normal.dot(point);
+  return offset > 0.0 ? Plane{-normal, -offset} : Plane{normal, offset};
+}
+
+// The rotation by |turn| radians about the axis `turn`.
+inline Mat3 rotation_about(const Vec3& turn) {
+  const double angle = turn.norm();
+  if (!(angle > 0.0)) return Mat3::Identity();
+  return Eigen::AngleAxisd(angle, turn / angle).toRotationMatrix();
+}
 
 inline Mat3 skew(const Vec3& v) {
   Mat3 m;

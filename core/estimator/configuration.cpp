@@ -51,6 +51,10 @@ Status validate(const Configuration& configuration) {
   if (configuration.dishes.empty() || configuration.dishes.size() > kMaxDishCandidates) {
     return StatusCode::invalid_configuration;
   }
+  for (const Status status : {validate(configuration.surf), validate(configuration.pose),
+                              validate(configuration.rectification), validate(configuration.stereo)}) {
+    if (!status.ok()) return status;
+  }
   for (const DishModel& dish : configuration.dishes) {
     if (!is_plausible(dish)) return StatusCode::invalid_configuration;
   }

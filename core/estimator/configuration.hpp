@@ -51,8 +51,9 @@ struct ViewParams {
   double max_card_rotation_deg =
       5.0;  // between the scene's motion and the card's own, which is sure to 1 or 2 degrees
   double min_card_pose_fitness = 0.8;  // eq. (1) of the card's motion over that of the scene's, to replace it
-  int min_keypoints = 50;              // fewer: too_few_features
-  double min_matched_share = 0.5;      // of the dish with a depth; less: too_little_depth
+  double min_kept_keypoint_share = 1.0 / 3.0;  // of the salient points found; fewer: warning
+  int min_keypoints = 50;                      // fewer: too_few_features
+  double min_matched_share = 0.5;              // of the dish with a depth; less: too_little_depth
 };
 
 // The reference card. The pattern is its printed side as a grey picture, filling width × height.

@@ -83,7 +83,7 @@ void append_features(const SearchPicture& picture, bool card_apart, std::size_t 
   const auto room = std::min(cap, view.keypoints.capacity() - before);
   BoundedList<Keypoint> found(view.keypoint_storage.subspan(before, room));
   detect_surf(integral, configuration.surf, workspace.surf, found);
-  view.keypoints_capped = view.keypoints_capped || found.dropped() > 0;
+  view.keypoints_found += found.size() + found.dropped();
   std::size_t kept = 0;
   for (const Keypoint& keypoint : found.items()) {
     const Vec2 pixel = picture.in_frame(keypoint.pixel);
@@ -110,7 +110,7 @@ double fit_search_scale(double wanted, int width, int height, const EstimatorLim
 Status prepare_features(const Configuration& configuration, PreparationWorkspace& workspace,
                         PreparedView& view) {
   view.keypoints.clear();
-  view.keypoints_capped = false;
+  view.keypoints_found = 0;
   SearchPicture card;
   const bool card_apart = search_card(configuration, workspace, view, card);
   if (card_apart) {
@@ -128,15 +128,12 @@ Status take_features(std::span<const Keypoint> keypoints, std::span<const Descri
                      const ViewParams& params, PreparedView& view) {
   if (keypoints.size() != descriptors.size()) return StatusCode::invalid_configuration;
   view.keypoints.clear();
-  view.keypoints_capped = false;
-  for (std::size_t i = 0; i < keypoints.size() && !view.keypoints_capped; ++i) {
+  view.keypoints_found = keypoints.size();
+  for (std::size_t i = 0; i < keypoints.size() && !view.keypoints.full(); ++i) {
     const std::size_t at = view.keypoints.size();
     Vec2 ray;
     if (!view.lens.undistort_pixel(keypoints[i].pixel, ray)) continue;
-    if (!view.keypoints.push_back(keypoints[i])) {
-      view.keypoints_capped = true;
-      continue;
-    }
+    view.keypoints.push_back(keypoints[i]);
     view.ray_storage[at] = ray;
     view.descriptor_storage[at] = descriptors[i];
   }

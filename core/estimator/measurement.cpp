@@ -16,7 +16,8 @@ struct WarningText {
 constexpr std::array<WarningText, kWarningCount> kWarnings = {{
     {"angle_small", "The views lie less than 10 degrees apart; heights are uncertain."},
     {"angle_large", "The views lie more than 30 degrees apart; parts of the food may be matched wrongly."},
-    {"keypoints_capped", "More salient points than memory was reserved for; the strongest were used."},
+    {"keypoints_capped",
+     "Most salient points of a picture were left out; a busy table may crowd out the food."},
     {"matches_capped", "More corresponding points than memory was reserved for; some were left out."},
     {"few_card_points", "The scale rests on few points of the card; check its print for glare and dirt."},
     {"dish_guessed", "The dish was not given; it was chosen by its rim from the known dishes."},

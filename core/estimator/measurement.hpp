@@ -32,10 +32,10 @@ const char* name(Stage stage);
 
 // Doubts that do not stop a measurement.
 enum class Warning : std::uint8_t {
-  angle_small,       // relative angle below 10 degrees: depth is noisy
-  angle_large,       // above 30 degrees: matching gets hard
-  keypoints_capped,  // the strongest were kept
-  matches_capped,
+  angle_small,          // relative angle below 10 degrees: depth is noisy
+  angle_large,          // above 30 degrees: matching gets hard
+  keypoints_capped,     // most were left out
+  matches_capped,       // more corresponding points than memory was reserved for
   few_card_points,      // scale rests on few points
   dish_guessed,         // the dish was chosen from several candidates
   arm_angle_disagrees,  // measured and commanded relative angle differ
@@ -60,7 +60,8 @@ inline constexpr std::size_t kMaxItems = 198;  // labels 2…199
 
 // How far the measurement came; the numbers of stages that were not reached are zero.
 struct MeasurementReport {
-  std::array<int, 2> keypoints{};
+  std::array<int, 2> keypoints_found{};
+  std::array<int, 2> keypoints{};  // the strongest of them
   int matches = 0;
   int inliers = 0;
   double inlier_threshold_px = 0.0;

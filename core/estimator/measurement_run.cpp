@@ -84,7 +84,12 @@ void warn_about_views(const EstimatorState& state, Measurement& measurement) {
   const Extrinsics& extrinsics = state.extrinsics;
   const ViewGeometryParams& params = state.configuration.geometry;
   const auto& views = state.memory.views;
-  warn(Warning::keypoints_capped, views[0].keypoints_capped || views[1].keypoints_capped);
+  const double min_kept_share = state.configuration.view.min_kept_keypoint_share;
+  const auto is_crowded = [&](const PreparedView& view) {
+    return static_cast<double>(view.keypoints.size()) <
+           min_kept_share * static_cast<double>(view.keypoints_found);
+  };
+  warn(Warning::keypoints_capped, is_crowded(views[0]) || is_crowded(views[1]));
   warn(Warning::matches_capped, extrinsics.matches_capped);
   warn(Warning::pose_from_card, extrinsics.pose_from_card);
   warn(Warning::few_card_points, measurement.report.card_tracks < params.few_card_tracks);
@@ -150,8 +155,9 @@ Status measure_views(EstimatorState& state, std::uint64_t seed, StageClock& cloc
 void run_measurement(EstimatorState& state, std::uint64_t seed, StageClock& clock, Measurement& measurement) {
   state.memory.extraction.items.clear();
   for (int i = 0; i < 2; ++i) {
-    measurement.report.keypoints[static_cast<std::size_t>(i)] =
-        static_cast<int>(state.view(i).keypoints.size());
+    const auto k = static_cast<std::size_t>(i);
+    measurement.report.keypoints[k] = static_cast<int>(state.view(i).keypoints.size());
+    measurement.report.keypoints_found[k] = static_cast<int>(state.view(i).keypoints_found);
   }
   if (state.views > 0 && !state.views_status.ok()) {
     measurement.status = state.views_status;

@@ -35,7 +35,7 @@ struct PreparedView {
   std::span<std::uint8_t> label_storage;
   ImageView<std::uint8_t> gray;
   ImageView<std::uint8_t> working_labels;
-  bool keypoints_capped = false;
+  std::size_t keypoints_found = 0;  // of which the strongest were kept
 
   template <class Allocator>
   constexpr void allocate(Allocator& arena, const EstimatorLimits& limits) {

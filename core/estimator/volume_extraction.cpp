@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/surface/half_sample_mode.hpp"
+#include "core/base/half_sample_mode.hpp"
 
 namespace traygauge {
 namespace {
@@ -34,6 +34,7 @@ StatusCode judge_unknown_dish(const RimInput& input, const Plane& rim, const Con
   const auto heights = workspace.dish.heights_mm.first(count);
   std::transform(points.begin(), points.begin() + static_cast<std::ptrdiff_t>(count), heights.begin(),
                  [&](const Vec3& point) { return rim.height(point); });
+  std::sort(heights.begin(), heights.end());
   const double deviation_mm = half_sample_mode(heights, configuration.dish.mode);
   return std::abs(deviation_mm) > configuration.rim_check.max_depth_deviation_mm
              ? StatusCode::labels_inconsistent

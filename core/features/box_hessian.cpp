@@ -7,30 +7,38 @@
 namespace traygauge {
 namespace {
 
+// Rows of the integral image and of the column sums never overlap; said so, and one term at a time, the loops
+// vectorise.
+using SumRow = const std::uint32_t* __restrict;
+using ColumnRow = std::int32_t* __restrict;
+
+void set_sums(SumRow top, SumRow bottom, int width, ColumnRow columns) {
+  for (int x = 0; x < width; ++x) columns[x] = static_cast<std::int32_t>(bottom[x] - top[x]);
+}
+
+template <int kTimes>
+void subtract_sums(SumRow top, SumRow bottom, int width, ColumnRow columns) {
+  for (int x = 0; x < width; ++x) {
+    auto sum = static_cast<std::uint32_t>(columns[x]);
+    for (int i = 0; i < kTimes; ++i) sum -= bottom[x] - top[x];
+    columns[x] = static_cast<std::int32_t>(sum);
+  }
+}
+
 // Vertical sums per column of the integral image, from which horizontal differences give the three
 // derivatives. Unsigned sums that wrap around come out right as differences, so they are kept as bits.
 void sum_columns(ImageView<const std::uint32_t> integral, BoxFilter filter, int y, SurfWorkspace& workspace) {
   const int lobe = filter.lobe;
   const int radius = filter.radius();
-  const std::uint32_t* band_top = integral.row(y - lobe + 1);
-  const std::uint32_t* band_bottom = integral.row(y + lobe);
-  const std::uint32_t* top = integral.row(y - radius);
-  const std::uint32_t* bottom = integral.row(y + radius + 1);
-  const std::uint32_t* middle_top = integral.row(y - lobe / 2);
-  const std::uint32_t* middle_bottom = integral.row(y + lobe / 2 + 1);
-  const std::uint32_t* upper_top = integral.row(y - lobe);
-  const std::uint32_t* upper_bottom = integral.row(y);
-  const std::uint32_t* lower_top = integral.row(y + 1);
-  const std::uint32_t* lower_bottom = integral.row(y + lobe + 1);
+  const int width = integral.width;
   std::int32_t* xx = workspace.columns_xx.data();
   std::int32_t* yy = workspace.columns_yy.data();
   std::int32_t* xy = workspace.columns_xy.data();
-  for (int x = 0; x < integral.width; ++x) {
-    const std::uint32_t middle = middle_bottom[x] - middle_top[x];
-    xx[x] = static_cast<std::int32_t>(band_bottom[x] - band_top[x]);
-    yy[x] = static_cast<std::int32_t>(bottom[x] - top[x] - 3U * middle);
-    xy[x] = static_cast<std::int32_t>(upper_bottom[x] - upper_top[x] - lower_bottom[x] + lower_top[x]);
-  }
+  set_sums(integral.row(y - lobe + 1), integral.row(y + lobe), width, xx);
+  set_sums(integral.row(y - radius), integral.row(y + radius + 1), width, yy);
+  subtract_sums<3>(integral.row(y - lobe / 2), integral.row(y + lobe / 2 + 1), width, yy);
+  set_sums(integral.row(y - lobe), integral.row(y), width, xy);
+  subtract_sums<1>(integral.row(y + 1), integral.row(y + lobe + 1), width, xy);
 }
 
 // Grey values become 0…1, and filters of all sizes comparable.

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstring>
 
 #include "core/features/box_hessian.hpp"
 #include "core/features/strongest_keypoints.hpp"
@@ -134,6 +135,40 @@ void add_maximum(ImageView<const std::uint32_t> integral, const SurfParams& para
   strongest.add(keypoint);
 }
 
+// Four floats in one register, and the flags that comparing them gives.
+using Lanes [[gnu::vector_size(16)]] = float;
+using Flags [[gnu::vector_size(16)]] = std::int32_t;
+constexpr int kLanes = 4;
+
+// Three rows of one layer around the samples that are looked at.
+struct ResponseRows {
+  const float* above = nullptr;
+  const float* centre = nullptr;
+  const float* below = nullptr;
+
+  static Lanes load(const float* values) {
+    Lanes lanes;
+    std::memcpy(&lanes, values, sizeof lanes);
+    return lanes;
+  }
+
+  // Large enough, and no smaller than the four neighbours in the layer: the rest of the neighbourhood is
+  // looked at for those few only.
+  bool is_peak(int column, float min_response) const {
+    const float response = centre[column];
+    return response >= min_response && response > centre[column - 1] && response >= centre[column + 1] &&
+           response > above[column] && response >= below[column];
+  }
+  // Whether any of kLanes samples is.
+  bool has_peak(int column, float min_response) const {
+    const Lanes response = load(centre + column);
+    const Flags found = (response >= min_response) & (response > load(centre + column - 1)) &
+                        (response >= load(centre + column + 1)) & (response > load(above + column)) &
+                        (response >= load(below + column));
+    return (found[0] | found[1] | found[2] | found[3]) != 0;
+  }
+};
+
 // Maxima of one row, whose neighbours are all computed. The top layer's filter must fit around all of them.
 void find_maxima(ImageView<const std::uint32_t> integral, const SurfParams& params,
                  const SurfWorkspace& workspace, Octave octave, int row, StrongestKeypoints& strongest) {
@@ -143,15 +178,17 @@ void find_maxima(ImageView<const std::uint32_t> integral, const SurfParams& para
     const int margin = filter_of(octave.index, layer + 1).radius() + octave.step;
     const int y = row * octave.step;
     if (y < margin || y + margin >= height || width <= 2 * margin) continue;
-    const int first = (margin + octave.step - 1) / octave.step;
     const int last = (width - 1 - margin) / octave.step;
-    const auto& rows = workspace.responses[static_cast<std::size_t>(layer)];
-    const float* responses = rows[static_cast<std::size_t>(row % 3)].data();
-    for (int column = first; column <= last; ++column) {
-      const float response = responses[column];
-      if (response < params.min_response) continue;
-      if (response <= responses[column - 1] || response < responses[column + 1]) continue;
-      add_maximum(integral, params, workspace, octave, layer, row, column, strongest);
+    const auto& ring = workspace.responses[static_cast<std::size_t>(layer)];
+    const auto slot = [&](int r) { return ring[static_cast<std::size_t>(r % 3)].data(); };
+    const ResponseRows rows{slot(row - 1), slot(row), slot(row + 1)};
+    for (int begin = (margin + octave.step - 1) / octave.step; begin <= last; begin += kLanes) {
+      const int end = std::min(begin + kLanes, last + 1);
+      if (end - begin == kLanes && !rows.has_peak(begin, params.min_response)) continue;
+      for (int column = begin; column < end; ++column) {
+        if (!rows.is_peak(column, params.min_response)) continue;
+        add_maximum(integral, params, workspace, octave, layer, row, column, strongest);
+      }
     }
   }
 }

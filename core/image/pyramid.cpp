@@ -14,7 +14,9 @@ void halve_with(ImageView<const std::uint8_t> source, ImageView<std::uint8_t> ta
     const std::uint8_t* lower = source.row(std::min(2 * y + 1, source.height - 1));
     std::uint8_t* out = target.row(y);
     for (int x = 0; x < pairs; ++x) {
-      out[x] = combine(upper[2 * x], upper[2 * x + 1], lower[2 * x], lower[2 * x + 1]);
+      const std::uint8_t* top = upper + std::ptrdiff_t{2} * x;
+      const std::uint8_t* bottom = lower + std::ptrdiff_t{2} * x;
+      out[x] = combine(top[0], top[1], bottom[0], bottom[1]);
     }
     if (pairs < target.width) {
       const int last = source.width - 1;
@@ -33,7 +35,7 @@ void halve(ImageView<const std::uint8_t> source, ImageView<std::uint8_t> target)
 
 void halve_mask(ImageView<const std::uint8_t> source, ImageView<std::uint8_t> target) {
   halve_with(source, target, [](std::uint8_t a, std::uint8_t b, std::uint8_t c, std::uint8_t d) {
-    const int set = (a != 0) + (b != 0) + (c != 0) + (d != 0);
+    const int set = (a != 0 ? 1 : 0) + (b != 0 ? 1 : 0) + (c != 0 ? 1 : 0) + (d != 0 ? 1 : 0);
     return set >= 2 ? std::max(std::max(a, b), std::max(c, d)) : std::uint8_t{0};
   });
 }

@@ -78,8 +78,8 @@ std::int32_t build_group(std::span<const Descriptor> descriptors, PackedDescript
     *branch.link = static_cast<std::int32_t>(used);
     KdNode& node = nodes[used++];
     node = cut(descriptors, packed.slots.subspan(begin, end - begin), lower);
-    stack[depth++] = {{middle, branch.blocks.end}, &node.child[1]};
-    stack[depth++] = {{branch.blocks.begin, middle}, &node.child[0]};
+    stack[depth++] = {{middle, branch.blocks.end}, node.child.data() + 1};
+    stack[depth++] = {{branch.blocks.begin, middle}, node.child.data()};
   }
   return root;
 }

@@ -31,7 +31,7 @@ struct PackedDescriptors {
   std::array<int, kSignGroups + 1> group_begin{};  // first block of each group
 
   static constexpr std::size_t max_blocks(int max_features) {
-    return static_cast<std::size_t>(max_features / kBlockSize + kSignGroups);
+    return static_cast<std::size_t>(max_features) / kBlockSize + kSignGroups;
   }
   static constexpr std::size_t max_slots(int max_features) { return max_blocks(max_features) * kBlockSize; }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "core/base/ransac.hpp"
 #include "core/pose/five_point.hpp"
 
 namespace traygauge {
@@ -23,29 +24,26 @@ class Search {
         matches_(workspace.matches) {}
 
   FoundModel run() {
-    int bound = params_.max_iterations;
-    for (; best_.iterations < bound; ++best_.iterations) {
+    IterationBound bound(params_.confidence, params_.min_iterations, params_.max_iterations);
+    for (; bound.proceed(); bound.count_iteration()) {
       const int count = solve_sample(kMinimalSample, {}, models_);
       for (int m = 0; m < count; ++m) {
-        if (consider(models_[static_cast<std::size_t>(m)])) bound = iterations_needed();
+        if (consider(models_[static_cast<std::size_t>(m)])) bound.update(inlier_rate(), kMinimalSample);
       }
     }
+    best_.iterations = bound.iterations();
     return best_;
   }
 
  private:
   using Models = std::array<Mat3, kMaxEssentials>;
 
-  // Draws distinct matches, from all or from those listed (Floyd's method), and solves for models.
+  // Draws distinct matches, from all or from those listed, and solves for models.
   int solve_sample(std::size_t size, std::span<const std::uint32_t> among, Models& models) {
-    const std::size_t population = among.empty() ? matches_.size() : among.size();
-    std::array<std::uint32_t, kMaxSample> drawn;
+    std::array<std::size_t, kMaxSample> drawn;
     std::array<RayMatch, kMaxSample> sample;
+    sample_distinct(random_, among.empty() ? matches_.size() : among.size(), std::span(drawn).first(size));
     for (std::size_t k = 0; k < size; ++k) {
-      const auto last = static_cast<std::uint32_t>(population - size + k);
-      const auto end = drawn.begin() + static_cast<std::ptrdiff_t>(k);
-      const std::uint32_t pick = random_.below(last + 1);
-      drawn[k] = std::find(drawn.begin(), end, pick) == end ? pick : last;
       sample[k] = matches_[among.empty() ? drawn[k] : among[drawn[k]]];
     }
     return solve_five_point(std::span(sample).first(size), models);
@@ -104,19 +102,7 @@ class Search {
     }
   }
 
-  // Samples until one was free of outliers with the wanted confidence, were the inlier rate that of the best.
-  int iterations_needed() const {
-    const double rate = static_cast<double>(record_) / static_cast<double>(matches_.size());
-    const double sample_is_bad = 1.0 - rate * rate * rate * rate * rate;
-    double all_are_bad = 1.0;
-    int needed = 0;
-    while (needed < params_.max_iterations && all_are_bad > 1.0 - params_.confidence) {
-      all_are_bad *= sample_is_bad;
-      ++needed;
-    }
-    return std::clamp(needed, std::min(params_.min_iterations, params_.max_iterations),
-                      params_.max_iterations);
-  }
+  double inlier_rate() const { return static_cast<double>(record_) / static_cast<double>(matches_.size()); }
 
   const RelativePoseParams& params_;
   double focal_px_;

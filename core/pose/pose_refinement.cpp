@@ -83,11 +83,8 @@ double EpipolarProblem::cost(const Pose& pose) const {
   return cost;
 }
 
-Pose EpipolarProblem::moved(const Pose& pose, const Equations::Vector& step) const {
-  const Vec3 w = step.head<3>();
-  const double angle = w.norm();
-  const Mat3 turn =
-      angle > 0.0 ? Eigen::AngleAxisd(angle, Vec3(w / angle)).toRotationMatrix() : Mat3(Mat3::Identity());
+Pose EpipolarProblem::moved(const Pose& pose, const Equations::Vector& step) {
+  const Mat3 turn = rotation_about(step.head<3>());
   const Vec3 translation = pose.translation + tangents(pose.translation) * step.tail<2>();
   return {Eigen::Quaterniond(turn * pose.rotation).normalized().toRotationMatrix(), translation.normalized()};
 }

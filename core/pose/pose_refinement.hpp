@@ -28,7 +28,7 @@ class EpipolarProblem {
 
   double linearise(const Pose& pose, Equations& equations) const;
   double cost(const Pose& pose) const;
-  Pose moved(const Pose& pose, const Equations::Vector& step) const;
+  static Pose moved(const Pose& pose, const Equations::Vector& step);
 
  private:
   const MatchTable& matches_;

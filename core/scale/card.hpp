@@ -8,6 +8,7 @@
 #include "core/base/arena.hpp"
 #include "core/base/bounded_list.hpp"
 #include "core/base/geometry.hpp"
+#include "core/base/half_sample_mode.hpp"
 #include "core/base/random.hpp"
 #include "core/base/status.hpp"
 
@@ -70,7 +71,6 @@ struct CardDetectionParams {
 
 struct CardPoseParams {
   int iterations = 20;      // Levenberg-Marquardt; it converges in about five
-  double min_step = 1e-10;  // of rotation (rad) and relative translation: below any pixel's effect
   bool try_flipped = true;  // a small plane has two nearly equal poses; start from both
 };
 
@@ -82,6 +82,7 @@ enum class ScaleMethod : std::uint8_t {
 
 struct ScaleParams {
   ScaleMethod method = ScaleMethod::half_sample_mode;
+  ModeParams mode;
   double min_distance_share = 0.25;  // pairs of points nearer than this share of the card's length are noise
   int min_pairs = 10;                // fewer have no mode
   double max_spread =
@@ -101,6 +102,7 @@ struct CardPlaneParams {
   double min_inlier_share = 0.5;   // of the card's points: fewer and most of the cloud there is wrong
   double min_tilt_cosine = 0.17;   // between the plane's normal and the view, as in detection
   double min_spread_share = 0.05;  // as in detection: nearly collinear points have no plane
+  int refits = 4;                  // rounds of least squares and new inliers
   double confidence = 0.999;
   int min_iterations = 50;
   int max_iterations = 500;
@@ -121,6 +123,7 @@ struct CardWorkspace {
   std::span<std::uint8_t> inliers;
   std::span<std::uint8_t> trial_inliers;
   std::span<std::int32_t> indices;
+  std::span<Vec3> points_mm;
   std::span<double> ratios;
 
   template <class Allocator>
@@ -129,6 +132,7 @@ struct CardWorkspace {
     inliers = arena.template take<std::uint8_t>(count);
     trial_inliers = arena.template take<std::uint8_t>(count);
     indices = arena.template take<std::int32_t>(count);
+    points_mm = arena.template take<Vec3>(count);
     ratios = arena.template take<double>(static_cast<std::size_t>(max_pairs));
   }
 };

@@ -4,10 +4,10 @@
 #include <array>
 #include <cmath>
 
+#include "core/base/ransac.hpp"
 #include "core/scale/card_evidence.hpp"
 #include "core/scale/card_pose.hpp"
 #include "core/scale/homography.hpp"
-#include "core/scale/ransac.hpp"
 
 namespace traygauge {
 

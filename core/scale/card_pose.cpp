@@ -1,91 +1,73 @@
 #include "core/scale/card_pose.hpp"
 
-#include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <cmath>
 #include <limits>
+
+#include "core/base/levenberg_marquardt.hpp"
 
 namespace traygauge {
 
 namespace {
 
-using Vec6 = Eigen::Matrix<double, 6, 1>;
-using Mat6 = Eigen::Matrix<double, 6, 6>;
-
-constexpr double kFirstDamping = 1e-6;
-constexpr double kDampingFactor = 10.0;  // Levenberg-Marquardt's usual factor between steps
-
 Vec3 on_card(const CardTrack& track) {
   return {track.pattern_mm.x(), track.pattern_mm.y(), 0.0};
 }
 
-// Sum of squared reprojection errors; infinite when a point lies behind the camera.
-double cost_of(const Pose& pose, std::span<const CardTrack> tracks, std::span<const std::uint8_t> inliers,
-               CardView view) {
-  double cost = 0.0;
-  for (std::size_t i = 0; i < tracks.size(); ++i) {
-    if (inliers[i] == 0) continue;
-    const Vec3 point = pose * on_card(tracks[i]);
-    if (!(point.z() > 0.0)) return std::numeric_limits<double>::infinity();
-    cost += (point.head<2>() / point.z() - tracks[i].*view).squaredNorm();
+// Reprojection errors of the flagged tracks in one view. Six parameters: a small rotation about the camera's
+// axes and a translation.
+class ReprojectionProblem {
+ public:
+  using Equations = NormalEquations<6>;
+
+  ReprojectionProblem(std::span<const CardTrack> tracks, std::span<const std::uint8_t> inliers, CardView view)
+      : tracks_(tracks), inliers_(inliers), view_(view) {}
+
+  // Infinite when a point lies behind the camera.
+  double cost(const Pose& pose) const {
+    double cost = 0.0;
+    for (std::size_t i = 0; i < tracks_.size(); ++i) {
+      if (inliers_[i] == 0) continue;
+      const Vec3 point = pose * on_card(tracks_[i]);
+      if (!(point.z() > 0.0)) return std::numeric_limits<double>::infinity();
+      cost += (point.head<2>() / point.z() - tracks_[i].*view_).squaredNorm();
+    }
+    return cost;
   }
-  return cost;
-}
 
-// Normal equations for a small rotation (first three) about the camera's axes and a translation.
-void linearise(const Pose& pose, std::span<const CardTrack> tracks, std::span<const std::uint8_t> inliers,
-               CardView view, Mat6& matrix, Vec6& right) {
-  matrix.setZero();
-  right.setZero();
-  for (std::size_t i = 0; i < tracks.size(); ++i) {
-    if (inliers[i] == 0) continue;
-    const Vec3 turned = pose.rotation * on_card(tracks[i]);
-    const Vec3 point = turned + pose.translation;
-    const Vec2 projected = point.head<2>() / point.z();
-    Eigen::Matrix<double, 2, 3> by_point;
-    by_point << 1.0, 0.0, -projected.x(), 0.0, 1.0, -projected.y();
-    by_point /= point.z();
-    Eigen::Matrix<double, 2, 6> jacobian;
-    jacobian << -by_point * skew(turned), by_point;
-    matrix.noalias() += jacobian.transpose() * jacobian;
-    right.noalias() += jacobian.transpose() * (tracks[i].*view - projected);
+  double linearise(const Pose& pose, Equations& equations) const {
+    for (std::size_t i = 0; i < tracks_.size(); ++i) {
+      if (inliers_[i] == 0) continue;
+      const Vec3 turned = pose.rotation * on_card(tracks_[i]);
+      const Vec3 point = turned + pose.translation;
+      const Vec2 projected = point.head<2>() / point.z();
+      for (int row = 0; row < 2; ++row) {
+        const Vec3 by_point = (Vec3::Unit(row) - projected(row) * Vec3::UnitZ()) / point.z();
+        Equations::Vector jacobian;
+        jacobian << turned.cross(by_point), by_point;
+        equations.add(projected(row) - (tracks_[i].*view_)(row), jacobian);
+      }
+    }
+    return cost(pose);
   }
-}
 
-Pose moved(const Pose& pose, const Vec6& step) {
-  const Vec3 turn = step.head<3>();
-  const double angle = turn.norm();
-  const Mat3 rotation =
-      angle > 0.0 ? Eigen::AngleAxisd(angle, turn / angle).toRotationMatrix() : Mat3::Identity();
-  return {rotation * pose.rotation, pose.translation + step.tail<3>()};
-}
+  Pose moved(const Pose& pose, const Equations::Vector& step) const {
+    return {rotation_about(step.head<3>()) * pose.rotation, pose.translation + step.tail<3>()};
+  }
 
-// Levenberg-Marquardt from `pose`; returns the cost reached.
+ private:
+  std::span<const CardTrack> tracks_;
+  std::span<const std::uint8_t> inliers_;
+  CardView view_;
+};
+
+// Moves `pose` to the nearest optimum; returns the cost reached.
 double refine(std::span<const CardTrack> tracks, std::span<const std::uint8_t> inliers, CardView view,
               const CardPoseParams& params, Pose& pose) {
-  double cost = cost_of(pose, tracks, inliers, view);
-  double damping = kFirstDamping;
-  Mat6 matrix;
-  Vec6 right;
-  linearise(pose, tracks, inliers, view, matrix, right);
-  for (int iteration = 0; iteration < params.iterations; ++iteration) {
-    Mat6 damped = matrix;
-    damped.diagonal() *= 1.0 + damping;
-    const Vec6 step = damped.ldlt().solve(right);
-    const double length = step.head<3>().norm() + step.tail<3>().norm() / pose.translation.norm();
-    if (!(length > params.min_step)) break;
-    const Pose candidate = moved(pose, step);
-    const double candidate_cost = cost_of(candidate, tracks, inliers, view);
-    if (candidate_cost < cost) {
-      pose = candidate;
-      cost = candidate_cost;
-      damping /= kDampingFactor;
-      linearise(pose, tracks, inliers, view, matrix, right);
-    } else {
-      damping *= kDampingFactor;
-    }
-  }
-  return cost;
+  const ReprojectionProblem problem(tracks, inliers, view);
+  LevenbergMarquardtParams search;
+  search.max_iterations = params.iterations;
+  return minimise<6>(problem, search, pose).cost;
 }
 
 // The pose that weak perspective cannot tell from this one: depths along the line of sight to the card's

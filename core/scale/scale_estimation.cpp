@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/half_sample_mode.hpp"
+#include "core/base/ransac.hpp"
 #include "core/scale/card_pose.hpp"
-#include "core/scale/half_sample_mode.hpp"
 #include "core/scale/homography.hpp"
-#include "core/scale/ransac.hpp"
 
 namespace traygauge {
 
@@ -78,7 +78,7 @@ Status estimate_scale(std::span<const CardTrack> tracks, std::span<const std::ui
   const std::size_t count = ratios.size();
   switch (params.scale.method) {
     case ScaleMethod::half_sample_mode:
-      estimate.mm_per_baseline = half_sample_mode(ratios.items());
+      estimate.mm_per_baseline = half_sample_mode(ratios.items(), params.scale.mode);
       break;
     case ScaleMethod::median:
       estimate.mm_per_baseline = 0.5 * (ratios[(count - 1) / 2] + ratios[count / 2]);

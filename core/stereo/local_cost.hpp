@@ -23,7 +23,8 @@ struct MatchingBlock {
     first.allocate(arena, max_columns);
     second.allocate(arena, max_columns);
     if (params.cost != MatchingCost::census) return;
-    const auto codes = static_cast<std::size_t>(max_columns * census_bytes(params.census_radius_px));
+    const auto codes = static_cast<std::size_t>(max_columns) *
+                       static_cast<std::size_t>(census_bytes(params.census_radius_px));
     first_codes = arena.template take<ByteLanes>(codes);
     second_codes = arena.template take<ByteLanes>(codes);
   }

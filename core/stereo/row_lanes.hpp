@@ -18,7 +18,7 @@ using ByteLanes [[gnu::vector_size(16)]] = std::uint8_t;     // kCostRows rows
 using SignLanes [[gnu::vector_size(16)]] = std::int8_t;      // kCostRows rows, comparable on every processor
 using CostLanes [[gnu::vector_size(16)]] = std::int16_t;     // kRowLanes rows
 using HalfByteLanes [[gnu::vector_size(8)]] = std::uint8_t;  // kRowLanes rows
-static_assert(sizeof(ByteLanes) == kCostRows && sizeof(CostLanes) == 2 * kRowLanes);
+static_assert(sizeof(ByteLanes) == kCostRows && sizeof(CostLanes) == sizeof(std::int16_t) * kRowLanes);
 
 // A column of a picture over the rows of a block.
 struct alignas(32) PixelColumn {

@@ -15,7 +15,9 @@ Status measure_rim_height(const DishInput& input, const DishParams& params, Dish
     workspace.heights_mm[i] =
         over_card ? input.table.height(points[i]) : input.card_thickness_mm - input.rim.height(points[i]);
   }
-  rim_height_mm = half_sample_mode(workspace.heights_mm.first(count), params.mode);
+  const std::span<double> heights_mm = workspace.heights_mm.first(count);
+  std::sort(heights_mm.begin(), heights_mm.end());
+  rim_height_mm = half_sample_mode(heights_mm, params.mode);
   return StatusCode::ok;
 }
 

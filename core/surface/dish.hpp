@@ -6,8 +6,8 @@
 
 #include "core/base/arena.hpp"
 #include "core/base/geometry.hpp"
+#include "core/base/half_sample_mode.hpp"
 #include "core/base/status.hpp"
-#include "core/surface/half_sample_mode.hpp"
 
 namespace traygauge {
 

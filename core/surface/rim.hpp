@@ -7,11 +7,11 @@
 #include "core/base/arena.hpp"
 #include "core/base/bounded_list.hpp"
 #include "core/base/geometry.hpp"
+#include "core/base/plane_fit.hpp"
 #include "core/base/random.hpp"
 #include "core/base/status.hpp"
 #include "core/image_view/image_view.hpp"
 #include "core/surface/dish_contour.hpp"
-#include "core/surface/plane_fit.hpp"
 #include "core/surface/triangulation.hpp"
 
 namespace traygauge {

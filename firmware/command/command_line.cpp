@@ -10,6 +10,9 @@
 #include "firmware/evaluate/evaluate_command.hpp"
 #include "firmware/measure/measure_command.hpp"
 #include "firmware/memory/memory_command.hpp"
+#include "firmware/station/recorded_captures.hpp"
+#include "firmware/station/station_command.hpp"
+#include "firmware/station/stop_signal.hpp"
 #include "simulator/capture/input_error.hpp"
 
 namespace traygauge {
@@ -31,11 +34,15 @@ struct Options {
   MeasureOptions measure;
   EvaluateOptions evaluate;
   MemoryOptions memory;
+  StationCommand station;
 };
 
 int run_command(const CLI::App& app, const Options& options, std::ostream& out, std::ostream& error) {
   if (app.got_subcommand("measure")) return run_measure(options.measure, out, error);
   if (app.got_subcommand("evaluate")) return run_evaluate(options.evaluate, out, error);
+  if (app.got_subcommand("station")) {
+    return run_station(options.station, open_recorded_captures, stop_on_signals(), out, error);
+  }
   return run_memory(options.memory, out);
 }
 
@@ -50,6 +57,7 @@ int run_command_line(int argument_count, const char* const* arguments, std::ostr
   add_measure_command(app, options.measure);
   add_evaluate_command(app, options.evaluate);
   add_memory_command(app, options.memory);
+  add_station_command(app, options.station);
   try {
     app.parse(argument_count, arguments);
     const int status = run_command(app, options, out, error);

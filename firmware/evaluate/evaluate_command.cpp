@@ -63,7 +63,7 @@ void add_evaluate_command(CLI::App& app, EvaluateOptions& options) {
       ->check(CLI::Range(1, kMaxJobs));
   command->add_option("--profile", options.profile, "paper (default)");
   command->add_option("--labels", options.labels, "given (default)");
-  command->add_option("--out", options.out, "Folder for estimates.csv");
+  command->add_option("--out", options.out, "Folder for estimates.csv and runs.csv");
   command->add_option("--config", options.config, "Folder with dishes/, for captures that name no dish")
       ->envname("TRAYGAUGE_CONFIG");
   command->add_option("--set", options.settings, "Try another value: NAME=VALUE, several times")->take_all();
@@ -92,6 +92,7 @@ int run_evaluate(const EvaluateOptions& options, std::ostream& out, std::ostream
   out << compose_evaluation(runs);
   if (!options.out.empty()) {
     write_text(std::filesystem::path(options.out) / "estimates.csv", compose_estimates_csv(runs));
+    write_text(std::filesystem::path(options.out) / "runs.csv", compose_runs_csv(runs));
   }
   return is_any_measured(runs) ? kExitMeasured : kExitNotMeasurable;
 }

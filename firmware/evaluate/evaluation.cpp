@@ -19,14 +19,6 @@ std::optional<double> truth_volume(const TruthItem& item, TruthVolume kind) {
   return item.volume_ml;
 }
 
-// The estimate of `label` in a run; nothing when it was refused.
-std::optional<double> estimate_of(const Run& run, int label) {
-  for (const ItemEstimate& item : run.items) {
-    if (item.label == label && item.status == StatusCode::ok) return item.volume_ml;
-  }
-  return {};
-}
-
 template <class Value>
 double median_error(const std::vector<PairRuns>& runs, Value&& value) {
   std::vector<double> values;
@@ -136,6 +128,7 @@ std::vector<ItemSeries> collect_series(const std::vector<PairRuns>& runs, TruthV
     }
   }
   std::vector<ItemSeries> list;
+  list.reserve(series.size());
   for (auto& [key, own] : series) list.push_back(std::move(own));
   return list;
 }
@@ -161,27 +154,6 @@ std::string compose_evaluation(const std::vector<PairRuns>& runs) {
                     set_figures(collect_series(runs, TruthVolume::above_dish, true)));
   }
   return text + refusals(runs);
-}
-
-std::string compose_estimates_csv(const std::vector<PairRuns>& runs) {
-  std::ostringstream csv;
-  csv << "capture,first,second,seed,angle_deg,label,name,kind,status,volume_ml,truth_ml,truth_above_bottom_"
-         "plane_ml\n";
-  for (const PairRuns& pair : runs) {
-    for (const Run& run : pair.runs) {
-      for (const TruthItem& item : pair.truth.items) {
-        csv << pair.capture << ',' << pair.pair[0] << ',' << pair.pair[1] << ',' << run.seed << ','
-            << fixed(run.relative_angle_deg, 3) << ',' << item.label << ',' << item.name << ',' << item.kind
-            << ',';
-        const auto estimate = estimate_of(run, item.label);
-        csv << (estimate ? "ok" : "refused") << ',' << (estimate ? fixed(*estimate, 3) : "") << ','
-            << fixed(item.volume_ml, 3) << ','
-            << (item.volume_above_bottom_plane_ml ? fixed(*item.volume_above_bottom_plane_ml, 3) : "")
-            << '\n';
-      }
-    }
-  }
-  return csv.str();
 }
 
 }  // namespace traygauge

@@ -24,7 +24,10 @@ std::vector<ItemSeries> collect_series(const std::vector<PairRuns>& runs, TruthV
 // Terminal report: a row a capture, then the whole set, then what was refused and why.
 std::string compose_evaluation(const std::vector<PairRuns>& runs);
 
-// A row a measured item, for a spreadsheet.
+// For a spreadsheet: a row an item of each run.
 std::string compose_estimates_csv(const std::vector<PairRuns>& runs);
+
+// A row a run: how far each stage came, and how far from the truth it lies.
+std::string compose_runs_csv(const std::vector<PairRuns>& runs);
 
 }  // namespace traygauge

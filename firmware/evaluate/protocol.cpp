@@ -42,6 +42,7 @@ Run record(const Measurement& measurement, std::uint64_t seed, const std::option
   run.status = measurement.status.code();
   run.relative_angle_deg = measurement.relative_angle_deg;
   run.total_ms = measurement.total_ms;
+  run.report = measurement.report;
   for (const ItemResult& item : measurement.items)
     run.items.push_back({item.label, item.status, item.volume_ml});
   if (truth && !measurement.items.empty()) run.errors = stage_errors(measurement, *truth);
@@ -83,6 +84,13 @@ std::vector<Task> plan_tasks(const std::filesystem::path& set, std::vector<std::
 }
 
 }  // namespace
+
+std::optional<double> estimate_of(const Run& run, int label) {
+  for (const ItemEstimate& item : run.items) {
+    if (item.label == label && item.status == StatusCode::ok) return item.volume_ml;
+  }
+  return {};
+}
 
 std::vector<std::filesystem::path> find_captures(const std::filesystem::path& set) {
   std::vector<std::filesystem::path> folders;

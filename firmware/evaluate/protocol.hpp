@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/estimator/configuration.hpp"
+#include "core/estimator/measurement.hpp"
 #include "firmware/evaluate/stage_errors.hpp"
 #include "simulator/capture/truth.hpp"
 
@@ -35,8 +36,12 @@ struct Run {
   std::vector<ItemEstimate> items;
   double relative_angle_deg = 0.0;
   double total_ms = 0.0;
+  MeasurementReport report;
   std::optional<StageErrors> errors;  // where it came as far as volumes
 };
+
+// The volume of `label` in a run; nothing when it was refused.
+std::optional<double> estimate_of(const Run& run, int label);
 
 struct PairRuns {
   std::string capture;  // path below the set

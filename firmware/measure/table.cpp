@@ -74,6 +74,13 @@ std::string compose_table(const MeasureReport& report) {
     text += line("views", fixed(measurement.relative_angle_deg, 1) + "° apart, the camera moved by " +
                               fixed(measurement.second_from_first.translation.norm(), 0) + " mm");
   }
+  const MeasurementReport& counts = measurement.report;
+  const auto kept = [&](std::size_t i) {
+    return std::to_string(counts.keypoints[i]) + " of " + std::to_string(counts.keypoints_found[i]);
+  };
+  text += line("points", kept(0) + " and " + kept(1) + " salient points, " + std::to_string(counts.matches) +
+                             " matches, " + std::to_string(counts.inliers) + " fit the motion, " +
+                             std::to_string(counts.card_tracks) + " lie on the card");
   text += line("time", times(report));
   text +=
       line("memory", mebibytes(report.used_bytes) + " of " + mebibytes(report.reserved_bytes) + " MiB used");

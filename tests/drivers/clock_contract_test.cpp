@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include <memory>
+#include <thread>
 
 #include "drivers/clock.hpp"
 #include "simulator/devices/simulated_clock.hpp"
@@ -42,6 +42,24 @@ TYPED_TEST(ClockContract, DoesNotSleepIntoThePast) {
   this->clock_.sleep_for(-1h);
   this->clock_.sleep_for(0ms);
   EXPECT_LT(this->clock_.now() - begun_at, 1s);
+}
+
+TYPED_TEST(ClockContract, ServesSeveralThreads) {
+  constexpr int kSleeps = 50;
+  const Instant begun_at = this->clock_.now();
+  const auto sleep_and_look = [this] {
+    Instant last = this->clock_.now();
+    for (int i = 0; i < kSleeps; ++i) {
+      this->clock_.sleep_for(100us);
+      const Instant now = this->clock_.now();
+      EXPECT_GE(now, last + 100us);
+      last = now;
+    }
+  };
+  std::thread other(sleep_and_look);
+  sleep_and_look();
+  other.join();
+  EXPECT_GE(this->clock_.now() - begun_at, kSleeps * 100us);
 }
 
 TEST(SystemClock, AgreesWithTheKernelsMonotonicClock) {

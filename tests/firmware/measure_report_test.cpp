@@ -144,6 +144,7 @@ TEST_F(Report, TableForPeople) {
             "   all      123.8\n"
             "\n"
             "views    17.5° apart, the camera moved by 123 mm\n"
+            "points   0 of 0 and 0 of 0 salient points, 0 matches, 0 fit the motion, 0 lie on the card\n"
             "time     91.0 ms (image 10.0, features 10.0, matching 10.0, pose 10.0, scale 10.0, "
             "rectification 10.0, "
             "stereo 10.0, surface 10.0, volume 10.0; setup before it 3.5)\n"

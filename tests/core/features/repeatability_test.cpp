@@ -3,9 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstdlib>
-#include <fstream>
-#include <nlohmann/json.hpp>
 #include <opencv2/features2d.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <string>
@@ -14,6 +11,7 @@
 #include "core/image/camera.hpp"
 #include "core/image/resample.hpp"
 #include "surf_on_picture.hpp"
+#include "tests/support/capture_truth.hpp"
 
 namespace traygauge {
 namespace {
@@ -38,9 +36,8 @@ std::vector<cv::DMatch> match_mutually(const PictureFeatures& first, const Pictu
 class OnCaptures : public ::testing::Test {
  protected:
   void SetUp() override {
-    const char* folder = std::getenv("TRAYGAUGE_CAPTURES");
-    if (folder == nullptr) GTEST_SKIP() << "TRAYGAUGE_CAPTURES is not set";
-    folder_ = folder;
+    folder_ = testing::captures_folder().string();
+    if (folder_.empty()) GTEST_SKIP() << "TRAYGAUGE_CAPTURES is not set";
   }
   // Half of the stored size.
   cv::Mat read_picture(const std::string& path) const {
@@ -48,9 +45,6 @@ class OnCaptures : public ::testing::Test {
     cv::Mat small(gray.rows / 2, gray.cols / 2, CV_8U);
     reduce_area({gray.data, gray.cols, gray.rows}, {small.data, small.cols, small.rows});
     return small;
-  }
-  nlohmann::json read_json(const std::string& path) const {
-    return nlohmann::json::parse(std::ifstream(folder_ + path));
   }
   std::string folder_;
 };
@@ -130,41 +124,13 @@ TEST_F(OnCaptures, KeypointsAreFoundAgainAndMatched) {
   }
 }
 
-Pose pose_of(const nlohmann::json& matrix) {
-  Pose pose;
-  for (int r = 0; r < 3; ++r) {
-    for (int c = 0; c < 3; ++c)
-      pose.rotation(r, c) = matrix[static_cast<std::size_t>(r)][static_cast<std::size_t>(c)];
-    pose.translation(r) = matrix[static_cast<std::size_t>(r)][3];
-  }
-  return pose;
-}
-
-LensModel lens_of(const nlohmann::json& camera) {
-  LensModel lens;
-  lens.width = camera["width"];
-  lens.height = camera["height"];
-  lens.pinhole = {camera["fx"], camera["fy"], camera["cx"], camera["cy"]};
-  const auto& distortion = camera["distortion"];
-  lens.k1 = distortion[0];
-  lens.k2 = distortion[1];
-  lens.p1 = distortion[2];
-  lens.p2 = distortion[3];
-  lens.k3 = distortion[4];
-  return lens;
-}
-
 // Matches between two views of a meal against the true epipolar geometry.
 TEST_F(OnCaptures, ViewsOfAMealShareEnoughCorrectMatches) {
   for (const std::string scene : {"/meals/m01", "/meals/m08", "/trays/t05"}) {
-    const LensModel lens = lens_of(read_json(scene + "/capture.json")["camera"]);
-    const nlohmann::json truth = read_json(scene + "/truth.json");
-    const Pose first_from_world = pose_of(truth["poses"][0]);
-    const Pose second_from_world = pose_of(truth["poses"][1]);
-    const Pose world_from_first = first_from_world.inverse();
-    const Pose second_from_first{second_from_world.rotation * world_from_first.rotation,
-                                 second_from_world * world_from_first.translation};
-    const Mat3 essential = essential_matrix(second_from_first);
+    const testing::CaptureTruth truth = testing::read_capture_truth(folder_ + scene);
+    const LensModel& lens = truth.views[0].lens;
+    const Mat3 essential = essential_matrix(
+        testing::motion_between(truth.views[0].camera_from_world, truth.views[1].camera_from_world));
     const PictureFeatures a = run_surf(read_picture(scene + "/view_0.jpg"), {.first_step_px = 1}, 2500);
     const PictureFeatures b = run_surf(read_picture(scene + "/view_1.jpg"), {.first_step_px = 1}, 2500);
     const auto ray_of = [&](const Keypoint& keypoint) {

@@ -1,57 +1,35 @@
 // Matches of rendered and real pictures with known motion, by OpenCV's SIFT.
 #pragma once
 
-#include <cstdlib>
-#include <fstream>
+#include <filesystem>
 #include <map>
-#include <nlohmann/json.hpp>
-#include <opencv2/calib3d.hpp>
 #include <opencv2/features2d.hpp>
-#include <opencv2/imgcodecs.hpp>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "core/pose/relative_pose.hpp"
+#include "tests/support/capture_truth.hpp"
 
 namespace traygauge::testing {
-
-// Empty when the captures are not at hand.
-inline std::string captures_folder() {
-  const char* folder = std::getenv("TRAYGAUGE_CAPTURES");
-  return folder == nullptr ? "" : folder;
-}
-
-inline nlohmann::json read_json(const std::string& path) {
-  std::ifstream file(path);
-  return nlohmann::json::parse(file);
-}
-
-struct View {
-  std::string image;
-  cv::Matx33d camera;
-  std::vector<double> distortion;
-  Pose camera_from_world;
-};
 
 struct Features {
   std::vector<cv::Point2d> rays;
   cv::Mat descriptors;
 };
 
-inline Features detect(const View& view, int max_features) {
+inline Features detect(const TrueView& view, int max_features) {
   constexpr double kSiftShiftPx = 0.25;  // OpenCV 4.6 reports positions that much too far right and down
   std::vector<cv::KeyPoint> keypoints;
   Features features;
   cv::SIFT::create(max_features)
-      ->detectAndCompute(cv::imread(view.image, cv::IMREAD_GRAYSCALE), cv::noArray(), keypoints,
-                         features.descriptors);
+      ->detectAndCompute(view.read_gray(), cv::noArray(), keypoints, features.descriptors);
   std::vector<cv::Point2d> pixels;
   for (const cv::KeyPoint& keypoint : keypoints) {
     pixels.emplace_back(static_cast<double>(keypoint.pt.x) - kSiftShiftPx,
                         static_cast<double>(keypoint.pt.y) - kSiftShiftPx);
   }
-  cv::undistortPoints(pixels, features.rays, view.camera, view.distortion);
+  features.rays = view.rays(pixels);
   return features;
 }
 
@@ -82,22 +60,19 @@ inline std::vector<RayMatch> match(const Features& first, const Features& second
 // Views of a folder, features computed once each.
 class PhotographSet {
  public:
-  PhotographSet(std::vector<View> views, int max_features)
+  PhotographSet(std::vector<TrueView> views, int max_features)
       : views_(std::move(views)), max_features_(max_features) {}
 
   std::vector<RayMatch> matches(std::size_t first, std::size_t second) {
     return match(features(first), features(second));
   }
   Pose second_from_first(std::size_t first, std::size_t second) const {
-    const Pose& a = views_[first].camera_from_world;
-    const Pose& b = views_[second].camera_from_world;
-    const Mat3 rotation = b.rotation * a.rotation.transpose();
-    return {rotation, b.translation - rotation * a.translation};
+    return motion_between(views_[first].camera_from_world, views_[second].camera_from_world);
   }
-  double focal_px() const { return 0.5 * (views_[0].camera(0, 0) + views_[0].camera(1, 1)); }
+  double focal_px() const { return views_[0].lens.pinhole.mean_focal_px(); }
   std::size_t index(const std::string& image) const {
     for (std::size_t i = 0; i < views_.size(); ++i) {
-      if (views_[i].image.ends_with("/" + image)) return i;
+      if (views_[i].image.filename() == image) return i;
     }
     return 0;
   }
@@ -108,52 +83,18 @@ class PhotographSet {
     if (found != features_.end()) return found->second;
     return features_[view] = detect(views_[view], max_features_);
   }
-  std::vector<View> views_;
+  std::vector<TrueView> views_;
   int max_features_;
   std::map<std::size_t, Features> features_;
 };
 
-// A capture: capture.json and the world-to-camera poses of truth.json.
-inline PhotographSet read_capture(const std::string& folder, int max_features) {
-  const nlohmann::json capture = read_json(folder + "/capture.json");
-  const nlohmann::json truth = read_json(folder + "/truth.json");
-  const nlohmann::json& camera = capture.at("camera");
-  std::vector<View> views;
-  for (const nlohmann::json& entry : capture.at("views")) {
-    View view;
-    view.image = folder + "/" + entry.at("image").get<std::string>();
-    view.camera =
-        cv::Matx33d(camera.at("fx"), 0, camera.at("cx"), 0, camera.at("fy"), camera.at("cy"), 0, 0, 1);
-    view.distortion = camera.at("distortion").get<std::vector<double>>();
-    const auto pose = truth.at("poses").at(views.size()).get<std::vector<std::vector<double>>>();
-    for (std::size_t row = 0; row < 3; ++row) {
-      const auto i = static_cast<Eigen::Index>(row);
-      view.camera_from_world.rotation.row(i) = Eigen::Map<const Eigen::RowVector3d>(pose[row].data());
-      view.camera_from_world.translation[i] = pose[row][3];
-    }
-    views.push_back(view);
-  }
-  return {views, max_features};
+inline PhotographSet read_capture(const std::filesystem::path& folder, int max_features) {
+  return {read_capture_truth(folder).views, max_features};
 }
 
 // A folder of `real` with cameras.json.
-inline PhotographSet read_real(const std::string& folder, int max_features) {
-  std::vector<View> views;
-  const nlohmann::json cameras = read_json(folder + "/cameras.json");
-  for (const nlohmann::json& entry : cameras.at("views")) {
-    View view;
-    view.image = folder + "/" + entry.at("image").get<std::string>();
-    const auto camera = entry.at("K").get<std::vector<double>>();
-    const auto rotation = entry.at("R").get<std::vector<double>>();
-    const auto translation = entry.at("t").get<std::vector<double>>();
-    view.camera = cv::Matx33d(camera.data());
-    view.camera_from_world.rotation =
-        Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(rotation.data());
-    view.camera_from_world.translation = Eigen::Map<const Vec3>(translation.data());
-    view.distortion = entry.value("dist_k1k2p1p2k3", std::vector<double>(5, 0.0));
-    views.push_back(view);
-  }
-  return {views, max_features};
+inline PhotographSet read_real(const std::filesystem::path& folder, int max_features) {
+  return {read_real_views(folder), max_features};
 }
 
 }  // namespace traygauge::testing

@@ -42,7 +42,7 @@ class Photographs : public ::testing::Test {
 
 TEST_F(Photographs, MealsAreWithinTheirBounds) {
   for (const char* meal : {"m01", "m04", "m06", "m08", "m11"}) {
-    testing::PhotographSet set = testing::read_capture(testing::captures_folder() + "/meals/" + meal, 2000);
+    testing::PhotographSet set = testing::read_capture(testing::captures_folder() / "meals" / meal, 2000);
     measure(set, 0, 1, std::string(meal) + " 0-1");
   }
   EXPECT_LT(median(rotation_deg_), 0.15);
@@ -54,7 +54,7 @@ TEST_F(Photographs, MealsAreWithinTheirBounds) {
 // The reference reaches 0.07 to 0.6 and 0.2 to 1.4 degrees here.
 TEST_F(Photographs, TheFountainIsFoundBetterThanByTheReference) {
   testing::PhotographSet set =
-      testing::read_real(testing::captures_folder() + "/real/strecha_fountain_P11", 2000);
+      testing::read_real(testing::captures_folder() / "real/strecha_fountain_P11", 2000);
   for (std::size_t i = 2; i < 8; i += 2) measure(set, i, i + 1, "fountain " + std::to_string(i));
   EXPECT_LT(largest(rotation_deg_), 0.15);
   EXPECT_LT(largest(direction_deg_), 0.4);
@@ -62,9 +62,9 @@ TEST_F(Photographs, TheFountainIsFoundBetterThanByTheReference) {
 
 // Their truth comes from structure from motion on the same small pictures: about a degree.
 TEST_F(Photographs, AppleAndBananaAgreeWithStructureFromMotion) {
-  const std::string folder = testing::captures_folder() + "/real/fruit_colmap_apple_banana";
+  const std::filesystem::path folder = testing::captures_folder() / "real/fruit_colmap_apple_banana";
   testing::PhotographSet set = testing::read_real(folder, 3000);
-  const nlohmann::json cameras = testing::read_json(folder + "/cameras.json");
+  const nlohmann::json cameras = testing::read_json(folder / "cameras.json");
   const nlohmann::json& pairs = cameras.at("pairs");
   for (std::size_t i = 0; i < 7; ++i) {
     const std::string a = pairs.at(i).at("a");
@@ -78,7 +78,7 @@ TEST_F(Photographs, AppleAndBananaAgreeWithStructureFromMotion) {
 
 // A fruit on a page of markers: many wrong matches, and so flat that a twin motion nearly fits.
 TEST_F(Photographs, FruitOnABoardIsNotMistakenForItsTwin) {
-  const std::string folder = testing::captures_folder() + "/real/fruit_board_mango";
+  const std::filesystem::path folder = testing::captures_folder() / "real/fruit_board_mango";
   testing::PhotographSet set = testing::read_real(folder, 2500);
   measure(set, set.index("mango_8.jpg"), set.index("mango_12.jpg"), "mango 8-12");
   measure(set, set.index("mango_10.jpg"), set.index("mango_12.jpg"), "mango 10-12");

@@ -3,13 +3,9 @@
 #pragma once
 
 #include <opencv2/core.hpp>
-#include <string>
-#include <utility>
-#include <vector>
 
-#include "core/base/geometry.hpp"
-#include "core/image/camera.hpp"
 #include "core/image_view/image_view.hpp"
+#include "tests/support/capture_truth.hpp"
 
 namespace traygauge {
 
@@ -23,11 +19,7 @@ struct WorkingView {
   static ImageView<const std::uint8_t> view(const cv::Mat& mat) { return {mat.data, mat.cols, mat.rows}; }
 };
 
-inline constexpr double kDishPixels = 131072.0;  // 2^17
-
-WorkingView load_view(const std::string& capture, int view, double dish_pixels = kDishPixels);
-std::vector<std::pair<int, int>> capture_pairs(const std::string& capture);
-// The folder that TRAYGAUGE_CAPTURES names; empty when it does not.
-std::string captures_folder();
+WorkingView load_view(const testing::CaptureTruth& capture, int index,
+                      double dish_pixels = testing::kWorkingDishPixels);
 
 }  // namespace traygauge

@@ -5,10 +5,7 @@
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
-#include <nlohmann/json.hpp>
 #include <opencv2/features2d.hpp>
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
 #include "core/rectification/polar_rectification.hpp"
@@ -17,11 +14,6 @@
 
 namespace traygauge {
 namespace {
-
-Pose relative(const Pose& first, const Pose& second) {
-  const Pose world_from_first = first.inverse();
-  return {second.rotation * world_from_first.rotation, second * world_from_first.translation};
-}
 
 // Bilinear; 0 where a neighbour is unknown.
 double depth_at(const cv::Mat& depth, const Vec2& pixel) {
@@ -42,24 +34,24 @@ double milliseconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
 }
 
-class Captures : public testing::TestWithParam<const char*> {
+class Captures : public ::testing::TestWithParam<const char*> {
  protected:
   void SetUp() override {
-    folder_ = captures_folder();
+    folder_ = testing::captures_folder();
     if (folder_.empty()) GTEST_SKIP() << "TRAYGAUGE_CAPTURES is not set";
   }
-  std::string folder_;
+  std::filesystem::path folder_;
 };
 
 TEST_P(Captures, TrueDepthLeadsToTheSameRowAndTheSameGrey) {
-  const std::string capture = folder_ + "/" + GetParam();
+  const testing::CaptureTruth capture = testing::read_capture_truth(folder_ / GetParam());
   const RectificationParams params;
   OwnedWorkspace workspace(params);
-  for (const auto& [a, b] : capture_pairs(capture)) {
-    SCOPED_TRACE(testing::Message() << "pair " << a << "-" << b);
+  for (const auto& [a, b] : capture.pairs) {
+    SCOPED_TRACE(::testing::Message() << "pair " << a << "-" << b);
     const WorkingView first = load_view(capture, a);
     const WorkingView second = load_view(capture, b);
-    const Pose motion = relative(first.camera_from_world, second.camera_from_world);
+    const Pose motion = testing::motion_between(first.camera_from_world, second.camera_from_world);
     PolarRectification rectification;
     const auto start = std::chrono::steady_clock::now();
     ASSERT_TRUE(rectification
@@ -94,7 +86,7 @@ TEST_P(Captures, TrueDepthLeadsToTheSameRowAndTheSameGrey) {
     std::printf(", disparity %.0f to %.0f px, grey difference %.1f %.1f %.1f, offset %.3f px\n",
                 agreement.min_disparity_px, agreement.max_disparity_px, agreement.difference[0],
                 agreement.difference[1], agreement.difference[2], agreement.offset_px());
-    EXPECT_GT(agreement.pixels, 0.8 * kDishPixels);
+    EXPECT_GT(agreement.pixels, 0.8 * testing::kWorkingDishPixels);
     EXPECT_LE(agreement.worst_row_px, 1e-6);
     EXPECT_LT(agreement.difference[1], agreement.difference[0]);
     EXPECT_LT(agreement.difference[1], agreement.difference[2]);
@@ -103,12 +95,12 @@ TEST_P(Captures, TrueDepthLeadsToTheSameRowAndTheSameGrey) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Rendered, Captures,
-                         testing::Values("meals/m01", "meals/m04", "meals/m06", "meals/m08", "meals/m11",
-                                         "angles/a01", "plates/c1_dinner", "plates/c1_oval",
-                                         "plates/c1_soup"));
+                         ::testing::Values("meals/m01", "meals/m04", "meals/m06", "meals/m08", "meals/m11",
+                                           "angles/a01", "plates/c1_dinner", "plates/c1_oval",
+                                           "plates/c1_soup"));
 
 // Surveyed cameras around a fountain; matches by OpenCV's SIFT.
-class Fountain : public testing::TestWithParam<std::pair<int, int>> {
+class Fountain : public ::testing::TestWithParam<std::pair<int, int>> {
  protected:
   struct View {
     cv::Mat gray;
@@ -120,26 +112,20 @@ class Fountain : public testing::TestWithParam<std::pair<int, int>> {
   static constexpr double kScale = 0.5;
 
   View load(int number) const {
-    std::ifstream file(folder_ + "/cameras.json");
-    const auto json = nlohmann::json::parse(file)["views"][static_cast<std::size_t>(number)];
+    const testing::TrueView stored = testing::read_real_views(folder_).at(static_cast<std::size_t>(number));
     View view;
-    const cv::Mat stored = cv::imread(folder_ + "/" + json["image"].get<std::string>(), cv::IMREAD_GRAYSCALE);
-    cv::resize(stored, view.gray, {}, kScale, kScale, cv::INTER_AREA);
-    const auto k = json["K"].get<std::array<double, 9>>();
-    view.camera = {kScale * k[0], kScale * k[4], kScale * (k[2] + 0.5) - 0.5, kScale * (k[5] + 0.5) - 0.5};
-    const auto r = json["R"].get<std::array<double, 9>>();
-    const auto t = json["t"].get<std::array<double, 3>>();
-    view.camera_from_world.rotation << r[0], r[1], r[2], r[3], r[4], r[5], r[6], r[7], r[8];
-    view.camera_from_world.translation << t[0], t[1], t[2];
+    cv::resize(stored.read_gray(), view.gray, {}, kScale, kScale, cv::INTER_AREA);
+    view.camera = testing::enlarge(stored.lens.pinhole, kScale);
+    view.camera_from_world = stored.camera_from_world;
     cv::SIFT::create(4000)->detectAndCompute(view.gray, {}, view.keypoints, view.descriptors);
     return view;
   }
   void SetUp() override {
-    folder_ = captures_folder();
+    folder_ = testing::captures_folder();
     if (folder_.empty()) GTEST_SKIP() << "TRAYGAUGE_CAPTURES is not set";
-    folder_ += "/real/strecha_fountain_P11";
+    folder_ /= "real/strecha_fountain_P11";
   }
-  std::string folder_;
+  std::filesystem::path folder_;
 };
 
 TEST_P(Fountain, MatchesLieInTheSameRow) {
@@ -155,8 +141,8 @@ TEST_P(Fountain, MatchesLieInTheSameRow) {
   PolarRectification rectification;
   ASSERT_TRUE(rectification
                   .build({first.camera, everything.view()}, {second.camera, everything.view()},
-                         relative(first.camera_from_world, second.camera_from_world), {}, params,
-                         workspace.tables)
+                         testing::motion_between(first.camera_from_world, second.camera_from_world), {},
+                         params, workspace.tables)
                   .ok());
   std::vector<std::vector<cv::DMatch>> matches;
   cv::BFMatcher().knnMatch(first.descriptors, second.descriptors, matches, 2);
@@ -180,7 +166,8 @@ TEST_P(Fountain, MatchesLieInTheSameRow) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Photographs, Fountain,
-                         testing::Values(std::pair(2, 3), std::pair(4, 6), std::pair(5, 4), std::pair(7, 8)));
+                         ::testing::Values(std::pair(2, 3), std::pair(4, 6), std::pair(5, 4),
+                                           std::pair(7, 8)));
 
 }  // namespace
 }  // namespace traygauge

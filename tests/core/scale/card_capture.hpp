@@ -3,11 +3,7 @@
 #pragma once
 
 #include <cmath>
-#include <cstdlib>
 #include <filesystem>
-#include <fstream>
-#include <nlohmann/json.hpp>
-#include <opencv2/calib3d.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <vector>
@@ -18,6 +14,7 @@
 #include "tests/core/matching/sift_features.hpp"
 #include "tests/core/matching/workspace_block.hpp"
 #include "tests/core/scale/synthetic_card.hpp"
+#include "tests/support/capture_truth.hpp"
 
 namespace traygauge {
 
@@ -38,27 +35,15 @@ struct CardCapture {
   Pose world_from_card;
 };
 
-inline Vec3 to_vec3(const nlohmann::json& values) {
-  return {values[0].get<double>(), values[1].get<double>(), values[2].get<double>()};
-}
-
-inline CaptureView load_view(const std::filesystem::path& image, const nlohmann::json& camera,
-                             const nlohmann::json& pose) {
+inline CaptureView load_view(const testing::TrueView& stored) {
   CaptureView view;
-  view.features = sift_features(cv::imread(image.string(), cv::IMREAD_GRAYSCALE), kMaxCaptureFeatures);
-  const cv::Matx33d intrinsics(camera["fx"], 0, camera["cx"], 0, camera["fy"], camera["cy"], 0, 0, 1);
+  view.features = sift_features(stored.read_gray(), kMaxCaptureFeatures);
   std::vector<cv::Point2d> pixels;
-  std::vector<cv::Point2d> rays;
   for (const Keypoint& keypoint : view.features.keypoints) {
     pixels.emplace_back(keypoint.pixel.x(), keypoint.pixel.y());
   }
-  cv::undistortPoints(pixels, rays, intrinsics, camera["distortion"].get<std::vector<double>>());
-  for (const cv::Point2d& ray : rays) view.rays.emplace_back(ray.x, ray.y);
-  for (int r = 0; r < 3; ++r) {
-    const nlohmann::json& row = pose[static_cast<std::size_t>(r)];
-    view.camera_from_world.rotation.row(r) = to_vec3(row).transpose();
-    view.camera_from_world.translation(r) = row[3].get<double>();
-  }
+  for (const cv::Point2d& ray : stored.rays(pixels)) view.rays.emplace_back(ray.x, ray.y);
+  view.camera_from_world = stored.camera_from_world;
   return view;
 }
 
@@ -74,21 +59,17 @@ inline void load_pattern(const std::filesystem::path& image, CardCapture& captur
 
 inline CardCapture load_card_capture(const std::filesystem::path& folder,
                                      const std::vector<std::size_t>& views) {
-  const auto description = nlohmann::json::parse(std::ifstream(folder / "capture.json"));
-  const auto truth = nlohmann::json::parse(std::ifstream(folder / "truth.json"));
+  const testing::CaptureTruth truth = testing::read_capture_truth(folder);
+  const nlohmann::json& card = truth.description.at("card");
   CardCapture capture;
-  capture.size = {description["card"]["width_mm"], description["card"]["height_mm"],
-                  description["card"]["thickness_mm"]};
-  capture.focal_px = description["camera"]["fx"];
-  for (const std::size_t view : views) {
-    const std::filesystem::path image = folder / description["views"][view]["image"].get<std::string>();
-    capture.views.push_back(load_view(image, description["camera"], truth["poses"][view]));
-  }
-  load_pattern(folder / description["card"]["pattern"].get<std::string>(), capture);
-  const nlohmann::json& corners = truth["card_corners_mm"];
-  const Vec3 origin = to_vec3(corners[0]);
-  const Vec3 x = (to_vec3(corners[1]) - origin).normalized();
-  const Vec3 y = (to_vec3(corners[3]) - origin).normalized();
+  capture.size = {card.at("width_mm"), card.at("height_mm"), card.at("thickness_mm")};
+  capture.focal_px = truth.views[0].lens.pinhole.fx_px;
+  for (const std::size_t view : views) capture.views.push_back(load_view(truth.views.at(view)));
+  load_pattern(folder / card.at("pattern").get<std::string>(), capture);
+  const std::vector<Vec3>& corners = truth.card_corners_mm;
+  const Vec3& origin = corners[0];
+  const Vec3 x = (corners[1] - origin).normalized();
+  const Vec3 y = (corners[3] - origin).normalized();
   capture.world_from_card.rotation << x, y, x.cross(y);
   capture.world_from_card.translation = origin;
   return capture;
@@ -109,10 +90,10 @@ inline CardScene load_card_scene(const CardCapture& capture, std::size_t first, 
   const CaptureView& a = capture.views[first];
   const CaptureView& b = capture.views[second];
   CardScene scene;
-  scene.second_from_first = motion_between(a.camera_from_world, b.camera_from_world);
+  scene.second_from_first = testing::motion_between(a.camera_from_world, b.camera_from_world);
   scene.baseline_mm = scene.second_from_first.translation.norm();
-  scene.first_from_card = compose(a.camera_from_world, capture.world_from_card);
-  scene.second_from_card = compose(b.camera_from_world, capture.world_from_card);
+  scene.first_from_card = a.camera_from_world * capture.world_from_card;
+  scene.second_from_card = b.camera_from_world * capture.world_from_card;
   Pose unit_pose = scene.second_from_first;
   unit_pose.translation.normalize();
   const Mat3 essential = essential_matrix(unit_pose);

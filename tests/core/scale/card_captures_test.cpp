@@ -1,7 +1,6 @@
 // Rendered captures with exact truth, real detection noise: SIFT matches, true relative poses.
 #include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <filesystem>
 
 #include "core/scale/card_detection.hpp"
@@ -19,14 +18,13 @@ struct Pair {
   std::size_t second;
 };
 
-class CardCaptures : public testing::TestWithParam<Pair> {};
+class CardCaptures : public ::testing::TestWithParam<Pair> {};
 
 TEST_P(CardCaptures, ScaleWithinOnePercentAndPlaneOnTheTable) {
-  const char* captures = std::getenv("TRAYGAUGE_CAPTURES");
-  if (captures == nullptr) GTEST_SKIP() << "TRAYGAUGE_CAPTURES is not set";
+  const std::filesystem::path captures = testing::captures_folder();
+  if (captures.empty()) GTEST_SKIP() << "TRAYGAUGE_CAPTURES is not set";
   const Pair& pair = GetParam();
-  const CardCapture capture =
-      load_card_capture(std::filesystem::path(captures) / pair.capture, {pair.first, pair.second});
+  const CardCapture capture = load_card_capture(captures / pair.capture, {pair.first, pair.second});
   const CardScene scene = load_card_scene(capture, 0, 1);
   WithMemory<CardWorkspace> memory(kMaxCaptureFeatures);
   Random random(1);
@@ -61,14 +59,14 @@ TEST_P(CardCaptures, ScaleWithinOnePercentAndPlaneOnTheTable) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Sets, CardCaptures,
-                         testing::Values(Pair{"meals/m04", 0, 1}, Pair{"meals/m11", 0, 2},
-                                         Pair{"trays/t01", 0, 1}, Pair{"angles/a01", 0, 3}));
+                         ::testing::Values(Pair{"meals/m04", 0, 1}, Pair{"meals/m11", 0, 2},
+                                           Pair{"trays/t01", 0, 1}, Pair{"angles/a01", 0, 3}));
 
 // The card's own pattern is missing: another card's pattern matches nothing that could pass for it.
 TEST(CardCapturesWithoutCard, AnotherPatternIsNotFound) {
-  const char* captures = std::getenv("TRAYGAUGE_CAPTURES");
-  if (captures == nullptr) GTEST_SKIP() << "TRAYGAUGE_CAPTURES is not set";
-  CardCapture capture = load_card_capture(std::filesystem::path(captures) / "meals/m08", {0, 1});
+  const std::filesystem::path captures = testing::captures_folder();
+  if (captures.empty()) GTEST_SKIP() << "TRAYGAUGE_CAPTURES is not set";
+  CardCapture capture = load_card_capture(captures / "meals/m08", {0, 1});
   std::mt19937 generator(1);
   std::shuffle(capture.pattern_mm.begin(), capture.pattern_mm.end(),
                generator);  // a pattern of the same marks

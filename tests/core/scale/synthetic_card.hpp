@@ -32,14 +32,6 @@ struct SceneOptions {
   double max_tilt_rad = 0.6;
 };
 
-inline Pose compose(const Pose& a, const Pose& b) {
-  return {a.rotation * b.rotation, a * b.translation};
-}
-
-inline Pose motion_between(const Pose& first_from_world, const Pose& second_from_world) {
-  return compose(second_from_world, first_from_world.inverse());
-}
-
 // The point nearest to both rays; `second_from_first` has a unit baseline.
 inline Vec3 triangulate_midpoint(const Pose& second_from_first, const Vec2& first, const Vec2& second) {
   const Pose first_from_second = second_from_first.inverse();

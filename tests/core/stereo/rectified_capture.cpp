@@ -2,19 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
-#include <nlohmann/json.hpp>
 #include <opencv2/calib3d.hpp>
-#include <opencv2/imgcodecs.hpp>
 #include <vector>
+
+#include "tests/support/capture_truth.hpp"
 
 namespace traygauge::testing {
 namespace {
 
-using nlohmann::json;
-
-constexpr double kDishPixels = 1 << 17;
-constexpr double kDepthUnitMm = 0.02;
 constexpr int kOversampling = 3;
 constexpr int kMargin = 2;
 
@@ -26,31 +21,18 @@ struct View {
   cv::Vec3d centre_mm;
 };
 
-json read_json(const std::filesystem::path& file) {
-  return json::parse(std::ifstream(file));
-}
-
-View read_view(const std::filesystem::path& folder, const json& capture, const json& truth, int index) {
-  const auto i = static_cast<std::size_t>(index);
-  const json& description = capture.at("views").at(i);
-  const json& camera = description.contains("camera") ? description.at("camera") : capture.at("camera");
+View read_view(const TrueView& stored) {
   View view;
-  view.gray =
-      cv::imread((folder / description.at("image").get<std::string>()).string(), cv::IMREAD_GRAYSCALE);
-  view.labels =
-      cv::imread((folder / description.at("labels").get<std::string>()).string(), cv::IMREAD_GRAYSCALE);
-  const auto number = [&](const char* key) { return camera.at(key).get<double>(); };
-  view.camera = {number("fx"), 0.0, number("cx"), 0.0, number("fy"), number("cy"), 0.0, 0.0, 1.0};
-  view.distortion = camera.at("distortion").get<std::vector<double>>();
-  const json& pose = truth.at("poses").at(i);
-  cv::Vec3d translation;
+  view.gray = stored.read_gray();
+  view.labels = stored.read_labels();
+  view.camera = camera_matrix(stored.lens.pinhole);
+  view.distortion = distortion_of(stored.lens);
+  const Pose& pose = stored.camera_from_world;
   for (int r = 0; r < 3; ++r) {
-    const json& row = pose.at(static_cast<std::size_t>(r));
-    for (int c = 0; c < 3; ++c)
-      view.camera_from_world(r, c) = row.at(static_cast<std::size_t>(c)).get<double>();
-    translation[r] = row.at(3).get<double>();
+    for (int c = 0; c < 3; ++c) view.camera_from_world(r, c) = pose.rotation(r, c);
   }
-  view.centre_mm = -(view.camera_from_world.t() * translation);
+  const Vec3 centre_mm = pose.inverse().translation;
+  view.centre_mm = {centre_mm.x(), centre_mm.y(), centre_mm.z()};
   return view;
 }
 
@@ -132,16 +114,16 @@ void warp_view(const View& view, const cv::Matx33d& rotation, const Frame& frame
   cv::Mat warped;
   warp(view, rotation, frame, 1, view.labels, cv::INTER_NEAREST, warped);
   labels = warped;
-  mask = (labels >= 1) & (labels <= 199);
+  mask = dish_mask(labels);
 }
 
-// The focal length at which the first view's dish measures kDishPixels.
+// The focal length at which the first view's dish measures kWorkingDishPixels.
 double choose_focal(const View& view, const cv::Matx33d& rotation, const Extent& extent) {
   double focal_px = 1000.0;
   cv::Mat warped;
   warp(view, rotation, frame_around(extent, extent, focal_px), 1, view.labels, cv::INTER_NEAREST, warped);
-  const int pixels = cv::countNonZero((warped >= 1) & (warped <= 199));
-  return focal_px * std::sqrt(kDishPixels / pixels);
+  const int pixels = cv::countNonZero(dish_mask(warped));
+  return focal_px * std::sqrt(kWorkingDishPixels / pixels);
 }
 
 void take_truth(const cv::Mat& depth, const View& first, const View& second, const Frame& frame,
@@ -155,7 +137,7 @@ void take_truth(const cv::Mat& depth, const View& first, const View& second, con
   capture.truth.create(frame.size);
   for (int y = 0; y < frame.size.height; ++y) {
     for (int x = 0; x < frame.size.width; ++x) {
-      const double z = warped.at<std::uint16_t>(y, x) * kDepthUnitMm;
+      const double z = warped.at<float>(y, x);
       cv::Vec3d ray((x + capture.first_origin.x) / frame.focal_px,
                     (y + capture.first_origin.y) / frame.focal_px, 1.0);
       const double depth_along_axis = (first_from_rectified * ray)[2];
@@ -191,10 +173,9 @@ cv::Vec3d RectifiedCapture::point(int x, int y, double disparity_px) const {
 }
 
 RectifiedCapture rectify_capture(const std::filesystem::path& folder, int second_index) {
-  const json description = read_json(folder / "capture.json");
-  const json truth = read_json(folder / "truth.json");
-  const View first = read_view(folder, description, truth, 0);
-  const View second = read_view(folder, description, truth, second_index);
+  const CaptureTruth stored = read_capture_truth(folder);
+  const View first = read_view(stored.views.at(0));
+  const View second = read_view(stored.views.at(static_cast<std::size_t>(second_index)));
   RectifiedCapture capture;
   capture.rectified_from_world = rectifying_rotation(first, second);
   const Extent first_extent = dish_extent(first, capture.rectified_from_world);
@@ -208,11 +189,10 @@ RectifiedCapture rectify_capture(const std::filesystem::path& folder, int second
   cv::Mat_<std::uint8_t> second_labels;
   warp_view(first, capture.rectified_from_world, first_frame, pair.first, pair.first_mask, capture.labels);
   warp_view(second, capture.rectified_from_world, second_frame, pair.second, pair.second_mask, second_labels);
-  take_truth(cv::imread((folder / "depth_0.png").string(), cv::IMREAD_UNCHANGED), first, second, first_frame,
-             capture);
-  const double bottom_mm = description.at("dish").at("bottom_height_mm").get<double>();
+  take_truth(stored.read_depth_mm(), first, second, first_frame, capture);
+  const double bottom_mm = stored.description.at("dish").at("bottom_height_mm").get<double>();
   capture.first_centre_mm = first.centre_mm - cv::Vec3d(0.0, 0.0, bottom_mm);
-  for (const json& item : truth.at("items")) {
+  for (const auto& item : stored.truth.at("items")) {
     if (item.at("kind") == "heightfield") capture.names[item.at("label")] = item.at("name");
   }
   capture.range = central_range(capture);

@@ -11,26 +11,6 @@
 namespace traygauge {
 namespace {
 
-TEST(HalfSampleMode, FindsThePeakBesideOutliers) {
-  std::mt19937 generator(4);
-  std::normal_distribution<double> peak(20.0, 0.5);
-  std::uniform_real_distribution<double> wild(25.0, 80.0);
-  std::vector<double> values;
-  for (int i = 0; i < 120; ++i) values.push_back(peak(generator));
-  for (int i = 0; i < 80; ++i) values.push_back(wild(generator));
-  std::shuffle(values.begin(), values.end(), generator);
-  EXPECT_NEAR(half_sample_mode(values, {}), 20.0, 0.15);
-  EXPECT_NEAR(half_sample_mode(values, {10, 1.0}), 20.0, 0.8);
-}
-
-TEST(HalfSampleMode, IsTheMeanWithoutHalvingAndCopesWithFewValues) {
-  std::vector<double> values{5.0, 1.0, 3.0};
-  EXPECT_DOUBLE_EQ(half_sample_mode(values, {0, 1.0}), 3.0);
-  std::vector<double> one{7.0};
-  EXPECT_DOUBLE_EQ(half_sample_mode(one, {}), 7.0);
-  EXPECT_DOUBLE_EQ(half_sample_mode({}, {}), 0.0);
-}
-
 class DishTest : public ::testing::Test {
  protected:
   // Rim 22 mm above the table, the card 200 mm aside, its plane tilted by 2 degrees about its own middle.

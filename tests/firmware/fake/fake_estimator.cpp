@@ -24,11 +24,13 @@ TRAYGAUGE_FAKE std::size_t required_bytes(const EstimatorLimits& limits) {
          static_cast<std::size_t>(limits.max_frame_height);
 }
 
-TRAYGAUGE_FAKE std::span<const MemoryRow> memory_rows(const EstimatorLimits& limits,
-                                                      std::span<MemoryRow> storage) {
-  storage[0] = {"features", required_bytes(limits) / 2};
-  storage[1] = {"stereo", required_bytes(limits) / 2};
-  return storage.first(2);
+TRAYGAUGE_FAKE std::size_t required_bytes(const Configuration& configuration) {
+  return required_bytes(configuration.limits);
+}
+
+TRAYGAUGE_FAKE std::array<MemoryRow, kMemoryRowCount> describe_memory(const Configuration& configuration) {
+  return {{{"features", required_bytes(configuration) / 2, false},
+           {"stereo", required_bytes(configuration) / 2, true}}};
 }
 
 TRAYGAUGE_FAKE Status validate(const Configuration&) {
@@ -66,10 +68,6 @@ TRAYGAUGE_FAKE Estimator::Estimator(std::span<std::byte> block, const Configurat
   fake.dishes.assign(configuration.dishes.begin(), configuration.dishes.end());
   fake.limits = configuration.limits;
   if (block.size() < required_bytes(configuration.limits)) status_ = StatusCode::out_of_memory;
-}
-
-TRAYGAUGE_FAKE Status Estimator::status() const {
-  return status_;
 }
 
 TRAYGAUGE_FAKE double Estimator::setup_ms() const {

@@ -17,7 +17,7 @@ struct FakeEstimator {
 
   // What it was given.
   LensModel lens;
-  CardModel card;
+  ReferenceCard card;
   std::vector<DishModel> dishes;
   EstimatorLimits limits;
   std::vector<ViewInput> views;

@@ -1,24 +1,30 @@
-// What the RANSAC loops of this folder share (Fischler & Bolles 1981).
+// What every RANSAC loop shares (Fischler & Bolles 1981): samples, and the number of them.
 #pragma once
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <cstdint>
+#include <span>
 
 #include "core/base/random.hpp"
 
 namespace traygauge {
 
-// `N` different indices below `count` (Floyd's method); count >= N.
-template <std::size_t N>
-std::array<std::size_t, N> sample_distinct(Random& random, std::size_t count) {
-  std::array<std::size_t, N> sample{};
-  for (std::size_t k = 0; k < N; ++k) {
-    const std::size_t last = count - N + k;
+// Fills `sample` with different indices below `count` (Floyd's method); count >= sample.size().
+inline void sample_distinct(Random& random, std::size_t count, std::span<std::size_t> sample) {
+  for (std::size_t k = 0; k < sample.size(); ++k) {
+    const std::size_t last = count - sample.size() + k;
     const std::size_t drawn = random.below(static_cast<std::uint32_t>(last + 1));
     const auto end = sample.begin() + static_cast<std::ptrdiff_t>(k);
     sample[k] = std::find(sample.begin(), end, drawn) == end ? drawn : last;
   }
+}
+
+template <std::size_t N>
+std::array<std::size_t, N> sample_distinct(Random& random, std::size_t count) {
+  std::array<std::size_t, N> sample{};
+  sample_distinct(random, count, sample);
   return sample;
 }
 
@@ -35,9 +41,9 @@ class IterationBound {
     miss_ *= contaminated_;
   }
   // A better model was found: `inlier_rate` of all data agree with it.
-  void update(double inlier_rate, int sample_size) {
+  void update(double inlier_rate, std::size_t sample_size) {
     double clean = 1.0;
-    for (int i = 0; i < sample_size; ++i) clean *= inlier_rate;
+    for (std::size_t i = 0; i < sample_size; ++i) clean *= inlier_rate;
     contaminated_ = 1.0 - clean;
     miss_ = 1.0;
     for (int i = 0; i < done_; ++i) miss_ *= contaminated_;

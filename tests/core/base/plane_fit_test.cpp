@@ -1,4 +1,4 @@
-#include "core/surface/plane_fit.hpp"
+#include "core/base/plane_fit.hpp"
 
 #include <gtest/gtest.h>
 

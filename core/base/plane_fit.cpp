@@ -1,26 +1,25 @@
-#include "core/surface/plane_fit.hpp"
+#include "core/base/plane_fit.hpp"
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/ransac.hpp"
+
 namespace traygauge {
 namespace {
 
-Plane plane_through(const Vec3& normal, const Vec3& point) {
-  const double offset = normal.dot(point);
-  return offset > 0.0 ? Plane{-normal, -offset} : Plane{normal, offset};
-}
+constexpr std::size_t kSample = 3;
 
 bool sample_plane(std::span<const Vec3> points, const PlaneFitParams& params, Random& random, Plane& plane) {
-  const auto count = static_cast<std::uint32_t>(points.size());
-  const Vec3& a = points[random.below(count)];
-  const Vec3& b = points[random.below(count)];
-  const Vec3& c = points[random.below(count)];
+  const auto sample = sample_distinct<kSample>(random, points.size());
+  const Vec3& a = points[sample[0]];
+  const Vec3& b = points[sample[1]];
+  const Vec3& c = points[sample[2]];
   const Vec3 normal = (b - a).cross(c - a);
   const double twice_area = normal.norm();
   if (!(twice_area > 2.0 * params.min_triangle_mm2)) return false;
-  plane = plane_through(normal / twice_area, a);
+  plane = plane_towards_camera(normal / twice_area, a);
   return -plane.offset >= params.min_facing_cosine * a.norm();
 }
 
@@ -38,21 +37,6 @@ double truncated_cost(std::span<const Vec3> points, const Plane& plane, double t
   return cost;
 }
 
-// base^exponent by multiplications only, so that the number of samples is the same everywhere.
-double power(double base, int exponent) {
-  double result = 1.0;
-  for (; exponent > 0; exponent >>= 1) {
-    if ((exponent & 1) != 0) result *= base;
-    base *= base;
-  }
-  return result;
-}
-
-bool is_sampled_enough(int iterations, int inliers, std::size_t points, double confidence) {
-  const double share = inliers / static_cast<double>(points);
-  return power(1.0 - share * share * share, iterations) <= 1.0 - confidence;
-}
-
 // Principal spreads of the points about their mean, ascending, and their directions.
 Eigen::SelfAdjointEigenSolver<Mat3> measure_spread(std::span<const Vec3> points, Vec3& mean) {
   mean = Vec3::Zero();
@@ -66,24 +50,24 @@ Eigen::SelfAdjointEigenSolver<Mat3> measure_spread(std::span<const Vec3> points,
 }  // namespace
 
 bool fit_plane_least_squares(std::span<const Vec3> points_mm, Plane& plane) {
-  if (points_mm.size() < 3) return false;
+  if (points_mm.size() < kSample) return false;
   Vec3 mean;
   const Eigen::SelfAdjointEigenSolver<Mat3> solver = measure_spread(points_mm, mean);
   // On a line two of the three spreads vanish.
   constexpr double kLineShare = 1e-12;
   if (!(solver.eigenvalues()[1] > kLineShare * solver.eigenvalues()[2])) return false;
-  plane = plane_through(solver.eigenvectors().col(0), mean);
+  plane = plane_towards_camera(solver.eigenvectors().col(0), mean);
   return true;
 }
 
 bool fit_plane(std::span<Vec3> points_mm, const PlaneFitParams& params, Random& random, PlaneFit& fit) {
   fit = {};
-  if (points_mm.size() < 3) return false;
+  if (points_mm.size() < kSample) return false;
   Plane best;
   double best_cost = 0.0;
   int best_inliers = 0;
-  for (; fit.iterations < params.max_iterations; ++fit.iterations) {
-    if (is_sampled_enough(fit.iterations, best_inliers, points_mm.size(), params.confidence)) break;
+  IterationBound bound(params.confidence, params.min_iterations, params.max_iterations);
+  for (; bound.proceed(); bound.count_iteration()) {
     Plane plane;
     if (!sample_plane(points_mm, params, random, plane)) continue;
     int inliers = 0;
@@ -92,7 +76,9 @@ bool fit_plane(std::span<Vec3> points_mm, const PlaneFitParams& params, Random& 
     best = plane;
     best_cost = cost;
     best_inliers = inliers;
+    bound.update(inliers / static_cast<double>(points_mm.size()), kSample);
   }
+  fit.iterations = bound.iterations();
   if (best_inliers < params.min_inliers) return false;
 
   const auto split = [&](const Plane& plane) {

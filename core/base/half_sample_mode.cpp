@@ -1,4 +1,4 @@
-#include "core/surface/half_sample_mode.hpp"
+#include "core/base/half_sample_mode.hpp"
 
 #include <algorithm>
 #include <cstddef>
@@ -6,7 +6,7 @@
 namespace traygauge {
 namespace {
 
-// The shortest run of sorted values that holds half of them.
+// The first of the shortest runs that hold half of the values.
 std::span<const double> densest_half(std::span<const double> sorted) {
   const std::size_t half = (sorted.size() + 1) / 2;
   std::size_t best = 0;
@@ -18,16 +18,15 @@ std::span<const double> densest_half(std::span<const double> sorted) {
 
 }  // namespace
 
-double half_sample_mode(std::span<double> values, const ModeParams& params) {
-  if (values.empty()) return 0.0;
-  std::sort(values.begin(), values.end());
-  std::span<const double> dense = values;
+double half_sample_mode(std::span<const double> sorted, const ModeParams& params) {
+  if (sorted.empty()) return 0.0;
+  std::span<const double> dense = sorted;
   for (int round = 0; round < params.halvings && dense.size() > 3; ++round) dense = densest_half(dense);
 
   const double middle = 0.5 * (dense.front() + dense.back());
   const double reach = std::max(1.0, params.reach) * 0.5 * (dense.back() - dense.front());
-  const auto begin = std::lower_bound(values.begin(), values.end(), std::min(middle - reach, dense.front()));
-  const auto end = std::upper_bound(values.begin(), values.end(), std::max(middle + reach, dense.back()));
+  const auto begin = std::lower_bound(sorted.begin(), sorted.end(), std::min(middle - reach, dense.front()));
+  const auto end = std::upper_bound(sorted.begin(), sorted.end(), std::max(middle + reach, dense.back()));
   double sum = 0.0;
   for (auto value = begin; value != end; ++value) sum += *value;
   return sum / static_cast<double>(end - begin);

@@ -11,6 +11,7 @@ namespace traygauge {
 
 struct PlaneFitParams {
   double threshold_mm = 3.0;       // distance of an inlier; rough borders need twice what exact ones do
+  int min_iterations = 0;          // samples drawn however good the first ones are
   int max_iterations = 500;        // bound of the loop
   double confidence = 0.9999;      // that one sample was free of outliers
   double min_triangle_mm2 = 100;   // samples that span less say little about the normal
