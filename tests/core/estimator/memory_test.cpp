@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <vector>
 
+#include "core/base/random.hpp"
 #include "core/estimator/estimator_memory.hpp"
+#include "core/estimator/feature_preparation.hpp"
 #include "tests/core/estimator/measuring_bench.hpp"
 
 namespace traygauge {
@@ -112,15 +114,28 @@ TEST(EstimatorMemory, APatternLargerThanASmallFrameFits) {
   EXPECT_TRUE(Estimator(block.bytes(), configuration).status().ok());
 }
 
-// The card's label may cover a long strip, which is searched enlarged.
-TEST(EstimatorMemory, ALongCardLabelFits) {
-  const TrayScene& scene = default_tray();
-  std::vector<std::uint8_t> labels = scene.views[0].labels;
-  std::fill_n(labels.begin(), 960 * 10, std::uint8_t{255});
-  MeasuringBench bench(scene.configuration());
-  static_cast<void>(bench.estimator.add_view(scene.view(0, {labels.data(), 960, 720})));
-  EXPECT_EQ(bench.estimator.add_view(scene.view(1)).code(), StatusCode::ok);
-  SUCCEED() << bench.estimator.estimate(1).total_ms;
+// Whatever is searched (frame, pattern, a card's label of any shape), its picture and sums fit the memory.
+TEST(EstimatorMemory, SearchPicturesFitTheirMemory) {
+  constexpr std::uint64_t kSeed = 20;
+  Random random(kSeed);
+  for (int round = 0; round < 10000; ++round) {
+    EstimatorLimits limits;
+    limits.max_frame_width = 16 + static_cast<int>(random.below(3000));
+    limits.max_frame_height = 16 + static_cast<int>(random.below(3000));
+    limits.max_feature_px = 64 + static_cast<int>(random.below(2000000));
+    const int width = 1 + static_cast<int>(random.below(8192));
+    const int height = 1 + static_cast<int>(random.below(8192));
+    const double wanted = 0.05 + random.below(1000) / 300.0;
+    const double scale = fit_search_scale(wanted, width, height, limits);
+    const auto scaled_width = static_cast<std::size_t>(width * scale);
+    const auto scaled_height = static_cast<std::size_t>(height * scale);
+    const auto pixels = static_cast<std::size_t>(limits.max_feature_px);
+    const auto sums = pixels + static_cast<std::size_t>(limits.max_frame_width + limits.max_frame_height + 1);
+    ASSERT_LE(scale, wanted) << "seed " << kSeed << " round " << round;
+    ASSERT_LE(scaled_width * scaled_height, pixels) << "seed " << kSeed << " round " << round;
+    ASSERT_LE((scaled_width + 1) * (scaled_height + 1), sums) << "seed " << kSeed << " round " << round;
+    ASSERT_LE(scaled_width, static_cast<std::size_t>(limits.max_frame_width));
+  }
 }
 
 }  // namespace
