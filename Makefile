@@ -1,6 +1,6 @@
 # make build | demo | test | bench: each installs what config/packages.txt names and is missing, then does it.
-# make lint | format | sanitize: further checks; CI=true adds them to `make test`, lint for core only: all of it takes
-# a quarter of an hour.
+# make lint | format | sanitize: further checks; CI=true adds the sanitizers to `make test`. Lint takes a quarter of an
+# hour and runs on its own.
 
 JOBS ?= $(shell nproc)
 # Recorded captures, which many tests measure. Without them these tests say skipped; on CI that is a failure.
@@ -29,7 +29,6 @@ test: check-captures build-all
 	$(ctest) --test-dir build
 	$(MAKE) check-format
 ifeq ($(CI),true)
-	$(MAKE) lint LINT=core/
 	$(MAKE) sanitize
 endif
 
