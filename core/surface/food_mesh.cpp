@@ -95,7 +95,7 @@ class DepthSampler {
     const int start_x = grid_.columns[column];
     const int start_y = grid_.rows[row];
     const std::uint8_t label = labels_.at(start_x, start_y);
-    for (int k = 1; k <= params_.max_gap_cells; ++k) {
+    for (std::ptrdiff_t k = 1; k <= params_.max_gap_cells; ++k) {
       const std::ptrdiff_t i = static_cast<std::ptrdiff_t>(column) + k * step_x;
       const std::ptrdiff_t j = static_cast<std::ptrdiff_t>(row) + k * step_y;
       if (i < 0 || j < 0 || i >= std::ssize(grid_.columns) || j >= std::ssize(grid_.rows)) break;
