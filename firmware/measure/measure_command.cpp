@@ -36,16 +36,6 @@ void require_labels(const Capture& capture, const std::array<int, 2>& pair) {
   }
 }
 
-std::vector<DishDescription> choose_dishes(const Capture& capture, const std::string& config) {
-  if (capture.dishes.empty()) return read_dish_library(find_config_folder(config));
-  const DishDescription& dish = capture.dishes.front();
-  if (capture.dishes.size() == 1 && dish.label == 1) return capture.dishes;
-  throw InputError({capture.file, "dishes"}, "one dish, of label 1",
-                   capture.dishes.size() == 1 ? "label " + std::to_string(dish.label)
-                                              : std::to_string(capture.dishes.size()) + " dishes",
-                   "profile paper measures one dish");
-}
-
 // Whether a result could be stored at all is known before the work is done.
 void check_output(const std::string& file) {
   if (file.empty()) return;
@@ -119,6 +109,16 @@ void check_label_source(const std::string& source) {
         "--labels auto is not part of this version; outline the food in label pictures (labels_N.png)");
   }
   throw UsageError("--labels: expected given, found " + printable(source));
+}
+
+std::vector<DishDescription> choose_dishes(const Capture& capture, const std::string& config) {
+  if (capture.dishes.empty()) return read_dish_library(find_config_folder(config));
+  const DishDescription& dish = capture.dishes.front();
+  if (capture.dishes.size() == 1 && dish.label == 1) return capture.dishes;
+  throw InputError({capture.file, "dishes"}, "one dish, of label 1",
+                   capture.dishes.size() == 1 ? "label " + std::to_string(dish.label)
+                                              : std::to_string(capture.dishes.size()) + " dishes",
+                   "profile paper measures one dish");
 }
 
 std::array<int, 2> choose_pair(const std::string& typed, const Capture& capture) {

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "firmware/config/dish_library.hpp"
 #include "firmware/measure/capture_session.hpp"
 #include "firmware/measure/measure_command.hpp"
 
@@ -24,8 +23,7 @@ void RecordedCaptures::add(const std::filesystem::path& folder) {
     largest_.height = std::max(largest_.height, recording->views[i].camera.size.height);
   }
   recording->pattern = load_pattern(capture.card);
-  const auto dishes = capture.dishes.empty() ? read_dish_library(find_config_folder("")) : capture.dishes;
-  for (const DishDescription& dish : dishes) recording->dishes.push_back(dish_of(dish));
+  for (const DishDescription& dish : choose_dishes(capture, "")) recording->dishes.push_back(dish_of(dish));
 
   Configuration& configuration = recording->configuration;
   configuration.lens = recording->lenses[0];
