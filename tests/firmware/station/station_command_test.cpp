@@ -113,6 +113,17 @@ TEST_F(StationCommandOnCaptures, ADamagedPictureSpoilsItsScanOnly) {
   EXPECT_NE(second.find(" ml"), std::string::npos) << second;
 }
 
+// Measured as one dish, the items of the others would get volumes above the wrong plane.
+TEST_F(StationCommandOnCaptures, RefusesATrayWithSeveralDishes) {
+  try {
+    play(captures_ / "trays" / "t01");
+    FAIL() << "was played: " << out_.str();
+  } catch (const InputError& problem) {
+    EXPECT_EQ(problem.problem().key, "dishes");
+  }
+  EXPECT_TRUE(out_.str().empty());
+}
+
 TEST_F(StationCommandOnCaptures, DoesNothingWhenAskedToStop) {
   stop_ = true;
   EXPECT_EQ(play(captures_ / "plates"), kExitMeasured);
