@@ -18,6 +18,7 @@
 #include "core/stereo/disparity_range.hpp"
 #include "core/stereo/stereo.hpp"
 #include "core/surface/dish.hpp"
+#include "core/surface/dish_model.hpp"
 #include "core/surface/food_mesh.hpp"
 #include "core/surface/rim.hpp"
 #include "core/surface/rim_ellipse.hpp"
@@ -62,13 +63,6 @@ struct ReferenceCard {
   double height_mm = 53.98;
   double thickness_mm = 0.8;  // the print lies that much above the table
   ImageView<const std::uint8_t> pattern;
-};
-
-// A dish, heights above the table.
-struct DishModel {
-  std::array<double, 2> outer_size_mm{};  // of the rim's ellipse; equal when round
-  double rim_height_mm = 0.0;
-  double bottom_height_mm = 0.0;
 };
 
 // How the views may lie to each other.

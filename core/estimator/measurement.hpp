@@ -50,7 +50,9 @@ struct ItemResult {
   std::uint8_t label = 0;
   std::uint8_t dish = 1;
   StatusCode status = StatusCode::ok;
-  double volume_ml = 0.0;
+  double volume_ml = 0.0;         // overhang of round items included
+  double column_volume_ml = 0.0;  // what lies under the upper surface
+  double sigma_ml = 0.0;          // standard deviation of volume_ml; 0 where the profile estimates none
   double area_mm2 = 0.0;
   double mean_height_mm = 0.0;
   double max_height_mm = 0.0;

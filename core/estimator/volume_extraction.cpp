@@ -111,7 +111,7 @@ Status extract_volumes(const ReferencePair& pair, const Configuration& configura
     ItemResult item;
     item.label = label;
     item.status = judge_item(label, pair, views.mesh, volume, configuration.extraction);
-    item.volume_ml = volume.volume_ml;
+    item.volume_ml = item.column_volume_ml = volume.volume_ml;
     item.area_mm2 = volume.area_mm2;
     item.mean_height_mm = volume.mean_height_mm;
     item.max_height_mm = volume.max_height_mm;

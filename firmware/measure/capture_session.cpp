@@ -54,7 +54,12 @@ LensModel lens_of(const CameraDescription& camera) {
 }
 
 DishModel dish_of(const DishDescription& dish) {
-  return {dish.outer_size_mm, dish.rim_height_mm, dish.bottom_height_mm};
+  DishModel model{dish.outer_size_mm, dish.rim_height_mm, dish.bottom_height_mm};
+  for (const ProfilePoint& point : dish.profile) {
+    if (model.profile_size == model.profile_points.size()) break;
+    model.profile_points[model.profile_size++] = {point.inset_mm, point.height_mm};
+  }
+  return model;
 }
 
 EstimatorLimits limits_for(PictureSize first, PictureSize second) {

@@ -1,0 +1,34 @@
+// The frame in which profile `best` measures: mm, origin on the table under the top left corner of the card's
+// print, x along the print's upper edge, y against its rows, z up from the table. Heights are z.
+#pragma once
+
+#include <array>
+
+#include "core/base/geometry.hpp"
+
+namespace traygauge {
+
+// Where a point of the print lies; `pattern_mm` counts from the print's top left corner, right and down.
+inline Vec3 print_point_mm(const Vec2& pattern_mm, double thickness_mm) {
+  return {pattern_mm.x(), -pattern_mm.y(), thickness_mm};
+}
+
+// Both cameras of a pair, camera_from_table, in mm.
+using TableCameras = std::array<Pose, 2>;
+
+inline Pose second_from_first(const TableCameras& camera_from_table) {
+  return camera_from_table[1] * camera_from_table[0].inverse();
+}
+
+// The camera's centre in the table frame.
+inline Vec3 camera_centre_mm(const Pose& camera_from_table) {
+  return -(camera_from_table.rotation.transpose() * camera_from_table.translation);
+}
+
+// A step of six parameters, turn (radians) and shift (mm): every refinement moves a pose this way, so that
+// their information matrices can be added.
+inline Pose moved(const Pose& pose, const Eigen::Matrix<double, 6, 1>& step) {
+  return {rotation_about(step.head<3>()) * pose.rotation, pose.translation + step.tail<3>()};
+}
+
+}  // namespace traygauge

@@ -1,0 +1,32 @@
+// A dish as it is described: rim, bottom and inner surface. Lengths in mm, heights above the table.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <span>
+
+namespace traygauge {
+
+// A point of the inner surface: so far from the outer edge, measured as an inset d of the rim's ellipse,
+// (x/(a-d))² + (y/(b-d))² = 1.
+struct DishProfilePoint {
+  double inset_mm = 0.0;
+  double height_mm = 0.0;
+};
+
+inline constexpr std::size_t kMaxDishProfilePoints = 32;
+
+struct DishModel {
+  std::array<double, 2> outer_size_mm{};  // of the rim's ellipse; equal when round
+  double rim_height_mm = 0.0;
+  double bottom_height_mm = 0.0;
+  // From the edge inward down to the flat bottom, monotone cubic between; none: a flat bottom.
+  std::array<DishProfilePoint, kMaxDishProfilePoints> profile_points{};
+  std::size_t profile_size = 0;
+
+  constexpr std::span<const DishProfilePoint> profile() const {
+    return std::span(profile_points).first(profile_size);
+  }
+};
+
+}  // namespace traygauge
