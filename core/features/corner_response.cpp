@@ -1,0 +1,89 @@
+#include "core/features/corner_response.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
+namespace traygauge {
+namespace {
+
+using Workspace = CornerResponseWorkspace;
+
+// Sobel's weights add up to 8 a side and the window holds 25 pixels.
+constexpr float kPerWindow = 1.0F / (64.0F * Workspace::kWindowRows * Workspace::kWindowRows);
+
+void multiply_gradients(const std::uint8_t* __restrict upper, const std::uint8_t* __restrict middle,
+                        const std::uint8_t* __restrict lower, int width, std::int32_t* __restrict xx,
+                        std::int32_t* __restrict xy, std::int32_t* __restrict yy) {
+  for (int x = 1; x < width - 1; ++x) {
+    const auto dx = static_cast<std::int16_t>(
+        (upper[x + 1] - upper[x - 1]) + 2 * (middle[x + 1] - middle[x - 1]) + (lower[x + 1] - lower[x - 1]));
+    const auto dy = static_cast<std::int16_t>((lower[x - 1] - upper[x - 1]) + 2 * (lower[x] - upper[x]) +
+                                              (lower[x + 1] - upper[x + 1]));
+    xx[x] = dx * dx;
+    xy[x] = dx * dy;
+    yy[x] = dy * dy;
+  }
+}
+
+void add(std::int32_t* __restrict sums, const std::int32_t* __restrict products, int width) {
+  for (int x = 0; x < width; ++x) sums[x] += products[x];
+}
+
+void subtract(std::int32_t* __restrict sums, const std::int32_t* __restrict products, int width) {
+  for (int x = 0; x < width; ++x) sums[x] -= products[x];
+}
+
+std::int32_t sum_across(const std::int32_t* columns) {
+  static_assert(kCornerWindowRadius == 2);
+  return columns[-2] + columns[-1] + columns[0] + columns[1] + columns[2];
+}
+
+}  // namespace
+
+CornerResponse::CornerResponse(ImageView<const std::uint8_t> gray, CornerResponseWorkspace& workspace)
+    : gray_(gray), workspace_(workspace) {
+  const auto clear = [](Workspace::Products& products) {
+    for (const std::span<std::int32_t>& sums : {products.xx, products.xy, products.yy})
+      std::fill(sums.begin(), sums.end(), 0);
+  };
+  for (Workspace::Products& row : workspace_.rows) clear(row);
+  clear(workspace_.columns);
+  while (next_gradient_row_ < 2 * kCornerWindowRadius + 1) add_gradient_row(next_gradient_row_++);
+}
+
+void CornerResponse::add_gradient_row(int y) {
+  Workspace::Products& row = workspace_.rows[static_cast<std::size_t>(y) % Workspace::kWindowRows];
+  Workspace::Products& columns = workspace_.columns;
+  const int width = gray_.width;
+  subtract(columns.xx.data(), row.xx.data(), width);  // of the row that leaves the window
+  subtract(columns.xy.data(), row.xy.data(), width);
+  subtract(columns.yy.data(), row.yy.data(), width);
+  multiply_gradients(gray_.row(y - 1), gray_.row(y), gray_.row(y + 1), width, row.xx.data(), row.xy.data(),
+                     row.yy.data());
+  add(columns.xx.data(), row.xx.data(), width);
+  add(columns.xy.data(), row.xy.data(), width);
+  add(columns.yy.data(), row.yy.data(), width);
+}
+
+void CornerResponse::next_row(std::span<float> responses) {
+  add_gradient_row(next_gradient_row_++);
+  const int width = gray_.width;
+  const Workspace::Products& columns = workspace_.columns;
+  const std::int32_t* __restrict xx = columns.xx.data();
+  const std::int32_t* __restrict xy = columns.xy.data();
+  const std::int32_t* __restrict yy = columns.yy.data();
+  float* __restrict out = responses.data();
+  for (int x = 0; x < kCornerBorder; ++x) out[x] = out[width - 1 - x] = 0.0F;
+  for (int x = kCornerBorder; x < width - kCornerBorder; ++x) {
+    // 25 · 1020² fits in 32 bits; differences of floats are taken late, so integers go in exactly as far as
+    // 24 bits reach.
+    const auto a = static_cast<float>(sum_across(xx + x));
+    const auto b = static_cast<float>(sum_across(xy + x));
+    const auto c = static_cast<float>(sum_across(yy + x));
+    const float half_difference = 0.5F * (a - c);
+    out[x] = kPerWindow * (0.5F * (a + c) - std::sqrt(half_difference * half_difference + b * b));
+  }
+}
+
+}  // namespace traygauge

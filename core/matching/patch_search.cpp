@@ -1,0 +1,155 @@
+#include "core/matching/patch_search.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
+#include "core/matching/patch_sampling.hpp"
+
+namespace traygauge {
+namespace {
+
+constexpr int kPixels = kSearchSide * kSearchSide;
+constexpr double kHalf = 0.5 * (kSearchSide - 1);  // from the patch's first pixel to its centre
+constexpr float kMinVariation =
+    64.0F;                 // Σ(v − mean)² of a patch: a grey value a pixel, the least to correlate
+constexpr int kApart = 2;  // pixels within which scores belong to the same peak
+
+struct alignas(16) SearchTemplate {
+  std::int16_t values[kPixels];
+  std::int32_t sum = 0;
+  float inverse_norm = 0.0F;
+};
+
+bool make_template(ImageView<const std::uint8_t> first, const Vec2& centre, const Eigen::Matrix2d& map,
+                   SearchTemplate& patch) {
+  if (!sample_patch<kSearchSide>(first, centre, map, patch.values)) return false;
+  std::int32_t sum = 0;
+  std::int32_t squares = 0;
+  for (const std::int16_t value : patch.values) {
+    sum += value;
+    squares += value * value;
+  }
+  const std::int64_t variation = std::int64_t{kPixels} * squares - std::int64_t{sum} * sum;
+  const float norm = static_cast<float>(variation) / kPixels;
+  if (!(norm > kMinVariation * kPatchUnit * kPatchUnit)) return false;
+  patch.sum = sum;
+  patch.inverse_norm = 1.0F / std::sqrt(norm);
+  return true;
+}
+
+// A band's box of the second picture in 16 bits.
+struct SearchArea {
+  int left = 0;
+  int top = 0;
+  int width = 0;
+  int height = 0;
+  const std::int16_t* values = nullptr;
+};
+
+float correlate(const SearchTemplate& patch, const std::int16_t* window, std::ptrdiff_t stride) {
+  std::int32_t products = 0;
+  std::int32_t squares = 0;
+  std::int32_t sum = 0;
+  for (int j = 0; j < kSearchSide; ++j, window += stride) {
+    const std::int16_t* row = patch.values + j * kSearchSide;
+    for (int i = 0; i < kSearchSide; ++i) {
+      products += row[i] * window[i];
+      squares += window[i] * window[i];
+      sum += window[i];
+    }
+  }
+  const std::int32_t variation = kPixels * squares - sum * sum;
+  const float norm = static_cast<float>(variation) / kPixels;
+  if (!(norm > kMinVariation)) return -1.0F;
+  const std::int64_t covariation = std::int64_t{kPixels} * products - std::int64_t{patch.sum} * sum;
+  return static_cast<float>(covariation) / kPixels * patch.inverse_norm / std::sqrt(norm);
+}
+
+// Narrows [lo, hi] to where low ≤ slope · x + offset ≤ high.
+void clip(double slope, double offset, double low, double high, double& lo, double& hi) {
+  if (std::abs(slope) < 1e-9) {
+    if (offset < low || offset > high) hi = lo - 1.0;
+    return;
+  }
+  const double a = (low - offset) / slope;
+  const double b = (high - offset) / slope;
+  lo = std::max(lo, std::min(a, b));
+  hi = std::min(hi, std::max(a, b));
+}
+
+}  // namespace
+
+bool PatchSearch::search(const Vec2& centre, const SearchBand& band) {
+  SearchTemplate patch;
+  if (!make_template(first_, centre, band.first_from_second, patch)) return false;
+  const double length = (band.end - band.begin).norm();
+  const Vec2 along = length > 1e-6 ? Vec2((band.end - band.begin) / length) : Vec2::UnitX();
+  const Vec2 across(-along.y(), along.x());
+  // In coordinates of the patch's first pixel.
+  const Vec2 begin = band.begin - Vec2::Constant(kHalf);
+  const Vec2 end = band.end - Vec2::Constant(kHalf);
+  const double reach = band.margin_px * (std::abs(along.x()) + std::abs(along.y()));
+  const Vec2 low = begin.cwiseMin(end) - Vec2::Constant(reach);
+  const Vec2 high = begin.cwiseMax(end) + Vec2::Constant(reach);
+  if (!(low.cwiseAbs().maxCoeff() < 30000.0 && high.cwiseAbs().maxCoeff() < 30000.0)) return false;
+  const int left = std::max(0, static_cast<int>(std::ceil(low.x())));
+  const int top = std::max(0, static_cast<int>(std::ceil(low.y())));
+  const int right = std::min(second_.width - kSearchSide, static_cast<int>(std::floor(high.x())));
+  const int bottom = std::min(second_.height - kSearchSide, static_cast<int>(std::floor(high.y())));
+  if (right < left || bottom < top) return true;
+  if (right - left >= kMaxBandSide || bottom - top >= kMaxBandSide) return false;
+
+  constexpr std::ptrdiff_t kStride = PatchSearchWorkspace::kAreaSide;
+  const int width = right - left + kSearchSide;
+  for (int y = 0; y < bottom - top + kSearchSide; ++y) {
+    const std::uint8_t* source = second_.row(top + y) + left;
+    std::int16_t* target = workspace_.area.data() + y * kStride;
+    for (int x = 0; x < width; ++x) target[x] = source[x];
+  }
+  for (int y = top; y <= bottom; ++y) {
+    double lo = left;
+    double hi = right;
+    const double dy = y - begin.y();
+    clip(along.x(), along.y() * dy - along.x() * begin.x(), -band.margin_px, length + band.margin_px, lo, hi);
+    clip(across.x(), across.y() * dy - across.x() * begin.x(), -band.margin_px, band.margin_px, lo, hi);
+    const int last = static_cast<int>(std::floor(hi));
+    for (int x = static_cast<int>(std::ceil(lo)); x <= last; ++x) {
+      const std::int16_t* window = workspace_.area.data() + (y - top) * kStride + (x - left);
+      scores_.push_back(
+          {static_cast<std::int16_t>(x), static_cast<std::int16_t>(y), correlate(patch, window, kStride)});
+    }
+  }
+  return true;
+}
+
+bool PatchSearch::find_best(FoundPatch& found) const {
+  if (scores_.empty()) return false;
+  const ScoredPosition* best = scores_.begin();
+  for (const ScoredPosition& score : scores_)
+    if (score.correlation > best->correlation) best = &score;
+  // The 3 × 3 scores about the best, and the best outside of its peak.
+  std::array<float, 9> around;
+  around.fill(-2.0F);
+  found.runner_up = -1.0F;
+  for (const ScoredPosition& score : scores_) {
+    const int dx = score.x - best->x;
+    const int dy = score.y - best->y;
+    if (std::abs(dx) > kApart || std::abs(dy) > kApart)
+      found.runner_up = std::max(found.runner_up, score.correlation);
+    if (std::abs(dx) > 1 || std::abs(dy) > 1) continue;
+    float& place = around[static_cast<std::size_t>(3 * (dy + 1) + dx + 1)];
+    place = std::max(place, score.correlation);
+  }
+  const auto vertex = [peak = best->correlation](float before, float after) {
+    if (before < -1.5F || after < -1.5F) return 0.0F;  // at the band's edge
+    const float curvature = before + after - 2.0F * peak;
+    return curvature < 0.0F ? std::clamp(0.5F * (before - after) / curvature, -0.5F, 0.5F) : 0.0F;
+  };
+  found.correlation = best->correlation;
+  found.pixel =
+      Vec2(best->x + kHalf + vertex(around[3], around[5]), best->y + kHalf + vertex(around[1], around[7]));
+  return true;
+}
+
+}  // namespace traygauge

@@ -1,0 +1,99 @@
+// Corners of the first view found in the second, guided by both camera poses from the card: a corner's ray
+// meets the heights over the table in a segment of the second view.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "core/base/bounded_list.hpp"
+#include "core/base/random.hpp"
+#include "core/base/status.hpp"
+#include "core/base/table_frame.hpp"
+#include "core/features/corners.hpp"
+#include "core/image/camera.hpp"
+#include "core/image/gray_pyramid.hpp"
+#include "core/matching/patch_alignment.hpp"
+#include "core/matching/patch_search.hpp"
+#include "core/matching/point_track.hpp"
+#include "core/matching/pose_correction.hpp"
+
+namespace traygauge {
+
+struct PointTrackingParams {
+  CornerParams corners;
+  PatchAlignmentParams alignment;
+  PoseCorrectionParams correction;
+
+  // Heights that are searched, mm over the table. Below: a tray's foot and a card that was taken too high.
+  double min_height_mm = -5.0;
+  double max_height_mm = 80.0;
+  double band_height_mm = 20.0;  // one warp serves so much height: at 400 mm the patch grows by 5%
+
+  // First look, at quarter size: a few strong corners, wherever the card's error may have put them.
+  int first_look_cells = 10;           // so many cells across the picture, each with its strongest corner
+  double first_look_margin_px = 24.0;  // of the stored picture: 0.5° and 3 mm at 1400 px and 450 mm
+  double first_look_correlation = 0.8;
+  // Second look, at half size: all corners, near where the corrected pose has them.
+  double margin_px = 5.0;              // of the stored picture, around the segment
+  double table_margin_px = 6.0;        // around the point at height 0: a table warped or tilted by 1 mm
+  double min_correlation = 0.7;        // at whole pixels of half size; below, something else is there
+  double min_lead = 0.05;              // over the best other peak
+  double min_table_correlation = 0.8;  // below, what is no table is looked for at all heights
+  // The finished track.
+  double min_aligned_correlation = 0.8;
+  double max_sigma_px = 0.25;
+  double max_return_px = 0.3;    // forward and backward
+  double max_epipolar_px = 1.0;  // from the line of the pose that most tracks agree on
+  int min_tracks = 20;           // fewer cannot support a pose
+
+  int max_corners = 1600;
+};
+
+struct PointTrackingReport {
+  std::size_t corners = 0;       // looked for
+  std::size_t first_look = 0;    // found in the first look
+  std::size_t not_found = 0;     // no position correlates, or the patch leaves a picture
+  std::size_t ambiguous = 0;     // another place looks alike
+  std::size_t not_aligned = 0;   // drifted, too blurred or too dissimilar
+  std::size_t not_returned = 0;  // backwards it ends elsewhere
+  std::size_t off_line = 0;      // contradicts the motion that the others agree on
+  std::size_t tracks = 0;
+  TableCameras camera_from_table;  // as given, the second one corrected
+};
+
+// One view as the tracker sees it.
+struct TrackedView {
+  GrayPyramid gray;
+  ImageView<const std::uint8_t> labels;  // of the stored picture; empty: everything is table
+  LensModel lens;
+};
+
+struct PointTrackingWorkspace {
+  CornerWorkspace corners;
+  PatchSearchWorkspace search;
+  std::span<Corner> corner_storage;
+  std::span<SeenPoint> seen_storage;
+  std::span<PointTrack> track_storage;
+
+  // The largest stored picture.
+  template <class Allocator>
+  constexpr void allocate(Allocator& arena, int max_width, int max_height,
+                          const PointTrackingParams& params) {
+    corners.allocate(arena, halved(max_width), halved(max_height), params.corners);
+    search.allocate(arena);
+    const auto count = static_cast<std::size_t>(params.max_corners);
+    corner_storage = arena.template take<Corner>(count);
+    seen_storage = arena.template take<SeenPoint>(count);
+    track_storage = arena.template take<PointTrack>(count);
+  }
+};
+
+// Tracks from `first` to `second`, in the workspace's memory; `camera_from_table` may be wrong by about half
+// a degree and 3 mm. too_few_features: hardly a corner; too_few_matches: fewer than min_tracks.
+Status track_points(const TrackedView& first, const TrackedView& second,
+                    const TableCameras& camera_from_table, double card_thickness_mm,
+                    const PointTrackingParams& params, Random& random, PointTrackingWorkspace& workspace,
+                    std::span<const PointTrack>& tracks, PointTrackingReport& report);
+
+}  // namespace traygauge
