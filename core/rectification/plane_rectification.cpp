@@ -1,0 +1,202 @@
+#include "core/rectification/plane_rectification.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace traygauge {
+namespace {
+
+constexpr double kFarthestMeetingMm = 1e7;  // rows that meet farther away are parallel within 1e-4 mm
+constexpr double kLeastBaselineMm = 1.0;
+constexpr double kLeastCameraHeightMm = 50.0;  // above the plane
+
+// The dish's outline on the plane, picture row by picture row.
+template <class Visit>
+void visit_outline(const StoredView& view, const LabelTable& kept, double plane_height_mm, int step_px,
+                   Visit&& visit) {
+  const Pose table_from_camera = view.camera_from_table.inverse();
+  const Vec3& camera_mm = table_from_camera.translation;
+  const auto visit_pixel = [&](int x, int y) {
+    Vec2 ray;
+    if (!view.lens.undistort_pixel(Vec2(x, y), ray)) return;
+    const Vec3 direction = table_from_camera.rotation * Vec3(ray.x(), ray.y(), 1.0);
+    if (!(direction.z() < 0.0)) return;
+    const Vec3 point = camera_mm + direction * ((plane_height_mm - camera_mm.z()) / direction.z());
+    visit(Vec2(point.head<2>()));
+  };
+  for (int y = view.dish.top; y < view.dish.bottom; y += step_px) {
+    const std::uint8_t* labels = view.labels.row(y);
+    int left = view.dish.left;
+    while (left < view.dish.right && kept[labels[left]] == 0) ++left;
+    if (left == view.dish.right) continue;
+    int right = view.dish.right - 1;
+    while (kept[labels[right]] == 0) --right;
+    visit_pixel(left, y);
+    visit_pixel(right, y);
+  }
+}
+
+Vec2 normal_of(const Vec2& direction) {
+  return {-direction.y(), direction.x()};
+}
+
+// Where the rows meet: the baseline's point on the plane, or far away on it.
+Vec2 meeting_point(const std::array<Vec3, 2>& camera_mm, double plane_height_mm, const Vec2& dish_mm) {
+  const Vec3 baseline = camera_mm[1] - camera_mm[0];
+  const double height = camera_mm[0].z() - plane_height_mm;
+  const Vec2 across = baseline.head<2>();
+  const Vec2 first = camera_mm[0].head<2>();
+  const double drop = -baseline.z();
+  if (across.norm() * height < std::abs(drop) * kFarthestMeetingMm) return first + across * (height / drop);
+  return dish_mm + across.normalized() * kFarthestMeetingMm;
+}
+
+// Of the dish on the plane, seen from where the rows meet.
+struct FanExtent {
+  double min_mm = std::numeric_limits<double>::infinity();  // distance
+  double max_mm = 0.0;
+  double min_tangent = std::numeric_limits<double>::infinity();
+  double max_tangent = -std::numeric_limits<double>::infinity();
+  bool in_front = true;
+};
+
+bool is_usable(const StoredView& view) {
+  return !view.gray.empty() && !view.labels.empty() && view.gray.width == view.lens.width &&
+         view.gray.height == view.lens.height && view.labels.width == view.lens.width &&
+         view.labels.height == view.lens.height && !view.dish.empty() && view.dish.left >= 0 &&
+         view.dish.top >= 0 && view.dish.right <= view.lens.width && view.dish.bottom <= view.lens.height;
+}
+
+}  // namespace
+
+LabelTable labels_on_dish(std::uint8_t dish_label) {
+  LabelTable kept{};
+  for (int label = kFirstItemLabel; label <= kLastItemLabel; ++label) {
+    kept[static_cast<std::size_t>(label)] = static_cast<std::uint8_t>(label);
+  }
+  kept[dish_label] = kDishLabel;
+  return kept;
+}
+
+Status PlaneRectification::build(const std::array<StoredView, 2>& views, const LabelTable& kept,
+                                 double plane_height_mm, const PlaneRectificationParams& params,
+                                 std::span<PlaneRow> rows) {
+  plane_height_mm_ = plane_height_mm;
+  max_samples_per_axis_ = params.max_samples_per_axis;
+  for (std::size_t v = 0; v < 2; ++v) {
+    if (!is_usable(views[v])) return StatusCode::rectification_failed;
+    camera_mm_[v] = camera_centre_mm(views[v].camera_from_table);
+    if (!(camera_mm_[v].z() - plane_height_mm > kLeastCameraHeightMm))
+      return StatusCode::rectification_failed;
+  }
+  if (!((camera_mm_[1] - camera_mm_[0]).norm() > kLeastBaselineMm)) return StatusCode::rectification_failed;
+
+  Vec2 low = Vec2::Constant(std::numeric_limits<double>::infinity());
+  Vec2 high = -low;
+  for (const StoredView& view : views) {
+    visit_outline(view, kept, plane_height_mm, params.outline_step_px, [&](const Vec2& point) {
+      low = low.cwiseMin(point);
+      high = high.cwiseMax(point);
+    });
+  }
+  if (!(high.x() > low.x() && high.y() > low.y())) return StatusCode::rectification_failed;
+  const Vec2 dish_mm = 0.5 * (low + high);
+  const Vec2 meeting_mm = meeting_point(camera_mm_, plane_height_mm, dish_mm);
+  const double dish_distance_mm = (dish_mm - meeting_mm).norm();
+  if (!(dish_distance_mm > 0.0)) return StatusCode::rectification_failed;
+  const Vec2 axis = (dish_mm - meeting_mm) / dish_distance_mm;
+
+  FanExtent extent;
+  for (const StoredView& view : views) {
+    visit_outline(view, kept, plane_height_mm, params.outline_step_px, [&](const Vec2& point) {
+      const Vec2 arm = point - meeting_mm;
+      const double along = arm.dot(axis);
+      extent.in_front = extent.in_front && along > 0.0;
+      const double tangent = arm.dot(normal_of(axis)) / along;
+      extent.min_mm = std::min(extent.min_mm, arm.norm());
+      extent.max_mm = std::max(extent.max_mm, arm.norm());
+      extent.min_tangent = std::min(extent.min_tangent, tangent);
+      extent.max_tangent = std::max(extent.max_tangent, tangent);
+    });
+  }
+  if (!extent.in_front || !(extent.max_mm < params.max_fan * extent.min_mm)) {
+    return StatusCode::rectification_failed;
+  }
+
+  const double length_mm = extent.max_mm - extent.min_mm;
+  const double width_mm = (extent.max_tangent - extent.min_tangent) * dish_distance_mm;
+  const double margin = 2.0 * params.margin_samples + 1.0;
+  // columns · rows = max_samples with columns = length / step + margin, rows = width / (step · aspect) +
+  // margin.
+  const double a = length_mm * width_mm / params.aspect;
+  const double b = margin * (length_mm + width_mm / params.aspect);
+  const double c = margin * margin - params.max_samples;
+  if (!(c < 0.0)) return StatusCode::rectification_failed;
+  column_step_mm_ = (b + std::sqrt(b * b - 4.0 * a * c)) / (-2.0 * c);
+  row_step_mm_ = column_step_mm_ * params.aspect;
+  columns_ = static_cast<int>(length_mm / column_step_mm_ + margin);
+  const int row_count = static_cast<int>(width_mm / row_step_mm_ + margin);
+  if (columns_ < 1 || row_count < 1 || row_count > static_cast<int>(rows.size()) ||
+      std::int64_t{columns_} * row_count > params.max_samples) {
+    return StatusCode::rectification_failed;
+  }
+
+  // Disparity grows with the height where columns run away from the meeting point and camera 1 is the lower.
+  const bool outward =
+      (meeting_mm - camera_mm_[0].head<2>()).norm() > (meeting_mm - camera_mm_[1].head<2>()).norm();
+  const double slack_mm = 0.5 * (columns_ - 1) * column_step_mm_ - 0.5 * length_mm;
+  const double first_mm = outward ? extent.min_mm - slack_mm : extent.max_mm + slack_mm;
+  const double tangent_step = row_step_mm_ / dish_distance_mm;
+  const double first_tangent =
+      0.5 * (extent.min_tangent + extent.max_tangent) - 0.5 * (row_count - 1) * tangent_step;
+  rows_ = rows.first(static_cast<std::size_t>(row_count));
+  for (int r = 0; r < row_count; ++r) {
+    const double tangent = first_tangent + r * tangent_step;
+    const Vec2 away = (axis + tangent * normal_of(axis)) / std::sqrt(1.0 + tangent * tangent);
+    PlaneRow& row = rows_[index(r)];
+    row.origin_mm = meeting_mm + first_mm * away;
+    row.direction = outward ? away : Vec2(-away);
+    for (std::size_t v = 0; v < 2; ++v) {
+      row.foot_mm[v] = (camera_mm_[v].head<2>() - row.origin_mm).dot(row.direction);
+    }
+  }
+  return StatusCode::ok;
+}
+
+Vec3 PlaneRectification::plane_point(double row, double column) const {
+  const auto above = static_cast<int>(std::clamp(std::floor(row), 0.0, rows() - 1.0));
+  const auto below = std::min(above + 1, rows() - 1);
+  const Vec2 upper = rows_[index(above)].origin_mm + column * column_step_mm_ * rows_[index(above)].direction;
+  const Vec2 lower = rows_[index(below)].origin_mm + column * column_step_mm_ * rows_[index(below)].direction;
+  const Vec2 point = upper + (row - above) * (lower - upper);
+  return {point.x(), point.y(), plane_height_mm_};
+}
+
+// In the vertical plane of a row a point at height h is seen at s_i, (s_i − foot_i) (1 − h / Z_i) from the
+// foot of camera i, that is at foot_i + (s_i − foot_i) (1 − h / Z_i) from the origin, the same for both.
+double PlaneRectification::disparity(int row, double column, double height_mm) const {
+  const PlaneRow& line = rows_[index(row)];
+  const double at_mm = line.foot_mm[0] +
+                       (column * column_step_mm_ - line.foot_mm[0]) * (1.0 - height_mm / camera_height_mm(0));
+  const double second_mm =
+      line.foot_mm[1] + (at_mm - line.foot_mm[1]) / (1.0 - height_mm / camera_height_mm(1));
+  return second_mm / column_step_mm_ - column;
+}
+
+SurfacePoint PlaneRectification::point(int row, double first_column, double second_column, int view) const {
+  const PlaneRow& line = rows_[index(row)];
+  const double first_arm = first_column * column_step_mm_ - line.foot_mm[0];
+  const double second_arm = second_column * column_step_mm_ - line.foot_mm[1];
+  const double slope = first_arm / camera_height_mm(0) - second_arm / camera_height_mm(1);
+  const double height_mm = (first_column - second_column) * column_step_mm_ / slope;
+  // Off the row's plane by nothing; taken on the ray of `view`.
+  const double column = view == 0 ? first_column : second_column;
+  const Vec2 on_plane = line.origin_mm + column * column_step_mm_ * line.direction;
+  const Vec2 camera = camera_mm_[index(view)].head<2>();
+  const Vec2 at = camera + (1.0 - height_mm / camera_height_mm(view)) * (on_plane - camera);
+  return {static_cast<float>(at.x()), static_cast<float>(at.y()),
+          static_cast<float>(plane_height_mm_ + height_mm)};
+}
+
+}  // namespace traygauge

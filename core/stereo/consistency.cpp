@@ -1,0 +1,81 @@
+#include "core/stereo/consistency.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
+#include "core/segmentation/label_regions.hpp"
+
+namespace traygauge {
+namespace {
+
+int to_whole(int disparity) {
+  return (disparity + kDisparityScale / 2) >> 4;
+}
+static_assert(kDisparityScale == 16);
+
+// The known disparity nearest to x in a row, going by `step` through samples of a label; kNoDisparity if
+// none.
+Disparity find_known(const Disparity* disparity, const std::uint8_t* labels, int width, int x, int step,
+                     bool same_label, int& at) {
+  const std::uint8_t label = labels[x];
+  for (at = x + step; at >= 0 && at < width; at += step) {
+    if (labels[at] == 0 || (same_label && labels[at] != label)) return kNoDisparity;
+    if (disparity[at] != kNoDisparity) return disparity[at];
+  }
+  return kNoDisparity;
+}
+
+}  // namespace
+
+void keep_consistent(ImageView<const Disparity> own, ImageView<const Disparity> other, int sign,
+                     const ConsistencyParams& params, ImageView<Disparity> kept) {
+  const int most = static_cast<int>(std::lround(params.max_difference_px * kDisparityScale));
+  for (int y = 0; y < own.height; ++y) {
+    for (int x = 0; x < own.width; ++x) {
+      const int d = own.at(x, y);
+      kept.at(x, y) = kNoDisparity;
+      if (d == kNoDisparity) continue;
+      const int partner = x + sign * to_whole(d);
+      if (partner < 0 || partner >= other.width) continue;
+      const int back = other.at(partner, y);
+      if (back != kNoDisparity && std::abs(back - d) <= most) kept.at(x, y) = static_cast<Disparity>(d);
+    }
+  }
+}
+
+void fill_gaps(ImageView<const std::uint8_t> labels, const ConsistencyParams& params,
+               ImageView<Disparity> disparity) {
+  const int one_surface = static_cast<int>(std::lround(params.same_surface_px * kDisparityScale));
+  for (int y = 0; y < disparity.height; ++y) {
+    Disparity* row = disparity.row(y);
+    const std::uint8_t* label = labels.row(y);
+    int x = 0;
+    while (x < disparity.width) {
+      if (label[x] == 0 || row[x] != kNoDisparity) {
+        ++x;
+        continue;
+      }
+      int end = x + 1;  // of the gap
+      while (end < disparity.width && label[end] == label[x] && row[end] == kNoDisparity) ++end;
+      int left_at = 0;
+      int right_at = 0;
+      int left = find_known(row, label, disparity.width, x, -1, false, left_at);
+      int right = find_known(row, label, disparity.width, end - 1, 1, false, right_at);
+      if (left == kNoDisparity && right == kNoDisparity) {
+        x = end;
+        continue;
+      }
+      if (left == kNoDisparity) left = right;
+      if (right == kNoDisparity) right = left;
+      const bool between = std::abs(left - right) <= one_surface || is_item(label[x]);
+      for (int i = x; i < end; ++i) {
+        const int mixed = left + (right - left) * (i - left_at) / std::max(right_at - left_at, 1);
+        row[i] = static_cast<Disparity>(between ? mixed : std::min(left, right));
+      }
+      x = end;
+    }
+  }
+}
+
+}  // namespace traygauge

@@ -1,0 +1,64 @@
+// Semi-global matching (Hirschmüller 2008) in a band: every pixel has its own first disparity and the same
+// number of them, so that memory does not grow with the range; the bands come from a coarser level. Costs are
+// bytes, sixteen disparities a SIMD register.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+
+#include "core/image_view/image_view.hpp"
+#include "core/stereo/disparity.hpp"
+
+namespace traygauge {
+
+struct SemiGlobalParams {
+  // In bits of the census, of 31.
+  int small_step_penalty = 4;    // a change by one disparity: slanted food is the rule
+  int large_step_penalty = 28;   // by more, in plain areas
+  int least_large_penalty = 10;  // where the picture has an edge of several edge_contrast
+  int edge_contrast = 12;        // grey levels that halve the large penalty
+  int label_penalty = 16;        // partners with different labels
+  bool diagonal_paths = true;    // eight paths instead of four
+};
+
+inline constexpr int kBandLanes = 16;     // disparities in a register
+inline constexpr int kMaxBandLanes = 96;  // widest band
+inline constexpr int kBandPadding = 16;   // of path costs, either side
+
+// Both pictures of a level and what matching needs of them. Labels 0 are not matched.
+struct BandedPair {
+  std::array<ImageView<const std::uint8_t>, 2> gray;
+  std::array<ImageView<const std::uint8_t>, 2> labels;
+  std::array<ImageView<const std::uint32_t>, 2> codes;
+};
+
+struct SemiGlobalWorkspace {
+  std::span<std::uint16_t> sums;                  // path costs of all pixels and disparities
+  std::array<std::span<std::uint8_t>, 2> paths;   // two rows of path costs in three directions
+  std::array<std::span<std::uint8_t>, 2> floors;  // least path cost, likewise
+  std::span<std::uint32_t> padded_codes;          // one row of the second picture
+  std::span<std::uint8_t> padded_labels;
+  std::span<std::uint16_t> second_best;  // one row: least sum of each pixel of the second picture
+
+  template <class Allocator>
+  constexpr void allocate(Allocator& arena, int max_columns, int max_states) {
+    const auto columns = static_cast<std::size_t>(max_columns) + 2;
+    constexpr auto kLanes = static_cast<std::size_t>(kMaxBandLanes + 2 * kBandPadding);
+    sums = arena.template take<std::uint16_t>(static_cast<std::size_t>(max_states));
+    for (auto& row : paths) row = arena.template take<std::uint8_t>(3 * columns * kLanes);
+    for (auto& row : floors) row = arena.template take<std::uint8_t>(3 * columns);
+    padded_codes = arena.template take<std::uint32_t>(columns + 2 * kMaxBandLanes);
+    padded_labels = arena.template take<std::uint8_t>(columns + 2 * kMaxBandLanes);
+    second_best = arena.template take<std::uint16_t>(columns);
+  }
+};
+
+// Finds the disparities of either picture from the same sums. `first_disparity` holds the start of each
+// pixel's band of `lanes` disparities (a multiple of kBandLanes); pixels × lanes ≤ the workspace's states.
+// Results in sixteenths, kNoDisparity outside of the labels and where nothing matched.
+void match_semi_global(const BandedPair& pair, ImageView<const std::int16_t> first_disparity, int lanes,
+                       const SemiGlobalParams& params, SemiGlobalWorkspace& workspace,
+                       const std::array<ImageView<Disparity>, 2>& disparity);
+
+}  // namespace traygauge

@@ -1,0 +1,199 @@
+#include "core/stereo/surface_refinement.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+namespace traygauge {
+namespace {
+
+constexpr int kChannels = SurfaceRefinementWorkspace::kChannels;
+constexpr float kLeastEnergy = 0.01F;  // grey², of a window without any gradient
+
+// Value and slope of the cubic through four samples (Catmull-Rom).
+struct CubicSample {
+  float value;
+  float slope;
+};
+
+CubicSample interpolate(const std::uint8_t* at, float t) {
+  const auto p0 = static_cast<float>(at[-1]);
+  const auto p1 = static_cast<float>(at[0]);
+  const auto p2 = static_cast<float>(at[1]);
+  const auto p3 = static_cast<float>(at[2]);
+  const float a = 0.5F * (p3 - p0) + 1.5F * (p1 - p2);
+  const float b = p0 - 2.5F * p1 + 2.0F * p2 - 0.5F * p3;
+  const float c = 0.5F * (p2 - p0);
+  return {p1 + t * (c + t * (b + t * a)), c + t * (2.0F * b + 3.0F * t * a)};
+}
+
+class Refinement {
+ public:
+  Refinement(const RefinementPair& pair, ImageView<const std::uint8_t> trusted,
+             const SurfaceRefinementParams& params, SurfaceRefinementWorkspace& workspace,
+             ImageView<float> disparity)
+      : pair_(pair), trusted_(trusted), params_(params), workspace_(workspace), disparity_(disparity) {
+    columns_ = static_cast<std::ptrdiff_t>(disparity.width) + 2 * kMaxRefinementRadius;
+  }
+
+  void tie_neighbours();
+  void collect_evidence();
+  void relax(bool downwards);
+
+ private:
+  float* terms(int y, int channel) {
+    const int slot = y % (2 * kMaxRefinementRadius + 1);
+    return workspace_.terms.data() + (slot * kChannels + channel) * columns_ + kMaxRefinementRadius;
+  }
+  float* sums(int channel) { return workspace_.sums.data() + channel * columns_ + kMaxRefinementRadius; }
+  static std::ptrdiff_t at(ImageView<float> picture, int y) { return std::ptrdiff_t{y} * picture.width; }
+  void compute_terms(int y);
+  void solve_row(int y);
+
+  const RefinementPair& pair_;
+  ImageView<const std::uint8_t> trusted_;
+  const SurfaceRefinementParams& params_;
+  SurfaceRefinementWorkspace& workspace_;
+  ImageView<float> disparity_;
+  std::ptrdiff_t columns_ = 0;
+};
+
+void Refinement::tie_neighbours() {
+  const auto border = static_cast<float>(params_.border_tie);
+  const auto most = static_cast<float>(params_.max_jump_px);
+  const auto tie = [&](int x, int y, int to_x, int to_y) {
+    if (to_x >= disparity_.width || to_y >= disparity_.height) return 0.0F;
+    const std::uint8_t a = pair_.labels.at(x, y);
+    const std::uint8_t b = pair_.labels.at(to_x, to_y);
+    if (a == 0 || b == 0 || !(std::abs(disparity_.at(x, y) - disparity_.at(to_x, to_y)) <= most)) return 0.0F;
+    return a == b ? 1.0F : border;
+  };
+  for (int y = 0; y < disparity_.height; ++y) {
+    float* right = workspace_.right_tie.data() + at(disparity_, y);
+    float* lower = workspace_.lower_tie.data() + at(disparity_, y);
+    for (int x = 0; x < disparity_.width; ++x) {
+      right[x] = tie(x, y, x + 1, y);
+      lower[x] = tie(x, y, x, y + 1);
+    }
+  }
+}
+
+// Count, residual, gradient, gradient², gradient · residual of every sample of a row.
+void Refinement::compute_terms(int y) {
+  std::array<float*, kChannels> out;
+  for (int k = 0; k < kChannels; ++k) {
+    out[static_cast<std::size_t>(k)] = terms(y, k);
+    std::fill_n(terms(y, k) - kMaxRefinementRadius, columns_, 0.0F);
+  }
+  const std::uint8_t* gray = pair_.gray.row(y);
+  const std::uint8_t* other = pair_.other_gray.row(y);
+  const std::uint8_t* other_labels = pair_.other_labels.row(y);
+  const float last = static_cast<float>(pair_.other_gray.width - 3);
+  const auto sign = static_cast<float>(pair_.sign);
+  for (int x = 0; x < disparity_.width; ++x) {
+    if (trusted_.at(x, y) == 0 || pair_.labels.at(x, y) == 0) continue;
+    const float place = static_cast<float>(x) + sign * disparity_.at(x, y);
+    if (!(place >= 1.0F && place <= last)) continue;
+    const int left = static_cast<int>(place);
+    if (other_labels[left] == 0) continue;
+    const CubicSample sample = interpolate(other + left, place - static_cast<float>(left));
+    const float gradient = sign * sample.slope;
+    const float residual = static_cast<float>(gray[x]) - sample.value;
+    out[0][x] = 1.0F;
+    out[1][x] = residual;
+    out[2][x] = gradient;
+    out[3][x] = gradient * gradient;
+    out[4][x] = gradient * residual;
+  }
+}
+
+// What the windows around a row ask for.
+void Refinement::solve_row(int y) {
+  const int radius = std::clamp(params_.window_radius, 1, kMaxRefinementRadius);
+  const int top = std::max(y - radius, 0);
+  const int bottom = std::min(y + radius, disparity_.height - 1);
+  for (int k = 0; k < kChannels; ++k) {
+    float* sum = sums(k) - kMaxRefinementRadius;
+    std::memcpy(sum, terms(top, k) - kMaxRefinementRadius,
+                static_cast<std::size_t>(columns_) * sizeof(float));
+    for (int i = top + 1; i <= bottom; ++i) {
+      const float* term = terms(i, k) - kMaxRefinementRadius;
+      for (std::ptrdiff_t x = 0; x < columns_; ++x) sum[x] += term[x];
+    }
+  }
+  float* certainty = workspace_.certainty.data() + at(disparity_, y);
+  float* target = workspace_.target.data() + at(disparity_, y);
+  const float* disparity = disparity_.row(y);
+  const auto most = static_cast<float>(params_.max_step_px);
+  std::array<const float*, kChannels> sum;
+  for (int k = 0; k < kChannels; ++k) sum[static_cast<std::size_t>(k)] = sums(k) - radius;
+  for (int x = 0; x < disparity_.width; ++x) {
+    std::array<float, kChannels> window{};
+    for (int i = 0; i <= 2 * radius; ++i) {
+      for (std::size_t k = 0; k < kChannels; ++k) window[k] += sum[k][x + i];
+    }
+    const float share = 1.0F / std::max(window[0], 1.0F);
+    const float energy = window[3] - window[2] * window[2] * share;
+    const float product = window[4] - window[2] * window[1] * share;
+    const float step = std::clamp(product / std::max(energy, kLeastEnergy), -most, most);
+    const float weight = std::max(energy * share, 0.0F);
+    certainty[x] = weight;
+    target[x] = weight * (disparity[x] + step);
+  }
+}
+
+void Refinement::collect_evidence() {
+  const int radius = std::clamp(params_.window_radius, 1, kMaxRefinementRadius);
+  for (int y = 0; y < std::min(radius, disparity_.height); ++y) compute_terms(y);
+  for (int y = 0; y < disparity_.height; ++y) {
+    if (y + radius < disparity_.height) compute_terms(y + radius);
+    solve_row(y);
+  }
+}
+
+// One Gauss-Seidel step from row to row, a Jacobi step within each.
+void Refinement::relax(bool downwards) {
+  const auto stiffness = static_cast<float>(params_.stiffness);
+  const int width = disparity_.width;
+  const int height = disparity_.height;
+  for (int i = 0; i < height; ++i) {
+    const int y = downwards ? i : height - 1 - i;
+    float* disparity = disparity_.row(y);
+    const float* above = disparity_.row(std::max(y - 1, 0));
+    const float* below = disparity_.row(std::min(y + 1, height - 1));
+    const float* right_tie = workspace_.right_tie.data() + at(disparity_, y);
+    const float* lower_tie = workspace_.lower_tie.data() + at(disparity_, y);
+    const float* upper_tie = workspace_.lower_tie.data() + at(disparity_, std::max(y - 1, 0));
+    const float* certainty = workspace_.certainty.data() + at(disparity_, y);
+    const float* target = workspace_.target.data() + at(disparity_, y);
+    float* old = workspace_.row.data() + 1;
+    std::memcpy(old, disparity, static_cast<std::size_t>(width) * sizeof(float));
+    old[-1] = old[0];
+    old[width] = old[width - 1];
+    const float up = y > 0 ? 1.0F : 0.0F;
+    for (int x = 0; x < width; ++x) {
+      const float left_tie = x > 0 ? right_tie[x - 1] : 0.0F;
+      const float upper = up * upper_tie[x];
+      const float pull =
+          left_tie * old[x - 1] + right_tie[x] * old[x + 1] + upper * above[x] + lower_tie[x] * below[x];
+      const float ties = left_tie + right_tie[x] + upper + lower_tie[x];
+      const float total = certainty[x] + stiffness * ties;
+      disparity[x] = total > 0.0F ? (target[x] + stiffness * pull) / total : old[x];
+    }
+  }
+}
+
+}  // namespace
+
+void refine_surface(const RefinementPair& pair, ImageView<const std::uint8_t> trusted,
+                    const SurfaceRefinementParams& params, SurfaceRefinementWorkspace& workspace,
+                    ImageView<float> disparity) {
+  Refinement refinement(pair, trusted, params, workspace, disparity);
+  for (int iteration = 0; iteration < params.iterations; ++iteration) {
+    refinement.tie_neighbours();
+    refinement.collect_evidence();
+    for (int i = 0; i < params.relaxations; ++i) refinement.relax(i % 2 == 0);
+  }
+}
+
+}  // namespace traygauge

@@ -1,0 +1,68 @@
+// Subpixel disparities on a surface that is known already. The other picture is resampled on it, so that
+// windows cover the same patch of it in both, whatever its slant; what is left is solved by least squares
+// over the window (Lucas & Kanade 1981, along the row) with the local difference in brightness eliminated,
+// and tied together by a membrane where the picture is plain. That takes out the pull to whole pixels and the
+// fronto-parallel bias of window costs.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+
+#include "core/image_view/image_view.hpp"
+
+namespace traygauge {
+
+struct SurfaceRefinementParams {
+  int iterations = 3;        // each resamples the picture anew
+  int window_radius = 3;     // 1 to kMaxRefinementRadius
+  double max_step_px = 1.0;  // of an iteration: the linearisation reaches about a pixel
+  double stiffness =
+      12.0;             // grey², against the mean squared gradient of a window: noise of 2 to 4 grey levels
+  int relaxations = 8;  // of the membrane, per iteration
+  double max_jump_px = 1.5;  // neighbours that differ by more are not tied
+  double border_tie = 0.1;   // between samples of different labels
+};
+
+inline constexpr int kMaxRefinementRadius = 6;
+
+struct SurfaceRefinementWorkspace {
+  static constexpr int kChannels = 5;
+  std::span<float> certainty;  // gradient energy, of every sample
+  std::span<float> target;     // disparity that the window asks for, times certainty
+  std::span<float> right_tie;
+  std::span<float> lower_tie;
+  std::span<float> terms;  // kChannels of 2 kMaxRefinementRadius + 1 rows
+  std::span<float> sums;   // kChannels of one row, with kMaxRefinementRadius beyond its ends
+  std::span<float> row;
+
+  template <class Allocator>
+  constexpr void allocate(Allocator& arena, int max_columns, int max_samples) {
+    const auto samples = static_cast<std::size_t>(max_samples);
+    const auto columns = static_cast<std::size_t>(max_columns + 2 * kMaxRefinementRadius);
+    certainty = arena.template take<float>(samples);
+    target = arena.template take<float>(samples);
+    right_tie = arena.template take<float>(samples);
+    lower_tie = arena.template take<float>(samples);
+    terms = arena.template take<float>(columns * kChannels * (2 * kMaxRefinementRadius + 1));
+    sums = arena.template take<float>(columns * kChannels);
+    row = arena.template take<float>(columns);
+  }
+};
+
+// The picture whose samples have disparities, and the other one.
+struct RefinementPair {
+  ImageView<const std::uint8_t> gray;
+  ImageView<const std::uint8_t> labels;
+  ImageView<const std::uint8_t> other_gray;
+  ImageView<const std::uint8_t> other_labels;
+  int sign = 1;  // a partner lies at column + sign · disparity
+};
+
+// Refines `disparity` (columns), known wherever there is a label. `trusted` is 0 where a sample has no
+// partner: it follows its neighbours.
+void refine_surface(const RefinementPair& pair, ImageView<const std::uint8_t> trusted,
+                    const SurfaceRefinementParams& params, SurfaceRefinementWorkspace& workspace,
+                    ImageView<float> disparity);
+
+}  // namespace traygauge

@@ -1,0 +1,19 @@
+// The centre-symmetric census transform (Spangenberg, Langner, Rojas 2013): each bit compares two pixels that
+// lie opposite each other in a window of 9 × 7. Half the bits of the census of the same window for the same
+// support, blind to brightness and contrast, and unlike it not wholly at the mercy of one noisy centre.
+#pragma once
+
+#include <cstdint>
+
+#include "core/image_view/image_view.hpp"
+
+namespace traygauge {
+
+inline constexpr int kSymmetricCensusColumns = 4;  // to either side
+inline constexpr int kSymmetricCensusRows = 3;
+inline constexpr int kSymmetricCensusBits = 31;
+
+// `codes` has the picture's size. Beyond the picture its border is repeated.
+void transform_symmetric_census(ImageView<const std::uint8_t> picture, ImageView<std::uint32_t> codes);
+
+}  // namespace traygauge

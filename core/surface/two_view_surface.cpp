@@ -1,0 +1,253 @@
+#include "core/surface/two_view_surface.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
+#include "core/stereo/median.hpp"
+#include "core/stereo/symmetric_census.hpp"
+
+namespace traygauge {
+namespace {
+
+using View = TwoViewSurfaceWorkspace::View;
+
+template <class T>
+ImageView<T> as_picture(std::span<T> storage, ImageView<const std::uint8_t> like) {
+  return {storage.data(), like.width, like.height};
+}
+
+// The disparities of the heights searched, over the whole grid.
+DisparityRange height_range(const PlaneRectification& grid, double low_mm, double high_mm) {
+  double least = 0.0;
+  double most = 0.0;
+  for (const int row : {0, grid.rows() / 2, grid.rows() - 1}) {
+    for (const int column : {0, grid.columns() - 1}) {
+      least = std::min(least, grid.disparity(row, column, low_mm));
+      most = std::max(most, grid.disparity(row, column, high_mm));
+    }
+  }
+  return {static_cast<int>(std::floor(least)), static_cast<int>(std::ceil(most))};
+}
+
+void sample_view(const PlaneRectification& grid, int v, const StoredView& stored, const LabelTable& kept,
+                 int levels, View& view) {
+  std::uint8_t* gray = view.gray_storage.data();
+  std::uint8_t* labels = view.label_storage.data();
+  int width = grid.columns();
+  int height = grid.rows();
+  for (std::size_t level = 0; level < static_cast<std::size_t>(levels); ++level) {
+    view.gray[level] = {gray, width, height};
+    view.labels[level] = {labels, width, height};
+    if (level == 0) {
+      grid.sample_gray(v, stored, view.gray[0]);
+      grid.sample_labels(v, stored, kept, view.labels[0]);
+    } else {
+      halve(view.gray[level - 1], view.gray[level]);
+      halve_mask(view.labels[level - 1], view.labels[level]);
+    }
+    gray += static_cast<std::ptrdiff_t>(width) * height;
+    labels += static_cast<std::ptrdiff_t>(width) * height;
+    width = halved(width);
+    height = halved(height);
+  }
+}
+
+// A row's unknown disparities take the nearest known one; a row without any takes the one before.
+void extend_known(ImageView<Disparity> disparity) {
+  const Disparity* before = nullptr;
+  for (int y = 0; y < disparity.height; ++y) {
+    Disparity* row = disparity.row(y);
+    int last = -1;
+    for (int x = 0; x < disparity.width; ++x) {
+      if (row[x] == kNoDisparity) continue;
+      const int middle = last < 0 ? 0 : (last + x + 1) / 2;
+      for (int i = last + 1; i < x; ++i) row[i] = last >= 0 && i < middle ? row[last] : row[x];
+      last = x;
+    }
+    for (int i = last + 1; i < disparity.width; ++i) {
+      row[i] = last >= 0 ? row[last] : before != nullptr ? before[i] : Disparity{0};
+    }
+    before = row;
+  }
+}
+
+// Bands of `lanes` about twice the disparity of the coarser level.
+void centre_bands(ImageView<const Disparity> coarse, DisparityRange range, int lanes,
+                  ImageView<std::int16_t> first) {
+  const int last = std::max(range.min_px, range.max_px + 1 - lanes);
+  for (int y = 0; y < first.height; ++y) {
+    const Disparity* row = coarse.row(y / 2);
+    for (int x = 0; x < first.width; ++x) {
+      const int twice = (row[x / 2] + kDisparityScale / 4) >> 3;
+      first.at(x, y) = static_cast<std::int16_t>(std::clamp(twice - lanes / 2, range.min_px, last));
+    }
+  }
+}
+static_assert(kDisparityScale == 16);
+
+void match_level(TwoViewSurfaceWorkspace& workspace, std::size_t level, DisparityRange range, bool coarsest,
+                 const TwoViewSurfaceParams& params) {
+  std::array<View, 2>& views = workspace.views;
+  const ImageView<const std::uint8_t> like = views[0].gray[level];
+  const ImageView<std::int16_t> first = as_picture(workspace.first_disparity, like);
+  int lanes = params.band_lanes;
+  const int scale = 1 << level;
+  const DisparityRange at_level{static_cast<int>(std::floor(static_cast<double>(range.min_px) / scale)) - 1,
+                                static_cast<int>(std::ceil(static_cast<double>(range.max_px) / scale)) + 1};
+  if (coarsest) {
+    lanes = std::min((at_level.count() + kBandLanes - 1) / kBandLanes * kBandLanes, kMaxBandLanes);
+    std::fill_n(first.data, static_cast<std::size_t>(like.width) * static_cast<std::size_t>(like.height),
+                static_cast<std::int16_t>(at_level.min_px));
+  } else {
+    const ImageView<Disparity> coarse =
+        as_picture(views[0].consistent, ImageView<const std::uint8_t>(views[0].gray[level + 1]));
+    extend_known(coarse);
+    centre_bands(coarse, at_level, lanes, first);
+  }
+  BandedPair pair;
+  std::array<ImageView<Disparity>, 2> found;
+  for (std::size_t v = 0; v < 2; ++v) {
+    const ImageView<std::uint32_t> codes = as_picture(views[v].codes, like);
+    transform_symmetric_census(views[v].gray[level], codes);
+    pair.gray[v] = views[v].gray[level];
+    pair.labels[v] = views[v].labels[level];
+    pair.codes[v] = codes;
+    found[v] = as_picture(views[v].disparity, like);
+  }
+  match_semi_global(pair, first, lanes, params.semi_global, workspace.semi_global, found);
+}
+
+void filter_level(TwoViewSurfaceWorkspace& workspace, std::size_t level, int radius) {
+  const ImageView<const std::uint8_t> like = workspace.views[0].gray[level];
+  const View& view = workspace.views[0];
+  filter_median(as_picture(view.disparity, like), radius, as_picture(view.consistent, like));
+}
+
+// Disparities that both views agree on, gaps filled, as real numbers for the refinement.
+void prepare_surfaces(TwoViewSurfaceWorkspace& workspace, std::size_t level,
+                      const TwoViewSurfaceParams& params) {
+  std::array<View, 2>& views = workspace.views;
+  const ImageView<const std::uint8_t> like = views[0].gray[level];
+  for (std::size_t v = 0; v < 2; ++v) {
+    keep_consistent(as_picture(views[v].disparity, like), as_picture(views[1 - v].disparity, like),
+                    v == 0 ? 1 : -1, params.consistency, as_picture(views[v].consistent, like));
+  }
+  for (std::size_t v = 0; v < 2; ++v) {
+    const ImageView<Disparity> filtered = as_picture(views[v].disparity, like);
+    filter_median(as_picture(views[v].consistent, like), params.median_radius, filtered);
+    const ImageView<const std::uint8_t> full = views[v].labels[0];
+    const ImageView<std::uint8_t> trusted = as_picture(views[v].trusted, full);
+    for (int y = 0; y < full.height; ++y) {
+      for (int x = 0; x < full.width; ++x) {
+        trusted.at(x, y) = filtered.at(x >> level, y >> level) == kNoDisparity ? 0 : 1;
+      }
+    }
+    fill_gaps(views[v].labels[level], params.consistency, filtered);
+    extend_known(filtered);
+    const ImageView<float> surface = as_picture(views[v].surface, full);
+    const double scale = static_cast<double>(1 << level) / kDisparityScale;
+    for (int y = 0; y < full.height; ++y) {
+      for (int x = 0; x < full.width; ++x) {
+        surface.at(x, y) =
+            full.at(x, y) == 0 ? 0.0F : static_cast<float>(filtered.at(x >> level, y >> level) * scale);
+      }
+    }
+  }
+}
+
+void refine_surfaces(TwoViewSurfaceWorkspace& workspace, const TwoViewSurfaceParams& params) {
+  std::array<View, 2>& views = workspace.views;
+  for (std::size_t v = 0; v < 2; ++v) {
+    const RefinementPair pair{views[v].gray[0], views[v].labels[0], views[1 - v].gray[0],
+                              views[1 - v].labels[0], v == 0 ? 1 : -1};
+    refine_surface(pair, as_picture(views[v].trusted, pair.gray), params.refinement, workspace.refinement,
+                   as_picture(views[v].surface, pair.gray));
+  }
+}
+
+void rate_evidence(std::array<View, 2>& views, std::size_t v, double confirmed_px, double& confirmed_share) {
+  const ImageView<const std::uint8_t> labels = views[v].labels[0];
+  const ImageView<const float> own = as_picture(views[v].surface, labels);
+  const ImageView<const float> other = as_picture(views[1 - v].surface, labels);
+  const ImageView<const std::uint8_t> trusted = as_picture(views[v].trusted, labels);
+  const ImageView<SurfaceEvidence> evidence = as_picture(views[v].evidence, labels);
+  const float sign = v == 0 ? 1.0F : -1.0F;
+  std::size_t samples = 0;
+  std::size_t confirmed = 0;
+  for (int y = 0; y < labels.height; ++y) {
+    for (int x = 0; x < labels.width; ++x) {
+      evidence.at(x, y) = SurfaceEvidence::none;
+      if (labels.at(x, y) == 0) continue;
+      ++samples;
+      const float d = own.at(x, y);
+      const float partner = static_cast<float>(x) + sign * d + 0.5F;
+      const bool inside = partner >= 0.0F && partner < static_cast<float>(labels.width);
+      const int at = inside ? static_cast<int>(partner) : 0;
+      const bool agrees = inside && views[1 - v].labels[0].at(at, y) != 0 &&
+                          std::abs(other.at(at, y) - d) <= static_cast<float>(confirmed_px);
+      evidence.at(x, y) = trusted.at(x, y) == 0 ? SurfaceEvidence::filled
+                          : agrees              ? SurfaceEvidence::both
+                                                : SurfaceEvidence::single;
+      confirmed += evidence.at(x, y) == SurfaceEvidence::both ? 1U : 0U;
+    }
+  }
+  confirmed_share = samples == 0 ? 0.0 : static_cast<double>(confirmed) / static_cast<double>(samples);
+}
+
+void triangulate(const PlaneRectification& grid, std::size_t v, View& view) {
+  const ImageView<const std::uint8_t> labels = view.labels[0];
+  const ImageView<const float> surface = as_picture(view.surface, labels);
+  const ImageView<SurfacePoint> points = as_picture(view.points, labels);
+  for (int y = 0; y < labels.height; ++y) {
+    for (int x = 0; x < labels.width; ++x) {
+      points.at(x, y) = {};
+      if (labels.at(x, y) == 0) continue;
+      const double d = surface.at(x, y);
+      points.at(x, y) = v == 0 ? grid.point(y, x, x + d, 0) : grid.point(y, x - d, x, 1);
+    }
+  }
+}
+
+}  // namespace
+
+Status reconstruct_surface(const std::array<StoredView, 2>& views, const LabelTable& kept,
+                           double bottom_height_mm, double top_height_mm, const TwoViewSurfaceParams& params,
+                           TwoViewSurfaceWorkspace& workspace, std::array<SurfaceGrid, 2>& grids,
+                           TwoViewSurfaceReport& report) {
+  PlaneRectification grid;
+  const Status built = grid.build(views, kept, bottom_height_mm, params.rectification, workspace.rows);
+  if (!built.ok()) return built;
+  if (grid.columns() > params.max_columns) return StatusCode::rectification_failed;
+  const double highest_mm = std::clamp(top_height_mm - bottom_height_mm, 5.0, params.highest_mm);
+  const DisparityRange range = height_range(grid, params.min_height_mm, highest_mm);
+  report = {grid.rows(), grid.columns(), grid.column_step_mm(), range, {}};
+  const int levels = std::clamp(params.levels, 1, kMaxSurfaceLevels);
+  const int finest = std::clamp(params.finest_level, 0, levels - 1);
+  if ((range.count() >> (levels - 1)) + 4 > kMaxBandLanes) return StatusCode::disparity_range_too_large;
+
+  for (int v = 0; v < 2; ++v) {
+    const auto i = static_cast<std::size_t>(v);
+    sample_view(grid, v, views[i], kept, levels, workspace.views[i]);
+  }
+  for (int level = levels - 1; level >= finest; --level) {
+    match_level(workspace, static_cast<std::size_t>(level), range, level == levels - 1, params);
+    if (level > finest) filter_level(workspace, static_cast<std::size_t>(level), params.median_radius);
+  }
+  prepare_surfaces(workspace, static_cast<std::size_t>(finest), params);
+  refine_surfaces(workspace, params);
+  for (std::size_t v = 0; v < 2; ++v) {
+    rate_evidence(workspace.views, v, params.confirmed_px, report.confirmed[v]);
+  }
+  for (std::size_t v = 0; v < 2; ++v) {
+    View& view = workspace.views[v];
+    triangulate(grid, v, view);
+    const ImageView<const std::uint8_t> labels = view.labels[0];
+    grids[v] = {as_picture(std::span<const SurfacePoint>(view.points), labels),
+                as_picture(std::span<const SurfaceEvidence>(view.evidence), labels), labels,
+                grid.camera_mm(static_cast<int>(v))};
+  }
+  return StatusCode::ok;
+}
+
+}  // namespace traygauge

@@ -1,0 +1,108 @@
+// The visible surface of one dish from two views whose poses in the table frame are known: both views sampled
+// over the dish's bottom, matched from coarse to fine, each as reference, refined on the surface found, and
+// triangulated.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+
+#include "core/base/arena.hpp"
+#include "core/base/status.hpp"
+#include "core/image/pyramid.hpp"
+#include "core/rectification/plane_rectification.hpp"
+#include "core/stereo/consistency.hpp"
+#include "core/stereo/semi_global.hpp"
+#include "core/stereo/surface_refinement.hpp"
+#include "core/surface/surface_grid.hpp"
+
+namespace traygauge {
+
+inline constexpr int kMaxSurfaceLevels = 4;
+
+struct TwoViewSurfaceParams {
+  PlaneRectificationParams rectification;
+  int max_columns = 896;        // of the grid, that row buffers are kept for
+  int levels = 3;               // the coarsest searches all heights, finer ones a band about the level before
+  int finest_level = 0;         // that is matched; the refinement works at level 0 always
+  int band_lanes = 16;          // disparities of a band
+  double min_height_mm = -2.0;  // below the bottom: the pose's error, and the table beside the dish
+  double highest_mm = 90.0;     // no food is higher above the bottom
+  int median_radius = 1;
+  double confirmed_px = 1.0;  // both views' refined disparities agree within
+  SemiGlobalParams semi_global;
+  ConsistencyParams consistency;
+  SurfaceRefinementParams refinement;
+};
+
+struct TwoViewSurfaceWorkspace {
+  struct View {
+    std::array<ImageView<std::uint8_t>, kMaxSurfaceLevels> gray;  // memory of the caps; sizes as sampled
+    std::array<ImageView<std::uint8_t>, kMaxSurfaceLevels> labels;
+    std::span<std::uint8_t> gray_storage;
+    std::span<std::uint8_t> label_storage;
+    std::span<std::uint32_t> codes;
+    std::span<Disparity> disparity;
+    std::span<Disparity> consistent;
+    std::span<float> surface;
+    std::span<std::uint8_t> trusted;
+    std::span<SurfaceEvidence> evidence;
+    std::span<SurfacePoint> points;
+  };
+  std::array<View, 2> views;
+  std::span<PlaneRow> rows;
+  std::span<std::int16_t> first_disparity;
+  SemiGlobalWorkspace semi_global;
+  SurfaceRefinementWorkspace refinement;
+
+  // Matching, refinement and points follow one another and share their memory.
+  template <class Allocator>
+  constexpr void allocate(Allocator& arena, const TwoViewSurfaceParams& params) {
+    const auto samples = static_cast<std::size_t>(params.rectification.max_samples);
+    const std::size_t pyramid = samples + samples / 2;  // 4/3, and what rounding up adds
+    for (View& view : views) {
+      view.gray_storage = arena.template take<std::uint8_t>(pyramid);
+      view.label_storage = arena.template take<std::uint8_t>(pyramid);
+      view.disparity = arena.template take<Disparity>(samples);
+      view.surface = arena.template take<float>(samples);
+      view.trusted = arena.template take<std::uint8_t>(samples);
+      view.evidence = arena.template take<SurfaceEvidence>(samples);
+    }
+    rows = arena.template take<PlaneRow>(static_cast<std::size_t>(params.rectification.max_rows));
+    const std::size_t shared = arena.mark();
+    for (View& view : views) {
+      view.codes = arena.template take<std::uint32_t>(samples);
+      view.consistent = arena.template take<Disparity>(samples);
+    }
+    first_disparity = arena.template take<std::int16_t>(samples);
+    const int finest = params.rectification.max_samples >> (2 * params.finest_level);
+    semi_global.allocate(arena, params.max_columns,
+                         finest * params.band_lanes * (params.finest_level > 0 ? 2 : 1));
+    const std::size_t matched = arena.mark();
+    arena.rewind(shared);
+    refinement.allocate(arena, params.max_columns, params.rectification.max_samples);
+    const std::size_t refined = arena.mark();
+    arena.rewind(shared);
+    for (View& view : views) view.points = arena.template take<SurfacePoint>(samples);
+    const std::size_t triangulated = arena.mark();
+    arena.rewind(matched > refined ? (matched > triangulated ? matched : triangulated)
+                                   : (refined > triangulated ? refined : triangulated));
+  }
+};
+
+struct TwoViewSurfaceReport {
+  int rows = 0;
+  int columns = 0;
+  double column_step_mm = 0.0;
+  DisparityRange disparity_range;     // that was searched, at level 0
+  std::array<double, 2> confirmed{};  // share of the dish's samples that either view matched the same way
+};
+
+// The grids live in `workspace` until the next call. `bottom_height_mm` is the dish's bottom, `top_height_mm`
+// what nothing on it exceeds (the tallest sparse track and a margin), both above the table.
+Status reconstruct_surface(const std::array<StoredView, 2>& views, const LabelTable& kept,
+                           double bottom_height_mm, double top_height_mm, const TwoViewSurfaceParams& params,
+                           TwoViewSurfaceWorkspace& workspace, std::array<SurfaceGrid, 2>& grids,
+                           TwoViewSurfaceReport& report);
+
+}  // namespace traygauge
