@@ -1,0 +1,84 @@
+#include "core/surface/height_map.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include "core/surface/hidden_cells.hpp"
+#include "core/surface/view_splat.hpp"
+
+namespace traygauge {
+namespace {
+
+// Sizes the map around the dish's outer edge.
+Status lay_out(const PlacedDish& dish, double cell_mm, std::size_t max_cells, HeightMap& map) {
+  if (!(cell_mm > 0.0) || !dish.place.centre_mm.allFinite() || !dish.place.axis.allFinite()) {
+    return StatusCode::invalid_configuration;
+  }
+  const Vec2& semi = dish.profile.semi_axes_mm();
+  const Vec2& axis = dish.place.axis;
+  const Vec2 half(std::hypot(semi.x() * axis.x(), semi.y() * axis.y()),
+                  std::hypot(semi.x() * axis.y(), semi.y() * axis.x()));
+  const double width = std::ceil(2.0 * half.x() / cell_mm);
+  const double height = std::ceil(2.0 * half.y() / cell_mm);
+  if (!(width * height <= static_cast<double>(max_cells)) || width < 1.0 || height < 1.0 ||
+      std::max(width, height) > std::numeric_limits<std::int16_t>::max()) {
+    return StatusCode::out_of_memory;
+  }
+  map.cell_mm = cell_mm;
+  map.origin_mm = dish.place.centre_mm - 0.5 * cell_mm * Vec2(width - 1.0, height - 1.0);
+  map.cells.width = static_cast<int>(width);
+  map.cells.height = static_cast<int>(height);
+  map.cells.stride = map.cells.width;
+  return StatusCode::ok;
+}
+
+HeightCell fuse_surfaces(const HeightCell& a, const HeightCell& b, float disagreement_mm) {
+  HeightCell fused = a.weight >= b.weight ? a : b;
+  if (std::abs(a.z_mm - b.z_mm) <= disagreement_mm) {
+    const float total = static_cast<float>(a.weight) + static_cast<float>(b.weight);
+    fused.z_mm = (static_cast<float>(a.weight) * a.z_mm + static_cast<float>(b.weight) * b.z_mm) / total;
+  }
+  fused.undercut = (a.undercut && a.label == fused.label) || (b.undercut && b.label == fused.label);
+  return fused;
+}
+
+HeightCell fuse(const HeightCell& a, const HeightCell& b, float disagreement_mm) {
+  if (a.kind == CellKind::surface && b.kind == CellKind::surface) return fuse_surfaces(a, b, disagreement_mm);
+  if (a.kind != b.kind) return a.kind > b.kind ? a : b;
+  return a.z_mm <= b.z_mm ? a : b;  // both are bounds
+}
+
+}  // namespace
+
+Status build_height_map(std::span<const SurfaceGrid> views, const PlacedDish& dish,
+                        const HeightMapParams& params, HeightMapWorkspace& workspace, HeightMap& map) {
+  map = {};
+  const Status laid_out = lay_out(dish, params.cell_mm, workspace.first.size(), map);
+  if (!laid_out.ok()) return laid_out;
+  map.cells.data = workspace.first.data();
+  HeightMap other = map;
+  other.cells.data = workspace.second.data();
+  std::fill(workspace.flanks.begin(), workspace.flanks.end(), FlankArea{});
+  const auto disagreement_mm = static_cast<float>(params.disagreement_mm);
+  bool seen = false;
+  for (const SurfaceGrid& view : views) {
+    if (view.points.empty() || view.evidence.width != view.points.width ||
+        view.evidence.height != view.points.height || view.labels.width != view.points.width ||
+        view.labels.height != view.points.height) {
+      continue;
+    }
+    splat_view(view, params, seen ? other : map);
+    add_visible_flanks(view, params, workspace.flanks);
+    for (int y = 0; seen && y < map.cells.height; ++y) {
+      HeightCell* row = map.cells.row(y);
+      std::transform(row, row + map.cells.width, other.cells.row(y), row,
+                     [&](const HeightCell& a, const HeightCell& b) { return fuse(a, b, disagreement_mm); });
+    }
+    seen = true;
+  }
+  if (!seen) return StatusCode::too_little_depth;
+  fill_hidden_cells(dish, params, workspace.flanks, workspace.sources, map);
+  return StatusCode::ok;
+}
+
+}  // namespace traygauge

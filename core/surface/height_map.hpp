@@ -1,0 +1,98 @@
+// One height map over the dish from what both views see: profile `best` integrates over it.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "core/base/arena.hpp"
+#include "core/base/geometry.hpp"
+#include "core/base/status.hpp"
+#include "core/image_view/image_view.hpp"
+#include "core/surface/dish_profile.hpp"
+#include "core/surface/surface_grid.hpp"
+
+namespace traygauge {
+
+enum class CellKind : std::uint8_t {
+  unseen,   // no line of sight crosses it
+  hidden,   // below lines of sight only: they bound its surface from above
+  surface,  // seen
+};
+
+struct HeightCell {
+  float z_mm = 0.0F;       // of the upper surface; its upper bound while a cell is hidden and not yet filled
+  std::uint8_t label = 0;  // of the surface; of what hides it while it is hidden and not yet filled
+  CellKind kind = CellKind::unseen;
+  std::uint8_t weight = 0;  // squared cosine between surface normal and line of sight, of 255
+  bool undercut = false;    // a view sees another surface well below this one: it overhangs
+};
+
+struct HeightMap {
+  ImageView<HeightCell> cells;
+  double cell_mm = 0.0;
+  Vec2 origin_mm = Vec2::Zero();  // table frame: the centre of cell (0, 0); axes as the table's
+
+  Vec2 centre_mm(int x, int y) const { return origin_mm + cell_mm * Vec2(x, y); }
+};
+
+struct HeightMapParams {
+  // Smaller cells resolve outlines better, which the volume hardly needs: cell centres sample an area without
+  // bias. About the samples' distance on the dish; larger loses narrow crevices, smaller takes time.
+  double cell_mm = 0.85;
+  // A patch seen at a smaller cosine spans an occlusion: 0.2 is 4.9 samples' distance in depth from one
+  // sample to the next. Larger takes steep flanks for occlusions, smaller counts the sheets behind edges.
+  double jump_cosine = 0.2;
+  // Views further apart than this do not see the same surface: the better seen one holds.
+  double disagreement_mm = 3.0;
+  // So far below another surface a sample lies under an overhang, not on a wall's blurred foot.
+  double undercut_mm = 4.0;
+  // Hidden flanks fall like the item's visible ones that are steeper than a line of sight. The prior slope
+  // counts as so much visible flank; tan 75°, between a pile's 60° and a cut's 90°.
+  double prior_flank_slope = 3.7;
+  double prior_flank_mm2 = 100.0;
+  int flank_baseline_samples = 3;  // half the baseline of a flank's slope; shorter measures noise
+  // A hole that no line of sight crosses is filled so far from its edge.
+  double max_hole_mm = 6.0;
+};
+
+// Steep flanks that the views see, by label: their area seen from the side and from above.
+struct FlankArea {
+  double vertical_mm2 = 0.0;
+  double horizontal_mm2 = 0.0;
+};
+
+struct HeightMapWorkspace {
+  struct Source {
+    std::int16_t x = -1;  // the nearest known cell; −1: none yet
+    std::int16_t y = -1;
+  };
+
+  std::span<HeightCell> first;
+  std::span<HeightCell> second;
+  std::span<Source> sources;
+  std::span<FlankArea> flanks;  // by label
+
+  template <class Allocator>
+  constexpr void allocate(Allocator& arena, std::size_t max_cells) {
+    first = arena.template take<HeightCell>(max_cells);
+    second = arena.template take<HeightCell>(max_cells);
+    sources = arena.template take<Source>(max_cells);
+    flanks = arena.template take<FlankArea>(256);
+  }
+};
+
+// The fused map in `workspace.first`: every cell of the dish's bounding box has the height and label of the
+// upper surface there. Where both views see it, their mean by weight; where one, its own. A patch between
+// samples whose line of sight grazes it is no surface, but nothing lies above it (space carving, Kutulakos &
+// Seitz 2000): under it a cell is hidden. A cell hidden from all views continues the nearest seen item, as
+// steep as that item's visible flanks, between the dish and the lowest bound; behind the dish's own rim it
+// continues level. `kind` stays hidden for filled cells. Grids without points count as no view.
+// out_of_memory when the dish has more cells than the workspace; too_little_depth when nothing is seen;
+// invalid_configuration for a cell size that is not positive.
+Status build_height_map(std::span<const SurfaceGrid> views, const PlacedDish& dish,
+                        const HeightMapParams& params, HeightMapWorkspace& workspace, HeightMap& map);
+
+}  // namespace traygauge

@@ -1,0 +1,71 @@
+#include "core/volume/height_volume.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/segmentation/label_regions.hpp"
+
+namespace traygauge {
+namespace {
+
+constexpr double kMm3PerMl = 1000.0;
+constexpr double kBinMm = 0.5;
+
+bool is_border(const HeightMap& map, int x, int y) {
+  const std::uint8_t label = map.cells.at(x, y).label;
+  return x == 0 || y == 0 || x + 1 == map.cells.width || y + 1 == map.cells.height ||
+         map.cells.at(x - 1, y).label != label || map.cells.at(x + 1, y).label != label ||
+         map.cells.at(x, y - 1).label != label || map.cells.at(x, y + 1).label != label;
+}
+
+double max_height(std::span<const std::uint32_t> histogram, double ignored_cells) {
+  double above = 0.0;
+  for (std::size_t bin = histogram.size(); bin-- > 0;) {
+    above += histogram[bin];
+    if (above > ignored_cells) return kBinMm * (static_cast<double>(bin) + 0.5);
+  }
+  return 0.0;
+}
+
+}  // namespace
+
+Status integrate_height_map(const HeightMap& map, const PlacedDish& dish, const HeightVolumeParams& params,
+                            HeightVolumeWorkspace& workspace) {
+  constexpr std::size_t kBins = HeightVolumeWorkspace::kBins;
+  std::fill(workspace.items.begin(), workspace.items.end(), HeightVolume{});
+  std::fill(workspace.histograms.begin(), workspace.histograms.end(), 0U);
+  const double cell_mm2 = map.cell_mm * map.cell_mm;
+  for (int y = 0; y < map.cells.height; ++y) {
+    for (int x = 0; x < map.cells.width; ++x) {
+      const HeightCell& cell = map.cells.at(x, y);
+      if (!is_item(cell.label)) continue;
+      const double height = static_cast<double>(cell.z_mm) - dish.height_mm(map.centre_mm(x, y));
+      HeightVolume& item = workspace.items[cell.label];
+      item.area_mm2 += cell_mm2;
+      item.column_volume_ml += height * cell_mm2 / kMm3PerMl;
+      if (cell.kind == CellKind::hidden) {
+        item.hidden_volume_ml += height * cell_mm2 / kMm3PerMl;
+        item.hidden_share += cell_mm2;
+      }
+      if (cell.undercut) item.undercut_mm2 += cell_mm2;
+      if (is_border(map, x, y)) item.border_share += cell_mm2;
+      const double bin = std::clamp(height / kBinMm, 0.0, static_cast<double>(kBins - 1));
+      ++workspace.histograms[cell.label * kBins + static_cast<std::size_t>(bin)];
+    }
+  }
+  bool any = false;
+  for (std::size_t label = 0; label < workspace.items.size(); ++label) {
+    HeightVolume& item = workspace.items[label];
+    if (!(item.area_mm2 > 0.0)) continue;
+    any = true;
+    item.volume_ml = item.column_volume_ml;
+    item.mean_height_mm = item.column_volume_ml * kMm3PerMl / item.area_mm2;
+    item.hidden_share /= item.area_mm2;
+    item.border_share /= item.area_mm2;
+    item.max_height_mm = max_height(workspace.histograms.subspan(label * kBins, kBins),
+                                    params.max_height_ignored_mm2 / cell_mm2);
+  }
+  return any ? StatusCode::ok : StatusCode::no_food_label;
+}
+
+}  // namespace traygauge
