@@ -1,4 +1,5 @@
 # make build | demo | test | bench: each installs what config/packages.txt names and is missing, then does it.
+# make without-surf: builds and tries what may be shipped where SURF's patents hold, in build-without-surf.
 # make lint | format | sanitize: further checks; CI=true adds the sanitizers to `make test`. Lint takes a quarter of an
 # hour and runs on its own.
 
@@ -11,7 +12,7 @@ launcher := $(if $(shell command -v ccache),-DCMAKE_CXX_COMPILER_LAUNCHER=ccache
 sources = git ls-files '*.cpp' '*.hpp'
 ctest = ctest --output-on-failure --no-tests=error -j $(JOBS) -LE '^bench$$'
 
-.PHONY: configure build build-all demo test bench lint format check-format check-captures sanitize asan-ubsan tsan packages clean
+.PHONY: configure build build-all demo test bench without-surf lint format check-format check-captures sanitize asan-ubsan tsan packages clean
 
 configure: packages
 	cmake --preset release $(launcher)
@@ -35,6 +36,13 @@ endif
 # Benchmarks are tests with the label bench: they print figures and run alone.
 bench: build-all
 	ctest --test-dir build -L '^bench$$' -V --no-tests=error
+
+# The measurement refuses profile paper there; the tests that measure with it are left out.
+WITHOUT_SURF_TESTS = core_symbols_test without_surf_test firmware_without_surf_test
+without-surf: packages
+	cmake --preset without-surf $(launcher)
+	cmake --build --preset without-surf -j $(JOBS) --target traygauge $(WITHOUT_SURF_TESTS)
+	$(ctest) --test-dir build-without-surf -R '^(CoreSymbols|WithoutSurf|ProgramWithoutSurf)\.'
 
 packages:
 	@config/install_packages.sh
@@ -72,4 +80,4 @@ tsan: packages
 	for test in $(TSAN_TESTS); do find build-tsan -type f -name $$test -exec {} --gtest_brief=1 \; -quit || exit; done
 
 clean:
-	rm -rf build build-debug build-asan-ubsan build-tsan
+	rm -rf build build-without-surf build-debug build-asan-ubsan build-tsan

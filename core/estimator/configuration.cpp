@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "core/estimator/feature_preparation.hpp"
+
 namespace traygauge {
 namespace {
 
@@ -51,7 +53,7 @@ Status validate(const Configuration& configuration) {
   if (configuration.dishes.empty() || configuration.dishes.size() > kMaxDishCandidates) {
     return StatusCode::invalid_configuration;
   }
-  for (const Status status : {validate(configuration.surf), validate(configuration.pose),
+  for (const Status status : {validate_feature_search(configuration), validate(configuration.pose),
                               validate(configuration.rectification), validate(configuration.stereo)}) {
     if (!status.ok()) return status;
   }

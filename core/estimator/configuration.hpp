@@ -120,7 +120,7 @@ struct Configuration {
   LabelAgreementParams label_agreement;
 };
 
-// invalid_configuration when a value lies outside its range.
+// invalid_configuration when a value lies outside its range; surf_not_built in a library without SURF.
 Status validate(const Configuration& configuration);
 
 }  // namespace traygauge

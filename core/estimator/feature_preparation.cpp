@@ -101,6 +101,10 @@ void append_features(const SearchPicture& picture, bool card_apart, std::size_t 
 
 }  // namespace
 
+Status validate_feature_search(const Configuration& configuration) {
+  return validate(configuration.surf);
+}
+
 double fit_search_scale(double wanted, int width, int height, const EstimatorLimits& limits) {
   const double by_area = std::sqrt(limits.max_feature_px / (static_cast<double>(width) * height));
   return std::min({wanted, by_area, static_cast<double>(limits.max_frame_width) / width,
@@ -122,23 +126,6 @@ Status prepare_features(const Configuration& configuration, PreparationWorkspace
   return view.keypoints.size() < static_cast<std::size_t>(configuration.view.min_keypoints)
              ? StatusCode::too_few_features
              : StatusCode::ok;
-}
-
-Status take_features(std::span<const Keypoint> keypoints, std::span<const Descriptor> descriptors,
-                     const ViewParams& params, PreparedView& view) {
-  if (keypoints.size() != descriptors.size()) return StatusCode::invalid_configuration;
-  view.keypoints.clear();
-  view.keypoints_found = keypoints.size();
-  for (std::size_t i = 0; i < keypoints.size() && !view.keypoints.full(); ++i) {
-    const std::size_t at = view.keypoints.size();
-    Vec2 ray;
-    if (!view.lens.undistort_pixel(keypoints[i].pixel, ray)) continue;
-    view.keypoints.push_back(keypoints[i]);
-    view.ray_storage[at] = ray;
-    view.descriptor_storage[at] = descriptors[i];
-  }
-  return view.keypoints.size() < static_cast<std::size_t>(params.min_keypoints) ? StatusCode::too_few_features
-                                                                                : StatusCode::ok;
 }
 
 }  // namespace traygauge

@@ -9,6 +9,7 @@
 #include "firmware/base/text.hpp"
 #include "firmware/config/dish_library.hpp"
 #include "firmware/config/parameters.hpp"
+#include "firmware/config/profile.hpp"
 #include "firmware/evaluate/evaluation.hpp"
 #include "firmware/measure/measure_command.hpp"
 #include "simulator/capture/png_writer.hpp"
@@ -71,7 +72,7 @@ void add_evaluate_command(CLI::App& app, EvaluateOptions& options) {
 }
 
 int run_evaluate(const EvaluateOptions& options, std::ostream& out, std::ostream& error) {
-  check_profile(options.profile);
+  choose_profile(options.profile);
   check_label_source(options.labels);
   ProtocolOptions protocol;
   protocol.runs = options.runs;

@@ -8,6 +8,7 @@
 
 #include "firmware/base/exit_status.hpp"
 #include "firmware/config/dish_library.hpp"
+#include "firmware/config/profile.hpp"
 #include "firmware/measure/capture_session.hpp"
 #include "firmware/measure/measure_report.hpp"
 #include "firmware/measure/mesh_file.hpp"
@@ -17,7 +18,6 @@
 namespace traygauge {
 namespace {
 
-constexpr const char* kProfile = "paper";
 constexpr std::uint64_t kDefaultSeed = 0;
 
 // The whole of `text` as a number.
@@ -52,7 +52,7 @@ MeasureReport compose_report(const MeasureOptions& options, const CaptureSession
   MeasureReport report;
   report.capture = options.capture;
   report.pair = pair;
-  report.profile = kProfile;
+  report.profile = choose_profile(options.profile);
   report.seed = seed;
   report.message = compose_message(measurement);
   report.measurement = &measurement;
@@ -92,14 +92,6 @@ void add_measure_command(CLI::App& app, MeasureOptions& options) {
   command->add_option("--picture", options.picture, "Write a PNG with views, disparity and heights");
   command->add_option("--mesh", options.mesh,
                       "Write the food surface as PLY, in mm over the bottom of the dish");
-}
-
-void check_profile(const std::string& profile) {
-  if (profile.empty() || profile == kProfile) return;
-  if (profile == "best") {
-    throw UsageError("--profile best is not part of this version; use --profile paper, which is the default");
-  }
-  throw UsageError("--profile: expected paper, found " + printable(profile));
 }
 
 void check_label_source(const std::string& source) {
@@ -146,7 +138,7 @@ std::uint64_t parse_seed(const std::string& typed) {
 }
 
 int run_measure(const MeasureOptions& options, std::ostream& out, std::ostream& error) {
-  check_profile(options.profile);
+  choose_profile(options.profile);
   check_label_source(options.labels);
   const std::uint64_t seed = parse_seed(options.seed);
   check_output(options.picture);

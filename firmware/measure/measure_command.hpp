@@ -34,8 +34,7 @@ int run_measure(const MeasureOptions& options, std::ostream& out, std::ostream& 
 // The pair that `typed` ("A,B") names; without it the first of the capture's, else 0 and 1.
 std::array<int, 2> choose_pair(const std::string& typed, const Capture& capture);
 
-// UsageError unless this version has the profile, or the source of labels; empty: the default.
-void check_profile(const std::string& profile);
+// UsageError unless this version has the source of labels; empty: the default.
 void check_label_source(const std::string& source);
 
 // The capture's dish, or those of the library in the folder `config` (empty: the usual one) to choose from.

@@ -4,6 +4,7 @@
 #include <string_view>
 
 #include "firmware/base/exit_status.hpp"
+#include "firmware/config/profile.hpp"
 #include "firmware/station/scan_printer.hpp"
 #include "simulator/capture/input_error.hpp"
 #include "simulator/devices/capture_folders.hpp"
@@ -69,12 +70,14 @@ CLI::App* add_station_command(CLI::App& app, StationCommand& command) {
                     "Without an arm: move the camera and press again for the second view");
   station->add_option("--second-view", command.second_view_deg, "Where the arm goes, degrees from home")
       ->capture_default_str();
+  station->add_option("--profile", command.profile, "paper (default): every stage as the paper describes it");
   station->add_option("--seed", command.seed, "Seed of the random samples")->capture_default_str();
   return station;
 }
 
 int run_station(const StationCommand& command, const OpenCaptures& open_captures,
                 const std::atomic<bool>& stop, std::ostream& out, std::ostream& log) {
+  choose_profile(command.profile);
   if (!command.devices.starts_with(kSimulatorPrefix)) {
     throw UsageError("--devices: expected simulator:FOLDER, found " + printable(command.devices));
   }

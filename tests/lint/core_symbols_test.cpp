@@ -1,5 +1,5 @@
-// The core library refers to no symbol that allocates or throws. Unoptimised builds keep calls that can never
-// be reached, so this looks at Release builds.
+// The core library refers to no symbol that allocates or throws, and holds no SURF where that is not built.
+// Unoptimised builds keep calls that can never be reached, so the former looks at Release builds.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -13,11 +13,12 @@ namespace {
 
 struct Symbols {
   std::set<std::string> undefined;
-  std::size_t defined = 0;
+  std::set<std::string> defined;
 };
 
 // nm prints "address type name", without an address for what is undefined: type U.
 Symbols read_symbols(const std::string& archive) {
+  static const std::regex kCode(R"([0-9a-f]+ [TtWw] (.*))");
   const std::string command = std::string(TRAYGAUGE_NM) + " -C '" + archive + "'";
   const std::unique_ptr<FILE, int (*)(FILE*)> pipe(popen(command.c_str(), "r"), pclose);
   Symbols symbols;
@@ -26,13 +27,28 @@ Symbols read_symbols(const std::string& archive) {
     std::string text = line.data();
     text.erase(text.find_last_not_of('\n') + 1);
     const std::size_t mark = text.find(" U ");
+    std::smatch match;
     if (mark != std::string::npos) {
       symbols.undefined.insert(text.substr(mark + 3));
-    } else if (text.find(" T ") != std::string::npos) {
-      ++symbols.defined;
+    } else if (std::regex_match(text, match, kCode)) {
+      symbols.defined.insert(match[1]);
     }
   }
   return symbols;
+}
+
+// Defined or called.
+std::set<std::string> surf_symbols(const std::string& archive) {
+  static const std::regex kSurf(
+      "(detect|describe)_surf|Surf(Params|Workspace)|compute_response_row|derivatives_at|find_orientation|"
+      "haar_response");
+  Symbols symbols = read_symbols(archive);
+  symbols.defined.merge(symbols.undefined);
+  std::set<std::string> found;
+  for (const std::string& symbol : symbols.defined) {
+    if (std::regex_search(symbol, kSurf)) found.insert(symbol);
+  }
+  return found;
 }
 
 std::set<std::string> forbidden_symbols(const std::string& archive) {
@@ -48,10 +64,16 @@ std::set<std::string> forbidden_symbols(const std::string& archive) {
 TEST(CoreSymbols, NoneAllocates) {
   if (std::string(TRAYGAUGE_BUILD_TYPE) != "Release") GTEST_SKIP() << "a " TRAYGAUGE_BUILD_TYPE " build";
   if (!std::string(TRAYGAUGE_SANITIZED).empty()) GTEST_SKIP() << "built with sanitizers";
-  EXPECT_GT(read_symbols(TRAYGAUGE_CORE_ARCHIVE).defined, 0U) << "nm said nothing";
+  EXPECT_FALSE(read_symbols(TRAYGAUGE_CORE_ARCHIVE).defined.empty()) << "nm said nothing";
   for (const std::string& symbol : forbidden_symbols(TRAYGAUGE_CORE_ARCHIVE)) {
     ADD_FAILURE() << TRAYGAUGE_CORE_ARCHIVE << " refers to " << symbol;
   }
+}
+
+TEST(CoreSymbols, HoldSurfOnlyWhereItIsBuilt) {
+  EXPECT_EQ(!surf_symbols(TRAYGAUGE_CORE_ARCHIVE).empty(), TRAYGAUGE_HAS_SURF != 0);
+  EXPECT_FALSE(read_symbols(TRAYGAUGE_CORE_ARCHIVE_WITHOUT_SURF).defined.empty()) << "nm said nothing";
+  for (const std::string& symbol : surf_symbols(TRAYGAUGE_CORE_ARCHIVE_WITHOUT_SURF)) ADD_FAILURE() << symbol;
 }
 
 TEST(CoreSymbols, WouldBeFound) {

@@ -37,8 +37,8 @@ SyntheticScene::SyntheticScene(int width, int height)
     }
   }
   build_mesh();
-  items_ = {{2, 1, StatusCode::ok, 101.25, 3500.0, 29.0, 31.5},
-            {3, 1, StatusCode::ok, 22.5, 1900.0, 11.8, 12.5}};
+  items_ = {{2, 1, StatusCode::ok, 101.25, 101.25, 0.0, 3500.0, 29.0, 31.5},
+            {3, 1, StatusCode::ok, 22.5, 22.5, 0.0, 1900.0, 11.8, 12.5}};
 }
 
 double SyntheticScene::height_mm(int x, int y) const {

@@ -1,0 +1,9 @@
+#include "core/features/has_surf.hpp"
+
+namespace traygauge {
+
+bool has_surf() {
+  return false;
+}
+
+}  // namespace traygauge
