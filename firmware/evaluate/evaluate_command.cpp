@@ -1,16 +1,20 @@
 #include "firmware/evaluate/evaluate_command.hpp"
 
-#include <chrono>
+#include <unistd.h>
+
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <iostream>
 #include <ostream>
 
 #include "firmware/base/exit_status.hpp"
-#include "firmware/base/text.hpp"
 #include "firmware/config/dish_library.hpp"
 #include "firmware/config/parameters.hpp"
 #include "firmware/config/profile.hpp"
 #include "firmware/evaluate/evaluation.hpp"
+#include "firmware/evaluate/evaluation_plots.hpp"
+#include "firmware/evaluate/progress.hpp"
 #include "firmware/measure/measure_command.hpp"
 #include "simulator/capture/png_writer.hpp"
 
@@ -20,37 +24,46 @@ namespace {
 constexpr int kMaxRuns = 1000;
 constexpr int kMaxJobs = 64;
 
-// "12 of 36 pairs, 40 s left", over itself.
-class ProgressLine {
- public:
-  explicit ProgressLine(std::ostream& stream) : stream_(stream) {}
-
-  void show(std::size_t done, std::size_t all) {
-    const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start_;
-    const double left_s = elapsed.count() / static_cast<double>(done) * static_cast<double>(all - done);
-    stream_ << "\r" << done << " of " << all << " pairs, " << fixed(left_s, 0) << " s left   " << std::flush;
-    if (done == all) stream_ << "\r" << std::string(kWidth, ' ') << "\r" << std::flush;
-  }
-
- private:
-  static constexpr std::size_t kWidth = 40;
-  std::ostream& stream_;
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
-
 void write_text(const std::filesystem::path& file, const std::string& text) {
   std::ofstream stream(file, std::ios::binary);
   stream << text;
   if (!stream.flush()) throw OutputError(file, "it could not be written");
 }
 
-bool is_any_measured(const std::vector<PairRuns>& runs) {
-  for (const PairRuns& pair : runs) {
-    for (const Run& run : pair.runs) {
-      if (run.status == StatusCode::ok || run.status == StatusCode::partial) return true;
-    }
-  }
-  return false;
+bool is_on_terminal(const std::ostream& stream) {
+  return &stream == &std::cerr && isatty(STDERR_FILENO) == 1;
+}
+
+bool is_any_measured(const Evaluation& evaluation) {
+  return std::any_of(evaluation.items.begin(), evaluation.items.end(),
+                     [](const ItemEvaluation& item) { return item.figures.estimates > 0; });
+}
+
+// Whether results can be stored is known before the work is done.
+void create_folder(const std::filesystem::path& folder) {
+  std::error_code problem;
+  std::filesystem::create_directories(folder, problem);
+  if (!std::filesystem::is_directory(folder)) throw OutputError(folder, "it is no folder");
+}
+
+void write_files(const std::filesystem::path& folder, const Evaluation& evaluation,
+                 const std::vector<PairRuns>& runs) {
+  write_text(folder / "estimates.csv", compose_estimates_csv(runs));
+  write_text(folder / "runs.csv", compose_runs_csv(runs));
+  write_text(folder / "items.csv", compose_items_csv(evaluation));
+  write_text(folder / "captures.csv", compose_captures_csv(evaluation));
+  write_text(folder / "summary.json", compose_summary_json(evaluation));
+  write_text(folder / "signed_errors.svg", plot_signed_errors(evaluation));
+  write_text(folder / "variation.svg", plot_variation(evaluation));
+  write_text(folder / "error_by_angle.svg", plot_error_by_angle(evaluation));
+  write_text(folder / "volumes.svg", plot_volumes(evaluation));
+}
+
+std::vector<PairRuns> run_with_progress(const EvaluateOptions& options, const ProtocolOptions& protocol,
+                                        std::vector<std::string>& skipped, std::ostream& error) {
+  Progress progress(error, is_on_terminal(error));
+  return run_protocol(options.set, protocol, skipped,
+                      [&](std::size_t done, std::size_t all) { progress.show(done, all); });
 }
 
 }  // namespace
@@ -64,7 +77,8 @@ void add_evaluate_command(CLI::App& app, EvaluateOptions& options) {
       ->check(CLI::Range(1, kMaxJobs));
   command->add_option("--profile", options.profile, "paper (default)");
   command->add_option("--labels", options.labels, "given (default)");
-  command->add_option("--out", options.out, "Folder for estimates.csv and runs.csv");
+  command->add_option("--out", options.out, "Folder for CSV files, plots (SVG) and summary.json");
+  command->add_flag("--json", options.json, "Print summary.json instead of tables");
   command->add_option("--config", options.config, "Folder with dishes/, for captures that name no dish")
       ->envname("TRAYGAUGE_CONFIG");
   command->add_option("--set", options.settings, "Try another value: NAME=VALUE, several times")->take_all();
@@ -77,6 +91,7 @@ int run_evaluate(const EvaluateOptions& options, std::ostream& out, std::ostream
   ProtocolOptions protocol;
   protocol.runs = options.runs;
   protocol.jobs = options.jobs;
+  protocol.profile = abilities_of(options.profile);
   for (const std::string& setting : options.settings) set_parameter(protocol.parameters, setting);
   if (options.list_parameters) {
     for (const std::string& line : list_parameters(protocol.parameters)) out << line << "\n";
@@ -84,18 +99,13 @@ int run_evaluate(const EvaluateOptions& options, std::ostream& out, std::ostream
   }
   if (options.set.empty()) throw UsageError("evaluate: name a capture or a folder of captures");
   protocol.config_folder = find_config_folder(options.config);
-  if (!options.out.empty()) std::filesystem::create_directories(options.out);
+  if (!options.out.empty()) create_folder(options.out);
   std::vector<std::string> skipped;
-  ProgressLine progress(error);
-  const std::vector<PairRuns> runs = run_protocol(
-      options.set, protocol, skipped, [&](std::size_t done, std::size_t all) { progress.show(done, all); });
-  for (const std::string& line : skipped) out << "skipped " << line << "\n";
-  out << compose_evaluation(runs);
-  if (!options.out.empty()) {
-    write_text(std::filesystem::path(options.out) / "estimates.csv", compose_estimates_csv(runs));
-    write_text(std::filesystem::path(options.out) / "runs.csv", compose_runs_csv(runs));
-  }
-  return is_any_measured(runs) ? kExitMeasured : kExitNotMeasurable;
+  const std::vector<PairRuns> runs = run_with_progress(options, protocol, skipped, error);
+  const Evaluation evaluation = evaluate_runs(options.set, protocol, runs, skipped);
+  if (!options.out.empty()) write_files(options.out, evaluation, runs);
+  out << (options.json ? compose_summary_json(evaluation) : compose_tables(evaluation));
+  return is_any_measured(evaluation) ? kExitMeasured : kExitNotMeasurable;
 }
 
 }  // namespace traygauge

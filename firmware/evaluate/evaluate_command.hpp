@@ -17,6 +17,7 @@ struct EvaluateOptions {
   int runs = 8;
   int jobs = 1;
   std::vector<std::string> settings;
+  bool json = false;
   bool list_parameters = false;
 };
 

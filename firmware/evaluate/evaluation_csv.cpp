@@ -1,3 +1,4 @@
+#include <cmath>
 #include <sstream>
 #include <string>
 
@@ -6,6 +7,23 @@
 
 namespace traygauge {
 namespace {
+
+// Quoted where it has to be (RFC 4180).
+std::string field(const std::string& text) {
+  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
+  std::string quoted = "\"";
+  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return quoted + "\"";
+}
+
+// Blank where not defined.
+std::string number(double value, int decimals) {
+  return std::isnan(value) ? "" : fixed(value, decimals);
+}
+
+std::string number(const std::optional<double>& value, int decimals) {
+  return value ? fixed(*value, decimals) : "";
+}
 
 std::string errors_or_blanks(const std::optional<StageErrors>& errors) {
   if (!errors) return ",,,,,,";
@@ -17,50 +35,105 @@ std::string errors_or_blanks(const std::optional<StageErrors>& errors) {
   return text;
 }
 
+std::string list_warnings(const Run& run) {
+  std::string list;
+  for (std::size_t i = 0; i < run.warnings.size(); ++i) {
+    if (!run.warnings[i]) continue;
+    if (!list.empty()) list += ' ';
+    list += name(static_cast<Warning>(i));
+  }
+  return list;
+}
+
+std::string estimate_row(const PairRuns& pair, const Run& run, const TruthItem& item) {
+  const ItemEstimate* estimate = estimate_of(run, item.label);
+  std::ostringstream row;
+  row << field(pair.capture) << ',' << pair.pair[0] << ',' << pair.pair[1] << ',' << run.seed << ','
+      << fixed(run.relative_angle_deg, 3) << ',' << item.label << ',' << field(item.name) << ','
+      << field(item.kind) << ',' << (estimate ? "ok" : "refused") << ','
+      << (estimate ? fixed(estimate->volume_ml, 3) : "") << ',' << fixed(item.volume_ml, 3) << ','
+      << number(item.volume_above_bottom_plane_ml, 3) << ','
+      << (estimate && estimate->sigma_ml > 0.0 ? fixed(estimate->sigma_ml, 3) : "") << ','
+      << (estimate ? fixed(estimate->column_volume_ml, 3) : "") << ',' << number(item.column_volume_ml, 3)
+      << ',' << (estimate ? "" : name_of_refusal(run, item.label)) << ',' << number(pair.true_angle_deg, 3)
+      << ',' << (is_warned(run) ? 1 : 0) << '\n';
+  return row.str();
+}
+
 }  // namespace
 
 std::string compose_estimates_csv(const std::vector<PairRuns>& runs) {
-  std::ostringstream csv;
-  csv << "capture,first,second,seed,angle_deg,label,name,kind,status,volume_ml,truth_ml,truth_above_bottom_"
-         "plane_ml\n";
+  std::string csv =
+      "capture,first,second,seed,angle_deg,label,name,kind,status,volume_ml,truth_ml,"
+      "truth_above_bottom_plane_ml,sigma_ml,column_volume_ml,column_truth_ml,refusal,true_angle_deg,warned\n";
   for (const PairRuns& pair : runs) {
     for (const Run& run : pair.runs) {
-      for (const TruthItem& item : pair.truth.items) {
-        csv << pair.capture << ',' << pair.pair[0] << ',' << pair.pair[1] << ',' << run.seed << ','
-            << fixed(run.relative_angle_deg, 3) << ',' << item.label << ',' << item.name << ',' << item.kind
-            << ',';
-        const auto estimate = estimate_of(run, item.label);
-        csv << (estimate ? "ok" : "refused") << ',' << (estimate ? fixed(*estimate, 3) : "") << ','
-            << fixed(item.volume_ml, 3) << ','
-            << (item.volume_above_bottom_plane_ml ? fixed(*item.volume_above_bottom_plane_ml, 3) : "")
-            << '\n';
-      }
+      for (const TruthItem& item : pair.truth.items) csv += estimate_row(pair, run, item);
     }
   }
-  return csv.str();
+  return csv;
 }
 
 std::string compose_runs_csv(const std::vector<PairRuns>& runs) {
   std::ostringstream csv;
   csv << "capture,first,second,seed,status,angle_deg,keypoints_first,keypoints_second,matches,inliers,"
-         "threshold_px,"
-         "card_tracks,rim_points,rim_height_mm,rows,columns,disparities,matched_share,label_agreement,total_"
-         "ms,"
-         "rotation_deg,direction_deg,scale_percent,bottom_tilt_deg,bottom_offset_mm,table_tilt_deg,table_"
-         "offset_mm\n";
+         "threshold_px,card_tracks,rim_points,rim_height_mm,rows,columns,disparities,matched_share,"
+         "label_agreement,total_ms,rotation_deg,direction_deg,scale_percent,bottom_tilt_deg,bottom_offset_mm,"
+         "table_tilt_deg,table_offset_mm,true_angle_deg,warnings\n";
   for (const PairRuns& pair : runs) {
     for (const Run& run : pair.runs) {
       const MeasurementReport& report = run.report;
-      csv << pair.capture << ',' << pair.pair[0] << ',' << pair.pair[1] << ',' << run.seed << ','
+      csv << field(pair.capture) << ',' << pair.pair[0] << ',' << pair.pair[1] << ',' << run.seed << ','
           << name(run.status) << ',' << fixed(run.relative_angle_deg, 3) << ',' << report.keypoints[0] << ','
           << report.keypoints[1] << ',' << report.matches << ',' << report.inliers << ','
           << fixed(report.inlier_threshold_px, 3) << ',' << report.card_tracks << ',' << report.rim_points
           << ',' << fixed(report.rim_height_mm, 3) << ',' << report.rectified_rows << ','
           << report.rectified_columns << ',' << report.disparity_range.count() << ','
           << fixed(report.matched_share, 4) << ',' << fixed(report.label_agreement, 4) << ','
-          << fixed(run.total_ms, 1) << ',' << errors_or_blanks(run.errors) << '\n';
+          << fixed(run.total_ms, 1) << ',' << errors_or_blanks(run.errors) << ','
+          << number(pair.true_angle_deg, 3) << ',' << list_warnings(run) << '\n';
     }
   }
+  return csv.str();
+}
+
+std::string compose_items_csv(const Evaluation& evaluation) {
+  std::ostringstream csv;
+  csv << "capture,label,name,kind,truth_ml,mean_ml,estimates,refused,mape,bias,cv,cv_seeds,sigma_percent,"
+         "within_two_sigma\n";
+  for (const ItemEvaluation& item : evaluation.items) {
+    const ItemFigures& figures = item.figures;
+    csv << field(item.series.capture) << ',' << item.series.label << ',' << field(item.series.name) << ','
+        << (item.series.overhangs ? "scan" : "heightfield") << ',' << fixed(item.series.truth_ml, 3) << ','
+        << number(figures.mean_ml, 3) << ',' << figures.estimates << ',' << figures.refused << ','
+        << number(figures.mape, 3) << ',' << number(figures.bias, 3) << ',' << number(figures.cv, 3) << ','
+        << number(figures.cv_seeds, 3) << ',' << number(item.sigma.median_relative_sigma, 3) << ','
+        << number(item.sigma.coverage, 2) << '\n';
+  }
+  return csv.str();
+}
+
+std::string compose_captures_csv(const Evaluation& evaluation) {
+  std::ostringstream csv;
+  csv << "capture,items,estimates,refused,mape,bias,cv,cv_seeds,within_10,within_20,rotation_deg,"
+         "direction_deg,scale_percent,bottom_tilt_deg,bottom_offset_mm,table_tilt_deg,table_offset_mm,ms,"
+         "mape_refusals_as_100,pmae,mape_above_bottom_plane,bias_above_bottom_plane\n";
+  const auto add = [&](const CaptureEvaluation& capture) {
+    const SetFigures& foods = capture.foods;
+    const StageFigures& stages = capture.stages;
+    csv << field(capture.capture) << ',' << foods.items << ',' << foods.estimates << ',' << foods.refused;
+    for (const double value :
+         {foods.mape, foods.bias, foods.cv, foods.cv_seeds, foods.within_10, foods.within_20,
+          stages.rotation_deg, stages.direction_deg, stages.scale_percent, stages.bottom_tilt_deg,
+          stages.bottom_offset_mm, stages.table_tilt_deg, stages.table_offset_mm, stages.time_ms,
+          foods.mape_refusals_as_100, foods.pmae, capture.foods_above_plane.mape,
+          capture.foods_above_plane.bias}) {
+      csv << ',' << number(value, 3);
+    }
+    csv << '\n';
+  };
+  for (const CaptureEvaluation& capture : evaluation.captures) add(capture);
+  add(evaluation.all);
   return csv.str();
 }
 

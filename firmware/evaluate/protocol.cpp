@@ -18,6 +18,14 @@ struct Task {
   std::array<int, 2> pair{};
 };
 
+// A set may be a capture itself: then the folder's own name.
+std::string name_below(const std::filesystem::path& set, const std::filesystem::path& folder) {
+  const std::string name = folder.lexically_relative(set).string();
+  if (name != ".") return name;
+  const std::filesystem::path path = std::filesystem::absolute(folder).lexically_normal();
+  return (path.has_filename() ? path : path.parent_path()).filename().string();
+}
+
 Pose pose_of(const WorldToCamera& matrix) {
   Pose pose;
   for (int row = 0; row < 3; ++row) {
@@ -42,54 +50,69 @@ Run record(const Measurement& measurement, std::uint64_t seed, const std::option
   run.status = measurement.status.code();
   run.relative_angle_deg = measurement.relative_angle_deg;
   run.total_ms = measurement.total_ms;
+  run.warnings = measurement.warnings;
   run.report = measurement.report;
   for (const ItemResult& item : measurement.items)
-    run.items.push_back({item.label, item.status, item.volume_ml});
+    run.items.push_back({item.label, item.status, item.volume_ml, item.column_volume_ml, item.sigma_ml});
   if (truth && !measurement.items.empty()) run.errors = stage_errors(measurement, *truth);
   return run;
 }
 
-PairRuns run_pair(const std::filesystem::path& set, const Task& task, const ProtocolOptions& options) {
+PairRuns run_pair(const std::filesystem::path& set, const Task& task, const ProtocolOptions& options,
+                  const std::function<void()>& measured) {
   const Capture capture = read_capture(task.folder);
   const std::vector<DishDescription> dishes =
       capture.dishes.empty() ? read_dish_library(options.config_folder) : capture.dishes;
   PairRuns result;
-  result.capture = task.folder.lexically_relative(set).string();
+  result.capture = name_below(set, task.folder);
   result.pair = task.pair;
   result.truth = read_truth(task.folder).value();
   const auto truth = truth_of(result.truth, task, dishes.front());
+  if (truth) result.true_angle_deg = truth->relative_angle_deg();
   CaptureSession session(capture, task.pair, dishes, options.parameters);
   for (int run = 1; run <= options.runs; ++run) {
     const auto seed = static_cast<std::uint64_t>(run);
     result.runs.push_back(record(session.measure(seed), seed, truth));
+    measured();
   }
   return result;
 }
 
-std::vector<Task> plan_tasks(const std::filesystem::path& set, std::vector<std::string>& skipped) {
+// Why a capture cannot be evaluated; nothing when it can.
+std::optional<std::string> reason_to_skip(const std::filesystem::path& folder, const Capture& capture,
+                                          const ProfileAbilities& profile) {
+  if (capture.dishes.size() > 1 && !profile.measures_several_dishes)
+    return "several dishes; profile " + std::string(profile.name) + " measures one";
+  if (!read_truth(folder)) return "no truth.json";
+  return {};
+}
+
+std::vector<Task> plan_tasks(const std::filesystem::path& set, const ProtocolOptions& options,
+                             std::vector<std::string>& skipped) {
   std::vector<Task> tasks;
   for (const std::filesystem::path& folder : find_captures(set)) {
     const Capture capture = read_capture(folder);
-    const std::string name = folder.lexically_relative(set).string();
-    if (capture.dishes.size() > 1) {
-      skipped.push_back(name + ": several dishes; profile paper measures one");
-    } else if (!read_truth(folder)) {
-      skipped.push_back(name + ": no truth.json");
-    } else {
-      const auto pairs = capture.pairs.empty() ? std::vector<std::array<int, 2>>{{0, 1}} : capture.pairs;
-      for (const auto& pair : pairs) tasks.push_back({folder, pair});
+    if (const auto reason = reason_to_skip(folder, capture, options.profile)) {
+      skipped.push_back(name_below(set, folder) + ": " + *reason);
+      continue;
     }
+    const auto pairs = capture.pairs.empty() ? std::vector<std::array<int, 2>>{{0, 1}} : capture.pairs;
+    for (const auto& pair : pairs) tasks.push_back({folder, pair});
   }
   return tasks;
 }
 
 }  // namespace
 
-std::optional<double> estimate_of(const Run& run, int label) {
+const ItemEstimate* estimate_of(const Run& run, int label) {
   for (const ItemEstimate& item : run.items) {
-    if (item.label == label && item.status == StatusCode::ok) return item.volume_ml;
+    if (item.label == label && item.status == StatusCode::ok) return &item;
   }
-  return {};
+  return nullptr;
+}
+
+bool is_warned(const Run& run) {
+  return std::find(run.warnings.begin(), run.warnings.end(), true) != run.warnings.end();
 }
 
 std::vector<std::filesystem::path> find_captures(const std::filesystem::path& set) {
@@ -113,24 +136,27 @@ std::vector<std::filesystem::path> find_captures(const std::filesystem::path& se
 std::vector<PairRuns> run_protocol(const std::filesystem::path& set, const ProtocolOptions& options,
                                    std::vector<std::string>& skipped,
                                    const std::function<void(std::size_t, std::size_t)>& progress) {
-  const std::vector<Task> tasks = plan_tasks(set, skipped);
+  const std::vector<Task> tasks = plan_tasks(set, options, skipped);
+  const std::size_t measurements = tasks.size() * static_cast<std::size_t>(options.runs);
   std::vector<PairRuns> results(tasks.size());
   std::atomic<std::size_t> next{0};
   std::size_t done = 0;
   std::mutex mutex;
   std::exception_ptr failure;
+  const auto measured = [&] {
+    const std::lock_guard lock(mutex);
+    progress(++done, measurements);
+  };
   const auto work = [&] {
     for (std::size_t i = next++; i < tasks.size(); i = next++) {
       try {
-        results[i] = run_pair(set, tasks[i], options);
+        results[i] = run_pair(set, tasks[i], options, measured);
       } catch (...) {
         const std::lock_guard lock(mutex);
         if (!failure) failure = std::current_exception();
         next = tasks.size();
         return;
       }
-      const std::lock_guard lock(mutex);
-      progress(++done, tasks.size());
     }
   };
   {

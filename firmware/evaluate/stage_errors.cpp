@@ -33,6 +33,12 @@ Pose PairTruth::second_from_first() const {
           second_from_world * world_from_first.translation};
 }
 
+double PairTruth::relative_angle_deg() const {
+  const Vec3 target(0.0, 0.0, bottom_height_mm);
+  return angle_deg(first_from_world.inverse().translation - target,
+                   second_from_world.inverse().translation - target);
+}
+
 StageErrors stage_errors(const Measurement& measurement, const PairTruth& truth) {
   const Pose expected = truth.second_from_first();
   const Pose& found = measurement.second_from_first;

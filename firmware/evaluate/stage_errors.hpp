@@ -13,6 +13,7 @@ struct PairTruth {
   double bottom_height_mm = 0.0;
 
   Pose second_from_first() const;
+  double relative_angle_deg() const;  // between the lines of sight to the middle of the dish's bottom
 };
 
 struct StageErrors {

@@ -1,49 +1,24 @@
-// The paper's figures of merit (IV-B, equations 2 to 4) and what is reported beside them.
+// Statistics of plain numbers. What is not defined (a median of nothing, say) is NaN.
 #pragma once
 
-#include <string>
 #include <vector>
 
 namespace traygauge {
 
-// All estimates of one food item, over pairs and seeds.
-struct ItemSeries {
-  std::string capture;
-  int label = 0;
-  std::string name;
-  bool overhangs = false;  // a scanned fruit: reported apart
-  double truth_ml = 0.0;
-  std::vector<double> estimates_ml;
-  int refusals = 0;  // runs that gave no volume for it
-};
+double mean(const std::vector<double>& values);
 
-// Of one item; percentages. Meaningless without estimates.
-struct ItemFigures {
-  double mape = 0.0;  // equation (2)
-  double bias = 0.0;  // mean signed error
-  double cv = 0.0;    // equation (3)
-};
-ItemFigures item_figures(const ItemSeries& series);
+// Standard deviation: divided by n, as in the paper's equation (3), or by n - 1.
+double population_deviation(const std::vector<double>& values);
+double sample_deviation(const std::vector<double>& values);
 
-// Over items; every figure but `refused` leaves refusals out, `mape_refusals_as_100` counts each as 100 %.
-struct SetFigures {
-  int items = 0;  // with at least one estimate
-  int estimates = 0;
-  int refused = 0;
-  double mape = 0.0;  // equation (4)
-  double mape_refusals_as_100 = 0.0;
-  double pmae = 0.0;  // mean absolute error over mean truth
-  double bias = 0.0;
-  double limit_low = 0.0;  // 95 % limits of agreement: bias ± 1.96 standard deviations of the signed errors
-  double limit_high = 0.0;
-  double cv = 0.0;         // mean over items
-  double within_10 = 0.0;  // share of estimates in per cent
-  double within_20 = 0.0;
-  double worst = 0.0;  // signed error with the largest absolute value
-};
-SetFigures set_figures(const std::vector<ItemSeries>& items);
-
-// Of unordered numbers; NaN when there are none.
+// Linear between order statistics (R's type 7); `share` from 0 to 1.
+double quantile(std::vector<double> values, double share);
 double median(std::vector<double> values);
+
+// 1 for the smallest; equal values share the mean of their ranks.
+std::vector<double> ranks(const std::vector<double>& values);
+
+// Spearman's: Pearson's correlation of the ranks. NaN when one of the two does not vary.
+double rank_correlation(const std::vector<double>& first, const std::vector<double>& second);
 
 }  // namespace traygauge
