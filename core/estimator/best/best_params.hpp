@@ -1,0 +1,39 @@
+// The parameters of profile `best`, stage by stage.
+#pragma once
+
+#include "core/estimator/best/uncertainty.hpp"
+#include "core/matching/point_tracking.hpp"
+#include "core/pose/joint_refinement.hpp"
+#include "core/scale/card_alignment.hpp"
+#include "core/surface/dish_outline.hpp"
+#include "core/surface/height_map.hpp"
+#include "core/surface/two_view_surface.hpp"
+#include "core/volume/height_volume.hpp"
+
+namespace traygauge {
+
+// What ties the stages together.
+struct BestPipelineParams {
+  // Above the tallest sparse point on a dish the surface is searched this much higher: corners sit on edges and
+  // texture, not on every summit.
+  double summit_margin_mm = 20.0;
+  // No search ends below this height over a dish's bottom, however few points there are on the food.
+  double min_top_mm = 40.0;
+  std::size_t max_outline_points = 1024;  // of one dish in one view: a contour of 8 sides a point
+  std::size_t max_contour_sides = 8192;   // of one dish in one view, twice what a round one of 1600 px has
+  std::size_t max_height_cells = 180'000;  // of a dish's height map: 360 × 360 mm at 0.85 mm
+};
+
+struct BestParams {
+  CardAlignmentParams card;
+  PointTrackingParams tracking;
+  DishOutlineParams outline;
+  JointParams joint;
+  TwoViewSurfaceParams surface;
+  HeightMapParams height_map;
+  HeightVolumeParams volume;
+  UncertaintyParams uncertainty;
+  BestPipelineParams pipeline;
+};
+
+}  // namespace traygauge

@@ -1,0 +1,29 @@
+#include "core/estimator/best/best_view.hpp"
+
+#include "core/estimator/view_checks.hpp"
+#include "core/image/exposure.hpp"
+#include "core/image/resample.hpp"
+
+namespace traygauge {
+
+Status prepare_best_view(const FrameView& frame, const Configuration& configuration,
+                         const CardPattern& pattern, CardAlignmentWorkspace& workspace, StageClock& clock,
+                         BestView& view) {
+  clock.enter(Stage::image);
+  if (const Status status = check_sizes(frame, view.labels, view.lens, configuration.limits); !status.ok()) {
+    return status;
+  }
+  view.regions = measure_regions(view.labels);
+  if (const Status status = check_labels(view.regions); !status.ok()) return status;
+
+  const ImageView<std::uint8_t> gray{view.gray_storage.data, frame.width, frame.height};
+  convert_to_gray(frame, gray);
+  if (const Status status = check_exposure(gray, configuration.exposure); !status.ok()) return status;
+  view.gray = build_pyramid(gray, view.pyramid);
+
+  clock.enter(Stage::scale);
+  return align_card(gray, view.labels, view.regions.card, view.lens, pattern, configuration.best.card,
+                    workspace, view.card);
+}
+
+}  // namespace traygauge

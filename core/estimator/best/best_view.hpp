@@ -1,0 +1,42 @@
+// One view as profile `best` keeps it until the measurement is done.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+
+#include "core/base/arena.hpp"
+#include "core/base/status.hpp"
+#include "core/estimator/configuration.hpp"
+#include "core/estimator/stage_clock.hpp"
+#include "core/image/camera.hpp"
+#include "core/image/gray_pyramid.hpp"
+#include "core/image_view/image_view.hpp"
+#include "core/scale/card_alignment.hpp"
+#include "core/segmentation/label_regions.hpp"
+
+namespace traygauge {
+
+struct BestView {
+  LensModel lens;
+  std::optional<double> arm_angle_deg;
+  ImageView<const std::uint8_t> labels;  // of the stored picture, the caller's
+  LabelRegions regions;
+  CardAlignment card;
+  GrayPyramid gray;
+  ImageView<std::uint8_t> gray_storage;  // memory for the largest frame
+  PyramidWorkspace pyramid;
+
+  template <class Allocator>
+  constexpr void allocate(Allocator& arena, const EstimatorLimits& limits) {
+    gray_storage = arena.template take_image<std::uint8_t>(limits.max_frame_width, limits.max_frame_height);
+    pyramid.allocate(arena, limits.max_frame_width, limits.max_frame_height);
+  }
+};
+
+// Checks sizes, labels and exposure, makes the grey pyramid, and finds the card. `view` has its lens and labels.
+Status prepare_best_view(const FrameView& frame, const Configuration& configuration,
+                         const CardPattern& pattern, CardAlignmentWorkspace& workspace, StageClock& clock,
+                         BestView& view);
+
+}  // namespace traygauge

@@ -1,0 +1,168 @@
+#include "core/estimator/best/dish_measurement.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/estimator/best/uncertainty.hpp"
+
+namespace traygauge {
+namespace {
+
+// Box of everything that has one of `labels`.
+PixelBox box_of(const LabelRegions& regions, const LabelSet& labels) {
+  PixelBox box;
+  for (int value = 0; value < 256; ++value) {
+    const auto label = static_cast<std::uint8_t>(value);
+    if (labels.contains(label)) box = united(box, regions.boxes[label]);
+  }
+  return box;
+}
+
+std::array<StoredView, 2> stored_views(const std::array<BestView, 2>& views, const SceneGeometry& geometry,
+                                       const LabelSet& labels) {
+  std::array<StoredView, 2> stored;
+  for (std::size_t v = 0; v < 2; ++v) {
+    stored[v] = {views[v].gray.levels[0], views[v].labels, box_of(views[v].regions, labels), views[v].lens,
+                 geometry.joint.camera_from_table[v]};
+  }
+  return stored;
+}
+
+LabelTable table_of(const DishOnTray& dish) {
+  LabelTable table{};
+  for (int value = 0; value < 256; ++value) {
+    const auto label = static_cast<std::uint8_t>(value);
+    if (dish.labels.contains(label)) table[label] = label == dish.label ? kDishLabel : label;
+  }
+  return table;
+}
+
+// Height of the tallest sparse point on the dish, in the table frame; the bottom's without any.
+double tallest_track_mm(const SceneGeometry& geometry, const LabelSet& labels, double bottom_height_mm) {
+  const TableCameras& cameras = geometry.joint.camera_from_table;
+  const Pose motion = second_from_first(cameras);
+  double tallest_mm = bottom_height_mm;
+  for (const PointTrack& track : geometry.tracks) {
+    if (!labels.contains(track.label)) continue;
+    const Vec3 ray = track.first.homogeneous();
+    double depth_mm = 0.0;
+    if (!triangulate_depth(motion.rotation * ray, track.second.homogeneous(), motion.translation, depth_mm))
+      continue;
+    tallest_mm = std::max(tallest_mm, (cameras[0].inverse() * (depth_mm * ray)).z());
+  }
+  return tallest_mm;
+}
+
+struct DishHeights {
+  double bottom_mm = 0.0;
+  double top_mm = 0.0;
+};
+
+// Status of one item, once its dish was measured.
+StatusCode judge_item(const std::array<BestView, 2>& views, std::uint8_t label, const HeightVolume& volume,
+                      const VolumeExtractionParams& params) {
+  const std::uint32_t first_px = views[0].regions.pixels[label];
+  const std::uint32_t second_px = views[1].regions.pixels[label];
+  if (first_px == 0 || second_px == 0) return StatusCode::item_hidden;
+  if (std::min(first_px, second_px) < static_cast<std::uint32_t>(params.min_item_px)) {
+    return StatusCode::item_too_small;
+  }
+  if (!(volume.area_mm2 > 0.0)) return StatusCode::too_little_depth;
+  return volume.volume_ml > 0.0 ? StatusCode::ok : StatusCode::item_below_dish;
+}
+
+Vec3 centre_of(const HeightMap& map, std::uint8_t label) {
+  Vec3 sum = Vec3::Zero();
+  int count = 0;
+  for (int y = 0; y < map.cells.height; ++y) {
+    for (int x = 0; x < map.cells.width; ++x) {
+      const HeightCell& cell = map.cells.at(x, y);
+      if (cell.label != label || cell.kind == CellKind::unseen) continue;
+      const Vec2 place = map.centre_mm(x, y);
+      sum += Vec3(place.x(), place.y(), cell.z_mm);
+      ++count;
+    }
+  }
+  return count > 0 ? Vec3(sum / count) : sum;
+}
+
+template <class Action>
+void for_each_item(const std::array<BestView, 2>& views, const DishOnTray& dish, Action&& action) {
+  for (int value = kFirstItemLabel; value <= kLastItemLabel; ++value) {
+    const auto label = static_cast<std::uint8_t>(value);
+    const bool seen = views[0].regions.pixels[label] > 0 || views[1].regions.pixels[label] > 0;
+    if (seen && dish.labels.contains(label)) action(label);
+  }
+}
+
+}  // namespace
+
+void measure_dish(const std::array<BestView, 2>& views, const SceneGeometry& geometry, std::size_t index,
+                  const Configuration& configuration, DishMeasurementWorkspace& workspace, StageClock& clock,
+                  MeasurementReport& report) {
+  const BestParams& best = configuration.best;
+  const DishOnTray& dish = geometry.dishes[index];
+  const auto refuse = [&](Status status) {
+    for_each_item(views, dish, [&](std::uint8_t label) {
+      ItemResult item;
+      item.label = label;
+      item.dish = dish.label;
+      item.status = status.code();
+      workspace.items.push_back(item);
+    });
+  };
+  const JointDishResult& placed = geometry.joint.dishes[index];
+  if (!placed.status.ok()) return refuse(placed.status);
+  const DishModel& model = dish.candidates[static_cast<std::size_t>(placed.placed.candidate)];
+  report.rim_height_mm = placed.placed.place.edge_height_mm;
+  report.dish_index = static_cast<int>(&model - configuration.dishes.data());
+
+  clock.enter(Stage::stereo);
+  const double bottom_mm = model.bottom_height_mm;
+  const double top_mm = std::max(tallest_track_mm(geometry, dish.labels, bottom_mm) + best.pipeline.summit_margin_mm,
+                                 bottom_mm + best.pipeline.min_top_mm);
+  std::array<SurfaceGrid, 2> grids;
+  TwoViewSurfaceReport dense;
+  Status status = reconstruct_surface(stored_views(views, geometry, dish.labels), table_of(dish), bottom_mm,
+                                      top_mm, best.surface, workspace.surface, grids, dense);
+  if (!status.ok()) return refuse(status);
+  report.rectified_rows = dense.rows;
+  report.rectified_columns = dense.columns;
+  report.disparity_range = dense.disparity_range;
+  report.matched_share = 0.5 * (dense.confirmed[0] + dense.confirmed[1]);
+
+  clock.enter(Stage::surface);
+  InnerSurface inner;
+  status = place_inner_surface(model, placed.placed.place, inner);
+  if (!status.ok()) return refuse(status);
+  HeightMapWorkspace maps = workspace.height_map;
+  maps.first = workspace.cells;
+  HeightMap map;
+  status = build_height_map(grids, inner, best.height_map, maps, map);
+  if (!status.ok()) return refuse(status);
+  workspace.cells = workspace.cells.subspan(static_cast<std::size_t>(map.cells.width) *
+                                            static_cast<std::size_t>(map.cells.height));
+  workspace.surfaces.push_back({dish.label, map, inner});
+
+  clock.enter(Stage::volume);
+  status = integrate_height_map(map, inner, best.volume, workspace.volume);
+  if (!status.ok()) return refuse(status);
+  for_each_item(views, dish, [&](std::uint8_t label) {
+    const HeightVolume& volume = workspace.volume.items[label];
+    ItemResult item;
+    item.label = label;
+    item.dish = dish.label;
+    item.status = judge_item(views, label, volume, configuration.extraction);
+    item.volume_ml = volume.volume_ml;
+    item.column_volume_ml = volume.column_volume_ml;
+    item.area_mm2 = volume.area_mm2;
+    item.mean_height_mm = volume.mean_height_mm;
+    item.max_height_mm = volume.max_height_mm;
+    const UncertaintyInput input{volume, centre_of(map, label), dense.height_per_px_mm, dense.column_step_mm};
+    item.sigma_ml = estimate_sigma_ml(input, geometry.joint.camera_from_table, geometry.joint.covariance,
+                                      best.uncertainty);
+    workspace.items.push_back(item);
+  });
+}
+
+}  // namespace traygauge

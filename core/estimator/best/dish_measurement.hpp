@@ -1,0 +1,45 @@
+// One dish from dense matching to the volumes of what lies on it.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+
+#include "core/base/arena.hpp"
+#include "core/base/bounded_list.hpp"
+#include "core/base/status.hpp"
+#include "core/estimator/best/best_view.hpp"
+#include "core/estimator/best/scene_geometry.hpp"
+#include "core/estimator/measurement.hpp"
+
+namespace traygauge {
+
+struct DishMeasurementWorkspace {
+  TwoViewSurfaceWorkspace surface;
+  HeightMapWorkspace height_map;
+  HeightVolumeWorkspace volume;
+  std::span<HeightCell> cells;  // of the height maps of all dishes
+  BoundedList<MeasuredSurface> surfaces;
+  BoundedList<ItemResult> items;
+
+  template <class Allocator>
+  constexpr void allocate_kept(Allocator& arena, const Configuration& configuration) {
+    cells = arena.template take<HeightCell>(configuration.best.pipeline.max_height_cells);
+    surfaces = BoundedList<MeasuredSurface>(arena.template take<MeasuredSurface>(kMaxPlacedDishes));
+    items = BoundedList<ItemResult>(arena.template take<ItemResult>(kMaxItems));
+  }
+  template <class Allocator>
+  constexpr void allocate(Allocator& arena, const Configuration& configuration) {
+    surface.allocate(arena, configuration.best.surface);
+    height_map.allocate(arena, configuration.best.pipeline.max_height_cells);
+    volume.allocate(arena);
+  }
+};
+
+// Appends the items on dish `index` of `geometry` to `workspace.items`, and its height map to
+// `workspace.surfaces`. What fails here fails for all of them: every item then carries that status.
+void measure_dish(const std::array<BestView, 2>& views, const SceneGeometry& geometry, std::size_t index,
+                  const Configuration& configuration, DishMeasurementWorkspace& workspace, StageClock& clock,
+                  MeasurementReport& report);
+
+}  // namespace traygauge

@@ -1,0 +1,63 @@
+#include "core/estimator/best/uncertainty.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace traygauge {
+namespace {
+
+constexpr double kMm3PerMl = 1000.0;
+
+// The point nearest to both cameras' rays, when the cameras are where `cameras` says and see it as `rays`.
+Vec3 triangulate(const TableCameras& cameras, const std::array<Vec3, 2>& rays) {
+  Mat3 normal = Mat3::Zero();
+  Vec3 right = Vec3::Zero();
+  for (std::size_t v = 0; v < 2; ++v) {
+    const Vec3 direction = (cameras[v].rotation.transpose() * rays[v]).normalized();
+    const Mat3 across = Mat3::Identity() - direction * direction.transpose();
+    normal += across;
+    right += across * camera_centre_mm(cameras[v]);
+  }
+  return normal.inverse() * right;
+}
+
+// Variance of the height of a point that both cameras see, mm².
+double height_variance(const Vec3& point_mm, const TableCameras& cameras, const JointMatrix& covariance) {
+  constexpr double kTurnRad = 1e-5;
+  constexpr double kShiftMm = 1e-3;
+  const std::array<Vec3, 2> rays = {cameras[0] * point_mm, cameras[1] * point_mm};
+  Eigen::Matrix<double, 12, 1> slope;
+  for (int i = 0; i < 12; ++i) {
+    const double size = i % 6 < 3 ? kTurnRad : kShiftMm;
+    TableCameras stepped = cameras;
+    auto& camera = stepped[i < 6 ? 0 : 1];
+    camera = moved(camera, size * Eigen::Matrix<double, 6, 1>::Unit(i % 6));
+    slope[i] = (triangulate(stepped, rays).z() - point_mm.z()) / size;
+  }
+  return slope.dot(covariance.topLeftCorner<12, 12>() * slope);
+}
+
+// Outline of an area, were it round: items are compact.
+double outline_mm(double area_mm2) {
+  return 2.0 * std::sqrt(std::numbers::pi * area_mm2);
+}
+
+}  // namespace
+
+double estimate_sigma_ml(const UncertaintyInput& input, const TableCameras& camera_from_table,
+                         const JointMatrix& covariance, const UncertaintyParams& params) {
+  const HeightVolume& item = input.volume;
+  const double volume_mm3 = kMm3PerMl * item.column_volume_ml;
+  const double cameras_mm = std::sqrt(std::max(0.0, height_variance(input.centre_mm, camera_from_table, covariance)));
+  const double matching_mm = params.disparity_bias_px * input.height_per_px_mm;
+  const double edge_mm3 = outline_mm(item.area_mm2) * params.outline_px * input.px_mm * 0.5 * item.mean_height_mm;
+  const double variance_mm6 =
+      item.area_mm2 * item.area_mm2 *
+          (cameras_mm * cameras_mm + matching_mm * matching_mm + params.dish_height_mm * params.dish_height_mm) +
+      std::pow(params.hidden_share * kMm3PerMl * item.hidden_volume_ml, 2) + edge_mm3 * edge_mm3 +
+      std::pow(params.surface_share * volume_mm3, 2);
+  return std::sqrt(variance_mm6) / kMm3PerMl;
+}
+
+}  // namespace traygauge

@@ -1,0 +1,31 @@
+// How sure a volume is, from what was measured.
+#pragma once
+
+#include "core/base/geometry.hpp"
+#include "core/pose/joint_refinement.hpp"
+#include "core/volume/height_volume.hpp"
+
+namespace traygauge {
+
+// Standard deviations of what the covariance of the cameras does not know.
+struct UncertaintyParams {
+  double disparity_bias_px = 0.05;   // of an item's mean disparity: smooth skin, gloss, slanted windows
+  double hidden_share = 0.5;         // of the volume that no view sees
+  double outline_px = 0.3;           // of an item's outline, all along it
+  double surface_share = 0.008;      // of the volume: what the samples of a rough surface leave out
+  double dish_height_mm = 0.10;      // of the dish's inner surface: firing, glaze, feet
+};
+
+// What an item's uncertainty follows from.
+struct UncertaintyInput {
+  HeightVolume volume;
+  Vec3 centre_mm = Vec3::Zero();       // of the item's surface, table frame
+  double height_per_px_mm = 0.0;       // of disparity
+  double px_mm = 0.0;                  // of the samples, on the dish
+};
+
+// Standard deviation of the volume, ml.
+double estimate_sigma_ml(const UncertaintyInput& input, const TableCameras& camera_from_table,
+                         const JointMatrix& covariance, const UncertaintyParams& params);
+
+}  // namespace traygauge
