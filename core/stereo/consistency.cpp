@@ -26,6 +26,32 @@ Disparity find_known(const Disparity* disparity, const std::uint8_t* labels, int
   return kNoDisparity;
 }
 
+struct Gap {
+  int first;
+  int end;
+};
+
+// Where an item's gap reaches its border with the dish it has fallen from its last known height to this share.
+void fill_gap(Disparity* row, const std::uint8_t* labels, int width, Gap gap, int one_surface,
+              const ConsistencyParams& params) {
+  const bool item = is_item(labels[gap.first]);
+  int left_at = 0;
+  int right_at = 0;
+  int left = find_known(row, labels, width, gap.first, -1, item, left_at);
+  int right = find_known(row, labels, width, gap.end - 1, 1, item, right_at);
+  if (left == kNoDisparity && right == kNoDisparity) return;
+  const auto at_border = [&](int known) {
+    return item && known > 0 ? static_cast<int>(params.border_share * known) : known;
+  };
+  if (left == kNoDisparity) left = at_border(right);
+  if (right == kNoDisparity) right = at_border(left);
+  const bool between = std::abs(left - right) <= one_surface || item;
+  for (int i = gap.first; i < gap.end; ++i) {
+    const int mixed = left + (right - left) * (i - left_at) / std::max(right_at - left_at, 1);
+    row[i] = static_cast<Disparity>(between ? mixed : std::min(left, right));
+  }
+}
+
 }  // namespace
 
 void keep_consistent(ImageView<const Disparity> own, ImageView<const Disparity> other, int sign,
@@ -58,21 +84,7 @@ void fill_gaps(ImageView<const std::uint8_t> labels, const ConsistencyParams& pa
       }
       int end = x + 1;  // of the gap
       while (end < disparity.width && label[end] == label[x] && row[end] == kNoDisparity) ++end;
-      int left_at = 0;
-      int right_at = 0;
-      int left = find_known(row, label, disparity.width, x, -1, false, left_at);
-      int right = find_known(row, label, disparity.width, end - 1, 1, false, right_at);
-      if (left == kNoDisparity && right == kNoDisparity) {
-        x = end;
-        continue;
-      }
-      if (left == kNoDisparity) left = right;
-      if (right == kNoDisparity) right = left;
-      const bool between = std::abs(left - right) <= one_surface || is_item(label[x]);
-      for (int i = x; i < end; ++i) {
-        const int mixed = left + (right - left) * (i - left_at) / std::max(right_at - left_at, 1);
-        row[i] = static_cast<Disparity>(between ? mixed : std::min(left, right));
-      }
+      fill_gap(row, label, disparity.width, {x, end}, one_surface, params);
       x = end;
     }
   }

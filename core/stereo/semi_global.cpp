@@ -49,6 +49,7 @@ class Matcher {
     width_ = pair.gray[0].width;
     height_ = pair.gray[0].height;
     stride_ = lanes + 2 * kBandPadding;
+    border_penalty_ = static_cast<std::uint8_t>(params.border_penalty);
     for (int contrast = 0; contrast < 256; ++contrast) {
       const int penalty =
           params.large_step_penalty * params.edge_contrast / (params.edge_contrast + contrast);
@@ -77,6 +78,12 @@ class Matcher {
   std::uint8_t extend(const std::uint8_t* before, std::uint8_t floor, int shift, std::uint8_t large,
                       std::uint8_t* path) const;
   void choose(int y, const std::array<ImageView<Disparity>, 2>& disparity);
+  // What a jump between two neighbours costs.
+  std::uint8_t large_penalty(int x, int y, int from_x, int from_y) const {
+    if (pair_.labels[0].at(x, y) != pair_.labels[0].at(from_x, from_y)) return border_penalty_;
+    const int contrast = std::abs(pair_.gray[0].at(x, y) - pair_.gray[0].at(from_x, from_y));
+    return large_penalty_[static_cast<std::size_t>(contrast)];
+  }
   std::uint16_t* sums_at(int x, int y) const {
     return workspace_.sums.data() + (static_cast<std::ptrdiff_t>(y) * width_ + x) * lanes_;
   }
@@ -90,6 +97,7 @@ class Matcher {
   int height_ = 0;
   int stride_ = 0;
   std::array<std::uint8_t, 256> large_penalty_{};
+  std::uint8_t border_penalty_ = 0;
   alignas(16) std::array<std::uint8_t, kMaxBandLanes> costs_{};
 };
 
@@ -106,6 +114,7 @@ void Matcher::load_second_row(int y) {
 
 void Matcher::compute_costs(int x, int y) {
   const std::uint32_t code = pair_.codes[0].at(x, y);
+  const std::uint32_t mask = pair_.mask.at(x, y);
   const std::uint8_t label = pair_.labels[0].at(x, y);
   const auto penalty = static_cast<std::uint8_t>(params_.label_penalty);
   // A band may start far outside; it stays within the padding, where nothing matches.
@@ -116,7 +125,7 @@ void Matcher::compute_costs(int x, int y) {
   for (int chunk = 0; chunk < lanes_; chunk += kBandLanes) {
     std::uint32_t bits[kBandLanes];
     for (int k = 0; k < kBandLanes; ++k) {
-      std::uint32_t v = code ^ codes[chunk + k];
+      std::uint32_t v = (code ^ codes[chunk + k]) & mask;
       v = v - ((v >> 1) & 0x55555555U);
       v = (v & 0x33333333U) + ((v >> 2) & 0x33333333U);
       v = (v + (v >> 4)) & 0x0f0f0f0fU;
@@ -185,7 +194,6 @@ void Matcher::sweep(bool forward, const std::array<ImageView<Disparity>, 2>* dis
       }
       compute_costs(x, y);
       const int base = base_.at(x, y);
-      const int gray = pair_.gray[0].at(x, y);
       std::uint16_t* sums = sums_at(x, y);
       if (forward) std::memset(sums, 0, static_cast<std::size_t>(lanes_) * sizeof *sums);
       const auto add = [&](const std::uint8_t* path) {
@@ -197,10 +205,9 @@ void Matcher::sweep(bool forward, const std::array<ImageView<Disparity>, 2>* dis
         along_floor = extend(along, 0, 0, 0, along);
         along_open = true;
       } else {
-        const int contrast = std::abs(gray - pair_.gray[0].at(x - step, y));
         alignas(16) std::array<std::uint8_t, kMaxBandLanes> next{};
         along_floor = extend(along, along_floor, base - base_.at(x - step, y),
-                             large_penalty_[static_cast<std::size_t>(contrast)], next.data());
+                             large_penalty(x, y, x - step, y), next.data());
         std::memcpy(along, next.data(), static_cast<std::size_t>(lanes_));
       }
       add(along);
@@ -215,9 +222,8 @@ void Matcher::sweep(bool forward, const std::array<ImageView<Disparity>, 2>* dis
           clear(now, x);
           now.floor(x) = extend(now.at(x), 0, 0, 0, now.at(x));
         } else {
-          const int contrast = std::abs(gray - pair_.gray[0].at(from_x, previous_y));
           now.floor(x) = extend(before.at(from_x), before.floor(from_x), base - base_.at(from_x, previous_y),
-                                large_penalty_[static_cast<std::size_t>(contrast)], now.at(x));
+                                large_penalty(x, y, from_x, previous_y), now.at(x));
         }
         add(now.at(x));
       }

@@ -17,6 +17,7 @@ struct SemiGlobalParams {
   int small_step_penalty = 4;    // a change by one disparity: slanted food is the rule
   int large_step_penalty = 28;   // by more, in plain areas
   int least_large_penalty = 10;  // where the picture has an edge of several edge_contrast
+  int border_penalty = 6;        // between samples of different labels
   int edge_contrast = 12;        // grey levels that halve the large penalty
   int label_penalty = 16;        // partners with different labels
   bool diagonal_paths = true;    // eight paths instead of four
@@ -31,6 +32,7 @@ struct BandedPair {
   std::array<ImageView<const std::uint8_t>, 2> gray;
   std::array<ImageView<const std::uint8_t>, 2> labels;
   std::array<ImageView<const std::uint32_t>, 2> codes;
+  ImageView<const std::uint32_t> mask;  // bits of the first picture's codes that count
 };
 
 struct SemiGlobalWorkspace {

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstring>
 
+#include "core/segmentation/label_regions.hpp"
+
 namespace traygauge {
 namespace {
 
@@ -48,6 +50,12 @@ class Refinement {
   float* sums(int channel) { return workspace_.sums.data() + channel * columns_ + kMaxRefinementRadius; }
   static std::ptrdiff_t at(ImageView<float> picture, int y) { return std::ptrdiff_t{y} * picture.width; }
   void compute_terms(int y);
+  // Whether the row has one label around a sample.
+  bool is_inside_outline(const std::uint8_t* labels, int x) const {
+    const int left = std::max(x - params_.outline_px, 0);
+    const int right = std::min(x + params_.outline_px, disparity_.width - 1);
+    return labels[left] == labels[x] && labels[right] == labels[x];
+  }
   void solve_row(int y);
 
   const RefinementPair& pair_;
@@ -86,10 +94,12 @@ void Refinement::compute_terms(int y) {
     std::fill_n(terms(y, k) - kMaxRefinementRadius, columns_, 0.0F);
   }
   const std::uint8_t* gray = pair_.gray.row(y);
+  const std::uint8_t* labels = pair_.labels.row(y);
   const std::uint8_t* other = pair_.other_gray.row(y);
   const std::uint8_t* other_labels = pair_.other_labels.row(y);
   const float last = static_cast<float>(pair_.other_gray.width - 3);
   const auto sign = static_cast<float>(pair_.sign);
+  const auto dish_weight = static_cast<float>(params_.dish_weight);
   for (int x = 0; x < disparity_.width; ++x) {
     if (trusted_.at(x, y) == 0 || pair_.labels.at(x, y) == 0) continue;
     const float place = static_cast<float>(x) + sign * disparity_.at(x, y);
@@ -99,11 +109,13 @@ void Refinement::compute_terms(int y) {
     const CubicSample sample = interpolate(other + left, place - static_cast<float>(left));
     const float gradient = sign * sample.slope;
     const float residual = static_cast<float>(gray[x]) - sample.value;
-    out[0][x] = 1.0F;
-    out[1][x] = residual;
-    out[2][x] = gradient;
-    out[3][x] = gradient * gradient;
-    out[4][x] = gradient * residual;
+    const float weight = is_item(labels[x]) && is_inside_outline(labels, x) ? 1.0F : dish_weight;
+    const float weighted = weight * gradient;
+    out[0][x] = weight;
+    out[1][x] = weight * residual;
+    out[2][x] = weighted;
+    out[3][x] = weighted * gradient;
+    out[4][x] = weighted * residual;
   }
 }
 
@@ -132,7 +144,7 @@ void Refinement::solve_row(int y) {
     for (int i = 0; i <= 2 * radius; ++i) {
       for (std::size_t k = 0; k < kChannels; ++k) window[k] += sum[k][x + i];
     }
-    const float share = 1.0F / std::max(window[0], 1.0F);
+    const float share = window[0] > 0.0F ? 1.0F / window[0] : 0.0F;
     const float energy = window[3] - window[2] * window[2] * share;
     const float product = window[4] - window[2] * window[1] * share;
     const float step = std::clamp(product / std::max(energy, kLeastEnergy), -most, most);

@@ -21,6 +21,8 @@ struct SurfaceRefinementParams {
       12.0;             // grey², against the mean squared gradient of a window: noise of 2 to 4 grey levels
   int relaxations = 8;  // of the membrane, per iteration
   double max_jump_px = 1.5;  // neighbours that differ by more are not tied
+  double dish_weight = 0.05;    // of the dish's samples in windows: food beside it is not mixed with it
+  int outline_px = 2;  // samples of food nearer to another label weigh as the dish's: their gradient is its outline's
   double border_tie = 0.1;   // between samples of different labels
 };
 

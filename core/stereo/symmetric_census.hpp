@@ -16,4 +16,8 @@ inline constexpr int kSymmetricCensusBits = 31;
 // `codes` has the picture's size. Beyond the picture its border is repeated.
 void transform_symmetric_census(ImageView<const std::uint8_t> picture, ImageView<std::uint32_t> codes);
 
+// The bits whose pixels both carry the label of the window's centre: an outline tells how the surfaces on its
+// two sides move only where both are the same surface. `masks` has the picture's size.
+void mask_symmetric_census(ImageView<const std::uint8_t> labels, ImageView<std::uint32_t> masks);
+
 }  // namespace traygauge

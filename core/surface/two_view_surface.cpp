@@ -115,6 +115,10 @@ void match_level(TwoViewSurfaceWorkspace& workspace, std::size_t level, Disparit
     pair.codes[v] = codes;
     found[v] = as_picture(views[v].disparity, like);
   }
+  const ImageView<std::uint32_t> mask = as_picture(workspace.census_mask, like);
+  if (params.outline_mask) mask_symmetric_census(views[0].labels[level], mask);
+  else std::fill_n(mask.data,static_cast<std::size_t>(mask.width * mask.height),~0U);
+  pair.mask = mask;
   match_semi_global(pair, first, lanes, params.semi_global, workspace.semi_global, found);
 }
 

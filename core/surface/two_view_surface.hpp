@@ -29,6 +29,7 @@ struct TwoViewSurfaceParams {
   double min_height_mm = -2.0;  // below the bottom: the pose's error, and the table beside the dish
   double highest_mm = 90.0;     // no food is higher above the bottom
   int median_radius = 1;
+  bool outline_mask = true;
   double confirmed_px = 1.0;  // both views' refined disparities agree within
   SemiGlobalParams semi_global;
   ConsistencyParams consistency;
@@ -52,6 +53,7 @@ struct TwoViewSurfaceWorkspace {
   std::array<View, 2> views;
   std::span<PlaneRow> rows;
   std::span<std::int16_t> first_disparity;
+  std::span<std::uint32_t> census_mask;
   SemiGlobalWorkspace semi_global;
   SurfaceRefinementWorkspace refinement;
 
@@ -74,6 +76,7 @@ struct TwoViewSurfaceWorkspace {
       view.codes = arena.template take<std::uint32_t>(samples);
       view.consistent = arena.template take<Disparity>(samples);
     }
+    census_mask = arena.template take<std::uint32_t>(samples);
     first_disparity = arena.template take<std::int16_t>(samples);
     const int finest = params.rectification.max_samples >> (2 * params.finest_level);
     semi_global.allocate(arena, params.max_columns,
