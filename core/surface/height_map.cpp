@@ -32,13 +32,19 @@ Status lay_out(const PlacedDish& dish, double cell_mm, std::size_t max_cells, He
   return StatusCode::ok;
 }
 
+// Slope of a view's line of sight to the dish's middle.
+double sight_slope(const Vec3& camera_mm, const PlacedDish& dish) {
+  const double run = (camera_mm.head<2>() - dish.place.centre_mm).norm();
+  return (camera_mm.z() - dish.profile.bottom_height_mm()) / std::max(run, 1.0);
+}
+
 HeightCell fuse_surfaces(const HeightCell& a, const HeightCell& b, float disagreement_mm) {
   HeightCell fused = a.weight >= b.weight ? a : b;
   if (std::abs(a.z_mm - b.z_mm) <= disagreement_mm) {
     const float total = static_cast<float>(a.weight) + static_cast<float>(b.weight);
     fused.z_mm = (static_cast<float>(a.weight) * a.z_mm + static_cast<float>(b.weight) * b.z_mm) / total;
   }
-  fused.undercut = (a.undercut && a.label == fused.label) || (b.undercut && b.label == fused.label);
+  if (fused.below_label == 0) fused.below_label = a.weight >= b.weight ? b.below_label : a.below_label;
   return fused;
 }
 
@@ -58,7 +64,7 @@ Status build_height_map(std::span<const SurfaceGrid> views, const PlacedDish& di
   map.cells.data = workspace.first.data();
   HeightMap other = map;
   other.cells.data = workspace.second.data();
-  std::fill(workspace.flanks.begin(), workspace.flanks.end(), FlankArea{});
+  double steepest_sight = 0.0;
   const auto disagreement_mm = static_cast<float>(params.disagreement_mm);
   bool seen = false;
   for (const SurfaceGrid& view : views) {
@@ -68,7 +74,7 @@ Status build_height_map(std::span<const SurfaceGrid> views, const PlacedDish& di
       continue;
     }
     splat_view(view, params, seen ? other : map);
-    add_visible_flanks(view, params, workspace.flanks);
+    steepest_sight = std::max(steepest_sight, sight_slope(view.camera_mm, dish));
     for (int y = 0; seen && y < map.cells.height; ++y) {
       HeightCell* row = map.cells.row(y);
       std::transform(row, row + map.cells.width, other.cells.row(y), row,
@@ -77,7 +83,7 @@ Status build_height_map(std::span<const SurfaceGrid> views, const PlacedDish& di
     seen = true;
   }
   if (!seen) return StatusCode::too_little_depth;
-  fill_hidden_cells(dish, params, workspace.flanks, workspace.sources, map);
+  fill_hidden_cells(dish, params, steepest_sight, workspace.sources, map);
   return StatusCode::ok;
 }
 

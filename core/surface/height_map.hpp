@@ -1,7 +1,6 @@
 // One height map over the dish from what both views see: profile `best` integrates over it.
 #pragma once
 
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -24,10 +23,13 @@ enum class CellKind : std::uint8_t {
 
 struct HeightCell {
   float z_mm = 0.0F;       // of the upper surface; its upper bound while a cell is hidden and not yet filled
+  float below_mm = 0.0F;   // hidden: where the bounding line of sight ends
   std::uint8_t label = 0;  // of the surface; of what hides it while it is hidden and not yet filled
+  // Hidden: of what the bounding line of sight ends on. Surface: of another surface that a view sees well
+  // below this one, which overhangs it; 0 without.
+  std::uint8_t below_label = 0;
   CellKind kind = CellKind::unseen;
   std::uint8_t weight = 0;  // squared cosine between surface normal and line of sight, of 255
-  bool undercut = false;    // a view sees another surface well below this one: it overhangs
 };
 
 struct HeightMap {
@@ -49,19 +51,13 @@ struct HeightMapParams {
   double disagreement_mm = 3.0;
   // So far below another surface a sample lies under an overhang, not on a wall's blurred foot.
   double undercut_mm = 4.0;
-  // Hidden flanks fall like the item's visible ones that are steeper than a line of sight. The prior slope
-  // counts as so much visible flank; tan 75°, between a pile's 60° and a cut's 90°.
-  double prior_flank_slope = 3.7;
-  double prior_flank_mm2 = 100.0;
-  int flank_baseline_samples = 3;  // half the baseline of a flank's slope; shorter measures noise
+  // Hidden flanks fall like the item's seen ones that are steeper than the steepest line of sight, or than
+  // this where the views look straight down. Larger than a heap's slope, or heaps would count as walls.
+  double max_flank_threshold = 4.0;
+  // Twice the line of sight's slope counts as so much seen flank (its area from above).
+  double prior_flank_mm2 = 5.0;
   // A hole that no line of sight crosses is filled so far from its edge.
   double max_hole_mm = 6.0;
-};
-
-// Steep flanks that the views see, by label: their area seen from the side and from above.
-struct FlankArea {
-  double vertical_mm2 = 0.0;
-  double horizontal_mm2 = 0.0;
 };
 
 struct HeightMapWorkspace {
@@ -72,26 +68,26 @@ struct HeightMapWorkspace {
 
   std::span<HeightCell> first;
   std::span<HeightCell> second;
-  std::span<Source> sources;
-  std::span<FlankArea> flanks;  // by label
+  std::span<Source> sources;  // in the memory of `second`, which is fused by then
 
   template <class Allocator>
   constexpr void allocate(Allocator& arena, std::size_t max_cells) {
+    static_assert(sizeof(Source) <= sizeof(HeightCell));
     first = arena.template take<HeightCell>(max_cells);
-    second = arena.template take<HeightCell>(max_cells);
+    const std::size_t mark = arena.mark();
     sources = arena.template take<Source>(max_cells);
-    flanks = arena.template take<FlankArea>(256);
+    arena.rewind(mark);
+    second = arena.template take<HeightCell>(max_cells);
   }
 };
 
 // The fused map in `workspace.first`: every cell of the dish's bounding box has the height and label of the
 // upper surface there. Where both views see it, their mean by weight; where one, its own. A patch between
 // samples whose line of sight grazes it is no surface, but nothing lies above it (space carving, Kutulakos &
-// Seitz 2000): under it a cell is hidden. A cell hidden from all views continues the nearest seen item, as
-// steep as that item's visible flanks, between the dish and the lowest bound; behind the dish's own rim it
-// continues level. `kind` stays hidden for filled cells. Grids without points count as no view.
-// out_of_memory when the dish has more cells than the workspace; too_little_depth when nothing is seen;
-// invalid_configuration for a cell size that is not positive.
+// Seitz 2000): under it a cell is hidden. A cell hidden from all views continues the item that hides it
+// (hidden_cells.hpp), or else what is seen at the sheet's foot, level. `kind` stays hidden for filled cells.
+// Grids without points count as no view. out_of_memory when the dish has more cells than the workspace;
+// too_little_depth when nothing is seen; invalid_configuration for a cell size that is not positive.
 Status build_height_map(std::span<const SurfaceGrid> views, const PlacedDish& dish,
                         const HeightMapParams& params, HeightMapWorkspace& workspace, HeightMap& map);
 

@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 
 #include "core/segmentation/label_regions.hpp"
 
@@ -13,24 +12,23 @@ namespace {
 
 using Source = HeightMapWorkspace::Source;
 
-// Nearest source of every cell by two passes over the rows, each back and forth (P.-E. Danielsson, Euclidean
-// distance mapping, CGIP 14, 1980): now and then a cell gets one that is a fraction of a cell further.
-class NearestSource {
- public:
-  NearestSource(std::span<Source> sources, int width, int height) : sources_(sources.data(), width, height) {}
+float distance_cells(const Source& source, int x, int y) {
+  const auto dx = static_cast<float>(x - source.x);
+  const auto dy = static_cast<float>(y - source.y);
+  return std::sqrt(dx * dx + dy * dy);
+}
 
-  Source& at(int x, int y) { return sources_.at(x, y); }
+// For every cell the source whose offer is the best, by two passes over the rows, each back and forth
+// (P.-E. Danielsson, Euclidean distance mapping, CGIP 14, 1980): now and then a cell gets one that is a
+// fraction of a cell worse. `Offer`: (source x, source y, distance in cells) → value, larger is better.
+template <class Offer>
+class SourceMap {
+ public:
+  SourceMap(ImageView<Source> sources, Offer offer) : sources_(sources), offer_(offer) {}
 
   void propagate() {
     for (int y = 0; y < sources_.height; ++y) scan_row(y, y - 1);
     for (int y = sources_.height - 1; y >= 0; --y) scan_row(y, y + 1);
-  }
-
-  static float squared_distance(const Source& source, int x, int y) {
-    if (source.x < 0) return std::numeric_limits<float>::max();
-    const auto dx = static_cast<float>(x - source.x);
-    const auto dy = static_cast<float>(y - source.y);
-    return dx * dx + dy * dy;
   }
 
  private:
@@ -38,106 +36,175 @@ class NearestSource {
     const bool inside = neighbour >= 0 && neighbour < sources_.height;
     for (int x = 0; x < sources_.width; ++x) {
       if (inside) {
-        offer(x, y, sources_.at(x, neighbour));
-        if (x > 0) offer(x, y, sources_.at(x - 1, neighbour));
-        if (x + 1 < sources_.width) offer(x, y, sources_.at(x + 1, neighbour));
+        if (x > 0) try_source(x, y, sources_.at(x - 1, neighbour));
+        try_source(x, y, sources_.at(x, neighbour));
+        if (x + 1 < sources_.width) try_source(x, y, sources_.at(x + 1, neighbour));
       }
-      if (x > 0) offer(x, y, sources_.at(x - 1, y));
+      if (x > 0) try_source(x, y, sources_.at(x - 1, y));
     }
-    for (int x = sources_.width - 2; x >= 0; --x) offer(x, y, sources_.at(x + 1, y));
+    for (int x = sources_.width - 2; x >= 0; --x) try_source(x, y, sources_.at(x + 1, y));
   }
 
-  void offer(int x, int y, const Source& source) {
+  void try_source(int x, int y, const Source& source) {
     Source& best = sources_.at(x, y);
-    if (source.x >= 0 && squared_distance(source, x, y) < squared_distance(best, x, y)) best = source;
+    if (source.x < 0 || (source.x == best.x && source.y == best.y)) return;
+    if (best.x < 0 || value(source, x, y) > value(best, x, y)) best = source;
+  }
+
+  float value(const Source& source, int x, int y) const {
+    return offer_(source, distance_cells(source, x, y));
   }
 
   ImageView<Source> sources_;
+  Offer offer_;
 };
 
-template <class IsSource>
-void find_nearest(const HeightMap& map, NearestSource& nearest, IsSource is_source) {
-  for (int y = 0; y < map.cells.height; ++y) {
-    for (int x = 0; x < map.cells.width; ++x) {
-      nearest.at(x, y) = is_source(map.cells.at(x, y))
-                             ? Source{static_cast<std::int16_t>(x), static_cast<std::int16_t>(y)}
-                             : Source{};
-    }
-  }
-  nearest.propagate();
-}
+class HiddenFill {
+ public:
+  HiddenFill(const PlacedDish& dish, const HeightMapParams& params, double steepest_sight,
+             std::span<Source> sources, HeightMap& map)
+      : dish_(dish),
+        params_(params),
+        sources_(sources.data(), map.cells.width, map.cells.height),
+        map_(map),
+        cell_mm_(static_cast<float>(map.cell_mm)),
+        flank_threshold_(static_cast<float>(std::min(steepest_sight, params.max_flank_threshold))) {}
 
-void fill_holes(const HeightMapParams& params, NearestSource& nearest, HeightMap& map) {
-  bool any = false;
-  for (int y = 0; y < map.cells.height && !any; ++y) {
-    const HeightCell* row = map.cells.row(y);
-    any = std::any_of(row, row + map.cells.width,
-                      [](const HeightCell& cell) { return cell.kind == CellKind::unseen; });
-  }
-  if (!any) return;
-  find_nearest(map, nearest, [](const HeightCell& cell) { return cell.kind != CellKind::unseen; });
-  const auto reach = static_cast<float>(params.max_hole_mm / map.cell_mm);
-  for (int y = 0; y < map.cells.height; ++y) {
-    for (int x = 0; x < map.cells.width; ++x) {
-      HeightCell& cell = map.cells.at(x, y);
-      const Source source = nearest.at(x, y);
-      if (cell.kind != CellKind::unseen || NearestSource::squared_distance(source, x, y) > reach * reach) {
-        continue;
-      }
-      const HeightCell& known = map.cells.at(source.x, source.y);
-      // A seen neighbour goes on level, under no bound of its own; the dish's label tells so below.
+  void fill_holes() {
+    if (!has_holes()) return;
+    find_sources([](const HeightCell& cell) { return cell.kind != CellKind::unseen; },
+                 [](const Source&, float distance) { return -distance; });
+    const auto reach = static_cast<float>(params_.max_hole_mm) / cell_mm_;
+    for_each_cell([&](int x, int y, HeightCell& cell) {
+      const Source& source = sources_.at(x, y);
+      if (cell.kind != CellKind::unseen || source.x < 0 || distance_cells(source, x, y) > reach) return;
+      const HeightCell known = map_.cells.at(source.x, source.y);
       cell = known;
-      cell.undercut = false;
-      cell.weight = 0;
-      if (known.kind == CellKind::surface) {
-        cell.kind = CellKind::hidden;
-        cell.label = is_item(known.label) ? kDishLabel : kBackgroundLabel;
+      if (known.kind != CellKind::surface) return;
+      cell.kind = CellKind::hidden;  // under nothing: what is nearest goes on level
+      cell.below_mm = known.z_mm;
+      cell.below_label = known.label;
+      cell.label = kDishLabel;
+    });
+  }
+
+  void measure_flanks() {
+    std::array<double, 256> run{};
+    std::array<double, 256> drop{};
+    const float threshold = flank_threshold_ * cell_mm_;
+    for (int y = 0; y + 1 < map_.cells.height; ++y) {
+      for (int x = 0; x + 1 < map_.cells.width; ++x) {
+        const HeightCell& cell = map_.cells.at(x, y);
+        const HeightCell& right = map_.cells.at(x + 1, y);
+        const HeightCell& below = map_.cells.at(x, y + 1);
+        if (cell.kind != CellKind::surface || right.kind != CellKind::surface ||
+            below.kind != CellKind::surface) {
+          continue;
+        }
+        const float dx = right.z_mm - cell.z_mm;
+        const float dy = below.z_mm - cell.z_mm;
+        const float squared = dx * dx + dy * dy;
+        if (!(squared > threshold * threshold)) continue;
+        // A flank is its upper end's.
+        const HeightCell& across = std::abs(dx) > std::abs(dy) ? right : below;
+        const std::uint8_t label = across.z_mm > cell.z_mm ? across.label : cell.label;
+        run[label] += 1.0;
+        drop[label] += static_cast<double>(std::sqrt(squared));
       }
     }
+    const double cell_mm = map_.cell_mm;
+    const double prior_slope = 2.0 * static_cast<double>(flank_threshold_);
+    for (std::size_t label = 0; label < slopes_.size(); ++label) {
+      slopes_[label] = static_cast<float>((drop[label] * cell_mm + prior_slope * params_.prior_flank_mm2) /
+                                          (run[label] * cell_mm * cell_mm + params_.prior_flank_mm2));
+    }
   }
-}
 
-std::array<float, 256> flank_slopes(const HeightMapParams& params, std::span<const FlankArea> flanks) {
-  std::array<float, 256> slopes{};
-  for (std::size_t label = 0; label < slopes.size(); ++label) {
-    slopes[label] =
-        static_cast<float>((flanks[label].vertical_mm2 + params.prior_flank_slope * params.prior_flank_mm2) /
-                           (flanks[label].horizontal_mm2 + params.prior_flank_mm2));
+  void fill_hidden() {
+    find_sources([](const HeightCell& cell) { return cell.kind == CellKind::surface && is_item(cell.label); },
+                 [this](const Source& source, float distance) {
+                   const HeightCell& known = map_.cells.at(source.x, source.y);
+                   return known.z_mm - slopes_[known.label] * cell_mm_ * distance;
+                 });
+    for_each_cell([this](int x, int y, HeightCell& cell) {
+      if (cell.kind == CellKind::hidden) fill(x, y, cell);
+    });
   }
-  return slopes;
-}
+
+ private:
+  template <class Action>
+  void for_each_cell(Action action) {
+    for (int y = 0; y < map_.cells.height; ++y) {
+      for (int x = 0; x < map_.cells.width; ++x) action(x, y, map_.cells.at(x, y));
+    }
+  }
+
+  bool has_holes() {
+    bool any = false;
+    for_each_cell([&](int x, int y, const HeightCell& cell) {
+      if (any || cell.kind != CellKind::unseen) return;
+      any = dish_.profile.inset_mm(dish_.to_dish(map_.centre_mm(x, y))) > 0.0;
+    });
+    return any;
+  }
+
+  template <class IsSource, class Offer>
+  void find_sources(IsSource is_source, Offer offer) {
+    for_each_cell([&](int x, int y, const HeightCell& cell) {
+      sources_.at(x, y) =
+          is_source(cell) ? Source{static_cast<std::int16_t>(x), static_cast<std::int16_t>(y)} : Source{};
+    });
+    SourceMap<Offer>(sources_, offer).propagate();
+  }
+
+  void fill(int x, int y, HeightCell& cell) {
+    const float bound_mm = cell.z_mm;
+    const bool behind_item = is_item(cell.label);
+    cell.z_mm = static_cast<float>(dish_.height_mm(map_.centre_mm(x, y)));
+    cell.label = kDishLabel;
+    if (is_item(cell.below_label) && cell.below_mm > cell.z_mm) {
+      cell.z_mm = cell.below_mm;
+      cell.label = cell.below_label;
+    }
+    const Source& source = sources_.at(x, y);
+    if (behind_item && source.x >= 0) {
+      const HeightCell& known = map_.cells.at(source.x, source.y);
+      const float z_mm = continued(known, cell.z_mm, bound_mm, cell_mm_ * distance_cells(source, x, y));
+      if (z_mm > cell.z_mm) {
+        cell.z_mm = z_mm;
+        cell.label = known.label;
+      }
+    }
+    cell.z_mm = std::min(cell.z_mm, bound_mm);
+  }
+
+  // A parabola that leaves its edge along the bound and has fallen to the floor where the flank's mean slope
+  // would have.
+  float continued(const HeightCell& edge, float floor_mm, float bound_mm, float run_mm) const {
+    const float drop = edge.z_mm - floor_mm;
+    if (!(drop > 0.0F)) return floor_mm;
+    const float slope = slopes_[edge.label];
+    const float excess = slope * run_mm - std::max(edge.z_mm - bound_mm, 0.0F);
+    return bound_mm - std::max(excess, 0.0F) * slope * run_mm / drop;
+  }
+
+  const PlacedDish& dish_;
+  const HeightMapParams& params_;
+  ImageView<Source> sources_;
+  HeightMap& map_;
+  float cell_mm_;
+  float flank_threshold_;
+  std::array<float, 256> slopes_{};  // by label
+};
 
 }  // namespace
 
-void fill_hidden_cells(const PlacedDish& dish, const HeightMapParams& params,
-                       std::span<const FlankArea> flanks, std::span<Source> sources, HeightMap& map) {
-  NearestSource nearest(sources, map.cells.width, map.cells.height);
-  fill_holes(params, nearest, map);
-  find_nearest(map, nearest,
-               [](const HeightCell& cell) { return cell.kind == CellKind::surface && is_item(cell.label); });
-  const std::array<float, 256> slopes = flank_slopes(params, flanks);
-  const auto cell_mm = static_cast<float>(map.cell_mm);
-  for (int y = 0; y < map.cells.height; ++y) {
-    for (int x = 0; x < map.cells.width; ++x) {
-      HeightCell& cell = map.cells.at(x, y);
-      if (cell.kind != CellKind::hidden) continue;
-      const Source source = nearest.at(x, y);
-      const auto floor_mm = static_cast<float>(dish.height_mm(map.centre_mm(x, y)));
-      const float bound_mm = cell.z_mm;
-      const bool behind_item = is_item(cell.label);
-      const bool is_open = cell.label == kBackgroundLabel;  // a hole in the dish
-      cell.z_mm = floor_mm;
-      cell.label = kDishLabel;
-      if (source.x < 0 || is_open) continue;
-      const HeightCell& known = map.cells.at(source.x, source.y);
-      const float distance_mm = cell_mm * std::sqrt(NearestSource::squared_distance(source, x, y));
-      const float slope = behind_item ? slopes[known.label] : 0.0F;
-      const float z_mm = std::min(known.z_mm - slope * distance_mm, bound_mm);
-      if (!(z_mm > floor_mm)) continue;
-      cell.z_mm = z_mm;
-      cell.label = known.label;
-    }
-  }
+void fill_hidden_cells(const PlacedDish& dish, const HeightMapParams& params, double steepest_sight,
+                       std::span<Source> sources, HeightMap& map) {
+  HiddenFill fill(dish, params, steepest_sight, sources, map);
+  fill.fill_holes();
+  fill.measure_flanks();
+  fill.fill_hidden();
 }
 
 }  // namespace traygauge

@@ -7,11 +7,11 @@
 
 namespace traygauge {
 
-// Fills unseen cells within reach of seen ones, then hidden cells: each continues the nearest item cell that
-// is seen, falling as its label's visible flanks do, level where the dish itself hides it.
-
-void fill_hidden_cells(const PlacedDish& dish, const HeightMapParams& params,
-                       std::span<const FlankArea> flanks, std::span<HeightMapWorkspace::Source> sources,
-                       HeightMap& map);
+// Fills unseen cells within reach of others, then hidden cells: there the item whose edge hides the cell goes
+// on from that edge, tangent to the line of sight and bending down evenly, so that on the whole it falls as
+// its flanks fall that are seen and steeper than `steepest_sight` (rise over run); no lower than what is seen
+// at the foot of the line of sight goes on level, nor than the dish.
+void fill_hidden_cells(const PlacedDish& dish, const HeightMapParams& params, double steepest_sight,
+                       std::span<HeightMapWorkspace::Source> sources, HeightMap& map);
 
 }  // namespace traygauge

@@ -78,8 +78,8 @@ class ViewSplatter {
     if (cosine_squared < jump_squared_) {
       add_occlusion({a, b, c});
     } else {
-      const auto weight = static_cast<std::uint8_t>(std::min(255.0F, 1.0F + 255.0F * cosine_squared));
-      rasterise(a, b, c, CellKind::surface, weight);
+      const auto weight = static_cast<std::uint8_t>(std::min(255.0F, 1.0F + 254.0F * cosine_squared));
+      add_surface(a, b, c, weight);
     }
   }
 
@@ -102,17 +102,21 @@ class ViewSplatter {
     const Corner& right = one_near ? c[2] : c[1];
     const auto [left_alone, left_pair] = halfway(alone, left);
     const auto [right_alone, right_pair] = halfway(alone, right);
-    rasterise(alone, left_alone, right_alone, CellKind::surface, kExtrapolatedWeight);
-    rasterise(left, right, right_pair, CellKind::surface, kExtrapolatedWeight);
-    rasterise(left, right_pair, left_pair, CellKind::surface, kExtrapolatedWeight);
-    // The sheet's label is what hides: the near side's.
-    Corner l0 = left_alone;
-    Corner l1 = left_pair;
-    Corner r0 = right_alone;
-    Corner r1 = right_pair;
-    l0.label = l1.label = r0.label = r1.label = c[0].label;
-    rasterise(l0, l1, r1, CellKind::hidden, 0);
-    rasterise(l0, r1, r0, CellKind::hidden, 0);
+    add_surface(alone, left_alone, right_alone, kExtrapolatedWeight);
+    add_surface(left, right, right_pair, kExtrapolatedWeight);
+    add_surface(left, right_pair, left_pair, kExtrapolatedWeight);
+    add_sheet(left_alone, left_pair, right_pair, c[0], c[2]);
+    add_sheet(left_alone, right_pair, right_alone, c[0], c[2]);
+  }
+
+  // Lines of sight from the edge of what hides to where they end.
+  void add_sheet(const Corner& a, const Corner& b, const Corner& c, const Corner& edge, const Corner& foot) {
+    const float below_mm = cell_mm_ * foot.at.z();
+    rasterise(a, b, c, {0.0F, below_mm, edge.label, foot.label, CellKind::hidden});
+  }
+
+  void add_surface(const Corner& a, const Corner& b, const Corner& c, std::uint8_t weight) {
+    rasterise(a, b, c, {.kind = CellKind::surface, .weight = weight});
   }
 
   // Both surfaces' ends on the line of sight halfway between two samples.
@@ -125,7 +129,7 @@ class ViewSplatter {
     return {{camera_ + range_a * middle, a.label}, {camera_ + range_b * middle, b.label}};
   }
 
-  void rasterise(const Corner& a, const Corner& b, const Corner& c, CellKind kind, std::uint8_t weight) {
+  void rasterise(const Corner& a, const Corner& b, const Corner& c, HeightCell patch) {
     const float left = std::ceil(std::min({a.at.x(), b.at.x(), c.at.x()}) - kEdgeTolerance);
     const float right = std::floor(std::max({a.at.x(), b.at.x(), c.at.x()}) + kEdgeTolerance);
     if (left > right) return;
@@ -151,15 +155,17 @@ class ViewSplatter {
         const float wc = (x1 * v - u * y1) * per_area;
         const float wa = 1.0F - wb - wc;
         if (wa < -kEdgeTolerance || wb < -kEdgeTolerance || wc < -kEdgeTolerance) continue;
-        const float z_mm = (wa * a.at.z() + wb * b.at.z() + wc * c.at.z()) * cell_mm_;
-        const std::uint8_t label = wa >= wb && wa >= wc ? a.label : wb >= wc ? b.label : c.label;
-        add_patch(cells_.at(x, y), {z_mm, label, kind, weight, false});
+        patch.z_mm = (wa * a.at.z() + wb * b.at.z() + wc * c.at.z()) * cell_mm_;
+        if (patch.kind == CellKind::surface) {
+          patch.label = wa >= wb && wa >= wc ? a.label : wb >= wc ? b.label : c.label;
+        }
+        add_patch(cells_.at(x, y), patch);
       }
     }
   }
 
   // The uppermost patch over a cell stays.
-  void add_patch(HeightCell& cell, HeightCell patch) const {
+  void add_patch(HeightCell& cell, const HeightCell& patch) const {
     if (cell.kind == CellKind::unseen) {
       cell = patch;
       return;
@@ -167,11 +173,11 @@ class ViewSplatter {
     const bool above = patch.z_mm > cell.z_mm;
     const HeightCell& upper = above ? patch : cell;
     const HeightCell& lower = above ? cell : patch;
-    const bool undercut = cell.undercut || (upper.kind == CellKind::surface && is_item(upper.label) &&
-                                            lower.kind == CellKind::surface && lower.label != upper.label &&
-                                            upper.z_mm - lower.z_mm > undercut_mm_);
+    const bool overhangs = upper.kind == CellKind::surface && lower.kind == CellKind::surface &&
+                           lower.label != upper.label && upper.z_mm - lower.z_mm > undercut_mm_;
+    const std::uint8_t below_label = overhangs ? lower.label : upper.below_label;
     if (above) cell = patch;
-    cell.undercut = undercut;
+    if (cell.kind == CellKind::surface) cell.below_label = below_label;
   }
 
   const SurfaceGrid& view_;
@@ -191,41 +197,6 @@ void splat_view(const SurfaceGrid& view, const HeightMapParams& params, HeightMa
     std::fill_n(map.cells.row(y), map.cells.width, HeightCell{});
   }
   ViewSplatter(view, params, map).splat();
-}
-
-void add_visible_flanks(const SurfaceGrid& view, const HeightMapParams& params, std::span<FlankArea> flanks) {
-  const int reach = std::max(1, params.flank_baseline_samples);
-  const int step = 2;  // the baselines overlap anyway
-  const auto at = [&](int x, int y) {
-    const SurfacePoint& point = view.points.at(x, y);
-    return Point(point.x_mm, point.y_mm, point.z_mm);
-  };
-  const Point camera = view.camera_mm.cast<float>();
-  // The baselines' cross product spans (2 reach)² samples; every step² of them count once.
-  const float share = static_cast<float>(step * step) / static_cast<float>(4 * reach * reach);
-  for (int y = reach; y + reach < view.points.height; y += step) {
-    for (int x = reach; x + reach < view.points.width; x += step) {
-      const std::uint8_t label = view.labels.at(x, y);
-      if (!is_item(label)) continue;
-      const auto same = [&](int u, int v) {
-        return view.labels.at(u, v) == label && view.evidence.at(u, v) != SurfaceEvidence::none;
-      };
-      if (!same(x - reach, y) || !same(x + reach, y) || !same(x, y - reach) || !same(x, y + reach)) continue;
-      Point normal = (at(x + reach, y) - at(x - reach, y)).cross(at(x, y + reach) - at(x, y - reach));
-      const Point sight = camera - at(x, y);
-      const float along = normal.dot(sight);
-      if (along < 0.0F) normal = -normal;
-      const float squared = normal.squaredNorm();
-      const float sight_squared = sight.squaredNorm();
-      const float jump = static_cast<float>(params.jump_cosine);
-      if (!(along * along > jump * jump * squared * sight_squared)) continue;
-      const float horizontal = std::max(normal.z(), 0.0F);
-      if (horizontal * horizontal * sight_squared > squared * (sight_squared - sight.z() * sight.z()))
-        continue;
-      flanks[label].horizontal_mm2 += static_cast<double>(share * horizontal);
-      flanks[label].vertical_mm2 += static_cast<double>(share * std::sqrt(normal.head<2>().squaredNorm()));
-    }
-  }
 }
 
 }  // namespace traygauge

@@ -1,8 +1,6 @@
 // Rasterises what one view sees into a height map of its own.
 #pragma once
 
-#include <span>
-
 #include "core/surface/height_map.hpp"
 
 namespace traygauge {
@@ -10,8 +8,5 @@ namespace traygauge {
 // Overwrites `map` with the view's uppermost patches: triangles between neighbouring samples, cut where they
 // span an occlusion. Half a sample beyond its last sample a surface ends, the silhouette's mean place.
 void splat_view(const SurfaceGrid& view, const HeightMapParams& params, HeightMap& map);
-
-// Adds the areas of the view's item patches that are steeper than its lines of sight.
-void add_visible_flanks(const SurfaceGrid& view, const HeightMapParams& params, std::span<FlankArea> flanks);
 
 }  // namespace traygauge

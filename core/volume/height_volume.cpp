@@ -47,7 +47,7 @@ Status integrate_height_map(const HeightMap& map, const PlacedDish& dish, const 
         item.hidden_volume_ml += height * cell_mm2 / kMm3PerMl;
         item.hidden_share += cell_mm2;
       }
-      if (cell.undercut) item.undercut_mm2 += cell_mm2;
+      if (cell.kind == CellKind::surface && cell.below_label != 0) item.undercut_mm2 += cell_mm2;
       if (is_border(map, x, y)) item.border_share += cell_mm2;
       const double bin = std::clamp(height / kBinMm, 0.0, static_cast<double>(kBins - 1));
       ++workspace.histograms[cell.label * kBins + static_cast<std::size_t>(bin)];
