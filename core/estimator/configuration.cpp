@@ -53,7 +53,10 @@ Status validate(const Configuration& configuration) {
   if (configuration.dishes.empty() || configuration.dishes.size() > kMaxDishCandidates) {
     return StatusCode::invalid_configuration;
   }
-  for (const Status status : {validate_feature_search(configuration), validate(configuration.pose),
+  if (configuration.profile == Profile::paper) {
+    if (const Status status = validate_feature_search(configuration); !status.ok()) return status;
+  }
+  for (const Status status : {validate(configuration.pose),
                               validate(configuration.rectification), validate(configuration.stereo)}) {
     if (!status.ok()) return status;
   }

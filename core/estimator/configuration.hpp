@@ -6,6 +6,7 @@
 #include <span>
 
 #include "core/base/status.hpp"
+#include "core/estimator/best/best_params.hpp"
 #include "core/estimator/label_agreement.hpp"
 #include "core/features/surf.hpp"
 #include "core/image/camera.hpp"
@@ -95,7 +96,14 @@ struct RimCheckParams {
 
 inline constexpr std::size_t kMaxDishCandidates = 64;
 
+// What is measured how (design: two profiles).
+enum class Profile : std::uint8_t {
+  best,   // whatever measures better
+  paper,  // each stage as the paper describes it
+};
+
 struct Configuration {
+  Profile profile = Profile::paper;
   LensModel lens;
   ReferenceCard card;
   std::span<const DishModel> dishes;  // the nearest by rim size and height; none near: dish_unknown
@@ -118,6 +126,7 @@ struct Configuration {
   VolumeExtractionParams extraction;
   ViewGeometryParams geometry;
   LabelAgreementParams label_agreement;
+  BestParams best;
 };
 
 // invalid_configuration when a value lies outside its range; surf_not_built in a library without SURF.

@@ -9,25 +9,39 @@
 namespace traygauge {
 namespace {
 
-// Checks the picture and cuts the dish out of it; the view counts once finish_view was called.
+// Checks the picture and prepares what does not need features; the view counts once finish_view was called.
 Status start_view(EstimatorState& state, const ViewInput& input) {
   if (state.views == 0) {
     state.preparation_clock = {};
     state.memory.given.matches.clear();
     state.memory.given.card_tracks.clear();
   }
+  const LensModel lens = input.lens.value_or(state.configuration.lens);
+  if (const Status status = validate(lens); !status.ok()) return status;
+  if (state.configuration.profile == Profile::best) {
+    BestView& view = state.best.views[static_cast<std::size_t>(state.views)];
+    view.lens = lens;
+    view.arm_angle_deg = input.arm_angle_deg;
+    view.labels = input.labels;
+    return prepare_best_view(input.frame, state.configuration, state.best.pattern, state.best.card,
+                             state.preparation_clock, view);
+  }
   PreparedView& view = state.view(state.views);
-  view.lens = input.lens.value_or(state.configuration.lens);
+  view.lens = lens;
   view.arm_angle_deg = input.arm_angle_deg;
   view.labels = input.labels;
   view.keypoints.clear();
-  if (const Status status = validate(view.lens); !status.ok()) return status;
   state.preparation_clock.enter(Stage::image);
   return prepare_picture(input.frame, state.configuration, state.memory.preparation, view);
 }
 
 bool takes_views(const EstimatorState& state) {
   return state.views < 2;
+}
+
+// Profile best makes its own tracks.
+bool takes_correspondences(const EstimatorState& state) {
+  return state.configuration.profile == Profile::paper;
 }
 
 Status finish_view(EstimatorState& state, Status status) {
@@ -77,7 +91,12 @@ Estimator::Estimator(std::span<std::byte> block, const Configuration& configurat
   std::copy(configuration.dishes.begin(), configuration.dishes.end(), state.dishes.begin());
   state.configuration.dishes = std::span(state.dishes).first(configuration.dishes.size());
   state.configuration.card.pattern = {};
-  state.memory.allocate(arena, configuration);
+  const bool is_best = configuration.profile == Profile::best;
+  if (is_best) {
+    state.best.allocate(arena, configuration);
+  } else {
+    state.memory.allocate(arena, configuration);
+  }
   if (arena.exhausted()) {
     status_ = StatusCode::out_of_memory;
     return;
@@ -86,7 +105,14 @@ Estimator::Estimator(std::span<std::byte> block, const Configuration& configurat
   state.extrinsics.card_points = BoundedList<Vec3>(state.memory.extrinsics.card_points);
   state.reserved_bytes = block.size();
   state.used_bytes = arena.high_water_bytes();
-  state.set_up_pattern(configuration.card.pattern);
+  if (is_best) {
+    const ReferenceCard& card = configuration.card;
+    status_ = prepare_card_pattern(card.pattern, {card.width_mm, card.height_mm, card.thickness_mm},
+                                   configuration.best.card.pattern, state.best.pattern);
+    if (!status_.ok()) return;
+  } else {
+    state.set_up_pattern(configuration.card.pattern);
+  }
   clock.stop();
   state.setup_ms = clock.total_ms();
   state_ = &state;
@@ -108,7 +134,7 @@ Status Estimator::add_view(const ViewInput& input) {
   if (!status_.ok()) return status_;
   if (!takes_views(*state_)) return StatusCode::invalid_configuration;
   Status status = start_view(*state_, input);
-  if (status.ok()) {
+  if (status.ok() && state_->configuration.profile == Profile::paper) {
     state_->preparation_clock.enter(Stage::features);
     status = prepare_features(state_->configuration, state_->memory.preparation, state_->view(state_->views));
   }
@@ -117,7 +143,7 @@ Status Estimator::add_view(const ViewInput& input) {
 
 Status Estimator::add_view(const ViewInput& input, const GivenFeatures& features) {
   if (!status_.ok()) return status_;
-  if (!takes_views(*state_)) return StatusCode::invalid_configuration;
+  if (!takes_views(*state_) || !takes_correspondences(*state_)) return StatusCode::invalid_configuration;
   Status status = start_view(*state_, input);
   if (status.ok()) {
     state_->preparation_clock.enter(Stage::features);
@@ -129,13 +155,14 @@ Status Estimator::add_view(const ViewInput& input, const GivenFeatures& features
 
 Status Estimator::add_view_without_features(const ViewInput& input) {
   if (!status_.ok()) return status_;
-  if (!takes_views(*state_)) return StatusCode::invalid_configuration;
+  if (!takes_views(*state_) || !takes_correspondences(*state_)) return StatusCode::invalid_configuration;
   return finish_view(*state_, start_view(*state_, input));
 }
 
 Status Estimator::set_pattern(const GivenFeatures& features, int picture_width_px) {
   if (!status_.ok()) return status_;
-  if (features.keypoints.size() != features.descriptors.size() || picture_width_px <= 0) {
+  if (!takes_correspondences(*state_) || features.keypoints.size() != features.descriptors.size() ||
+      picture_width_px <= 0) {
     return StatusCode::invalid_configuration;
   }
   PatternMemory& pattern = state_->memory.pattern;
@@ -151,7 +178,7 @@ Status Estimator::set_pattern(const GivenFeatures& features, int picture_width_p
 Status Estimator::set_matches(std::span<const GivenMatch> matches,
                               std::span<const GivenCardMatch> card_matches) {
   if (!status_.ok()) return status_;
-  if (state_->views != 2 || matches.empty()) return StatusCode::invalid_configuration;
+  if (!takes_correspondences(*state_) || state_->views != 2 || matches.empty()) return StatusCode::invalid_configuration;
   const LensModel& first = state_->view(0).lens;
   const LensModel& second = state_->view(1).lens;
   GivenCorrespondences& given = state_->memory.given;

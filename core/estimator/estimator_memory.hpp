@@ -8,6 +8,7 @@
 #include <span>
 
 #include "core/base/arena.hpp"
+#include "core/estimator/best/best_memory.hpp"
 #include "core/estimator/configuration.hpp"
 #include "core/estimator/dense_reconstruction.hpp"
 #include "core/estimator/extrinsic_calibration.hpp"
@@ -73,8 +74,13 @@ std::size_t estimator_state_bytes();
 // Of everything behind it.
 constexpr std::size_t planned_bytes(const Configuration& configuration) {
   ArenaPlan plan;
-  EstimatorMemory memory;
-  memory.allocate(plan, configuration);
+  if (configuration.profile == Profile::best) {
+    BestMemory memory;
+    memory.allocate(plan, configuration);
+  } else {
+    EstimatorMemory memory;
+    memory.allocate(plan, configuration);
+  }
   return plan.high_water_bytes();
 }
 

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "core/estimator/best/best_memory.hpp"
 #include "core/estimator/estimator.hpp"
 #include "core/estimator/estimator_memory.hpp"
 #include "core/estimator/stage_clock.hpp"
@@ -14,7 +15,8 @@ namespace traygauge {
 struct EstimatorState {
   Configuration configuration;  // without the pattern's pixels, which are read at construction only
   std::array<DishModel, kMaxDishCandidates> dishes{};
-  EstimatorMemory memory;
+  EstimatorMemory memory;  // of profile paper
+  BestMemory best;         // of profile best
   Extrinsics extrinsics;  // its lists lie in `memory`
   std::size_t reserved_bytes = 0;
   std::size_t used_bytes = 0;

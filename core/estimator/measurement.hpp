@@ -8,10 +8,12 @@
 
 #include "core/base/geometry.hpp"
 #include "core/base/status.hpp"
+#include "core/base/table_frame.hpp"
 #include "core/image/camera.hpp"
 #include "core/image_view/image_view.hpp"
 #include "core/stereo/disparity.hpp"
 #include "core/surface/food_mesh.hpp"
+#include "core/surface/height_map.hpp"
 
 namespace traygauge {
 
@@ -64,6 +66,7 @@ inline constexpr std::size_t kMaxItems = 198;  // labels 2…199
 struct MeasurementReport {
   std::array<int, 2> keypoints_found{};
   std::array<int, 2> keypoints{};  // the strongest of them
+  int corners = 0;                 // that were looked for in the other view
   int matches = 0;
   int inliers = 0;
   double inlier_threshold_px = 0.0;
@@ -80,6 +83,13 @@ struct MeasurementReport {
   double label_agreement = 0.0;  // share of food pixels with the same label in both views
 };
 
+// What was measured on one dish, in the table frame.
+struct MeasuredSurface {
+  std::uint8_t dish = 1;  // its label
+  HeightMap heights;
+  InnerSurface inner;
+};
+
 // Pictures and surfaces of the last measurement, for drawing and for evaluation. Valid until the next one.
 struct MeasurementViews {
   std::array<PinholeCamera, 2> cameras;               // of the working pictures
@@ -92,6 +102,8 @@ struct MeasurementViews {
   int reference_view = 0;           // 0 or 1: the view that depth and mesh belong to
   Plane dish_bottom;                // in the reference camera, mm
   Plane table;
+  TableCameras camera_from_table;             // profile best; frames as in table_frame.hpp
+  std::span<const MeasuredSurface> surfaces;  // profile best: one a dish
 };
 
 struct Measurement {

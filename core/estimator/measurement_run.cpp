@@ -2,8 +2,10 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/estimator/best/best_run.hpp"
 #include "core/estimator/estimator_state.hpp"
 #include "core/estimator/label_agreement.hpp"
+#include "core/estimator/view_input.hpp"
 
 namespace traygauge {
 namespace {
@@ -34,12 +36,6 @@ LinesOfSight look_from_dish(const PreparedView& first, const PreparedView& secon
   const Vec3 dish = 0.5 * (place_dish(first, Pose{}, extrinsics.table) +
                            place_dish(second, first_from_second, extrinsics.table));
   return {(-dish).normalized(), (first_from_second.translation - dish).normalized()};
-}
-
-Status check_angle(double angle_deg, const ViewGeometryParams& params) {
-  if (angle_deg < params.min_angle_deg) return StatusCode::views_too_close;
-  if (angle_deg > params.max_angle_deg) return StatusCode::views_too_far_apart;
-  return StatusCode::ok;
 }
 
 Plane in_other_camera(const Plane& plane, const Pose& other_from_this) {
@@ -153,6 +149,17 @@ Status measure_views(EstimatorState& state, std::uint64_t seed, StageClock& cloc
 }  // namespace
 
 void run_measurement(EstimatorState& state, std::uint64_t seed, StageClock& clock, Measurement& measurement) {
+  const Configuration& configuration = state.configuration;
+  if (configuration.profile == Profile::best) {
+    if (state.views > 0 && !state.views_status.ok()) {
+      measurement.status = state.views_status;
+    } else if (state.views != 2) {
+      measurement.status = StatusCode::frame_missing;
+    } else {
+      run_best(state.best, configuration, seed, clock, measurement);
+    }
+    return;
+  }
   state.memory.extraction.items.clear();
   for (int i = 0; i < 2; ++i) {
     const auto k = static_cast<std::size_t>(i);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/estimator/view_input.hpp"
 #include "core/image/exposure.hpp"
 
 namespace traygauge {
@@ -11,16 +12,6 @@ namespace {
 // Scale that brings `pixels` to `target_pixels`.
 double area_scale(double pixels, double target_pixels) {
   return std::sqrt(target_pixels / pixels);
-}
-
-Status check_labels(const LabelRegions& regions) {
-  if (regions.dish_pixels == 0) return StatusCode::no_dish_label;
-  const auto items = std::span(regions.pixels).subspan(kFirstItemLabel, kLastItemLabel - kFirstItemLabel + 1);
-  if (std::all_of(items.begin(), items.end(), [](std::uint32_t count) { return count == 0; })) {
-    return StatusCode::no_food_label;
-  }
-  if (regions.dish_cut_off) return StatusCode::dish_cut_off;
-  return StatusCode::ok;
 }
 
 // The smallest upright rectangle of the undistorted, scaled picture that holds the dish's box and a margin.
@@ -72,24 +63,19 @@ Status choose_cutout(const Configuration& configuration, PreparedView& view) {
 
 Status prepare_picture(const FrameView& frame, const Configuration& configuration,
                        PreparationWorkspace& workspace, PreparedView& view) {
-  if (frame.empty()) return StatusCode::frame_missing;
-  if (frame.width != view.lens.width || frame.height != view.lens.height)
-    return StatusCode::frame_size_mismatch;
-  if (frame.width > configuration.limits.max_frame_width ||
-      frame.height > configuration.limits.max_frame_height) {
-    return StatusCode::frame_size_mismatch;
-  }
-  if (view.labels.width != frame.width || view.labels.height != frame.height)
-    return StatusCode::labels_size_mismatch;
+  Status status = check_sizes(frame, view.labels, view.lens, configuration.limits);
+  if (!status.ok()) return status;
   view.regions = measure_regions(view.labels);
-  if (const Status status = check_labels(view.regions); !status.ok()) return status;
+  status = check_labels(view.regions, view.labels);
+  if (!status.ok()) return status;
 
   workspace.frame_gray = {workspace.gray.data, frame.width, frame.height};
   convert_to_gray(frame, workspace.frame_gray);
-  if (const Status status = check_exposure(workspace.frame_gray, configuration.exposure); !status.ok())
-    return status;
+  status = check_exposure(workspace.frame_gray, configuration.exposure);
+  if (!status.ok()) return status;
 
-  if (const Status status = choose_cutout(configuration, view); !status.ok()) return status;
+  status = choose_cutout(configuration, view);
+  if (!status.ok()) return status;
   view.gray = {view.gray_storage.data(), view.cutout.width, view.cutout.height};
   view.working_labels = {view.label_storage.data(), view.cutout.width, view.cutout.height};
   resample_undistorted(frame, view.lens, view.cutout, view.gray);

@@ -39,15 +39,16 @@ LabelRegions measure_regions(ImageView<const std::uint8_t> labels) {
       const int end = find_run_end(row, begin, labels.width);
       const auto length = static_cast<std::uint32_t>(end - begin);
       regions.pixels[row[begin]] += length;
-      if (is_on_dish(row[begin])) {
-        regions.dish_pixels += length;
-        extend_box(regions.dish, begin, end, y);
-      } else if (row[begin] == kCardLabel) {
-        extend_box(regions.card, begin, end, y);
-      }
+      extend_box(regions.boxes[row[begin]], begin, end, y);
       begin = end;
     }
   }
+  for (int value = kDishLabel; value <= kLastItemLabel; ++value) {
+    const auto label = static_cast<std::size_t>(value);
+    regions.dish_pixels += regions.pixels[label];
+    regions.dish = united(regions.dish, regions.boxes[label]);
+  }
+  regions.card = regions.boxes[kCardLabel];
   const PixelBox& dish = regions.dish;
   regions.dish_cut_off = !dish.empty() && (dish.left == 0 || dish.top == 0 || dish.right == labels.width ||
                                            dish.bottom == labels.height);

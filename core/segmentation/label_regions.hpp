@@ -34,8 +34,16 @@ struct PixelBox {
   constexpr bool empty() const { return right <= left || bottom <= top; }
 };
 
+constexpr PixelBox united(const PixelBox& a, const PixelBox& b) {
+  if (a.empty()) return b;
+  if (b.empty()) return a;
+  return {a.left < b.left ? a.left : b.left, a.top < b.top ? a.top : b.top,
+          a.right > b.right ? a.right : b.right, a.bottom > b.bottom ? a.bottom : b.bottom};
+}
+
 struct LabelRegions {
   std::array<std::uint32_t, 256> pixels{};  // per label
+  std::array<PixelBox, 256> boxes{};        // per label
   std::uint32_t dish_pixels = 0;            // dish and items together
   PixelBox dish;                            // around dish and items
   PixelBox card;                            // around the card, where it is labelled

@@ -12,7 +12,7 @@
 namespace traygauge {
 
 // Where a dish stands in the table frame; it stands upright.
-struct DishPlace {
+struct DishFrame {
   Vec2 centre_mm = Vec2::Zero();
   Vec2 axis = Vec2::UnitX();  // unit, along outer_size_mm[0]
 };
@@ -63,9 +63,9 @@ class DishProfile {
 };
 
 // A dish's inner surface in the table frame.
-struct PlacedDish {
+struct InnerSurface {
   DishProfile profile;
-  DishPlace place;
+  DishFrame place;
 
   Vec2 to_dish(const Vec2& table_mm) const {
     const Vec2 shift = table_mm - place.centre_mm;

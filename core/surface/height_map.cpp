@@ -10,7 +10,7 @@ namespace traygauge {
 namespace {
 
 // Sizes the map around the dish's outer edge.
-Status lay_out(const PlacedDish& dish, double cell_mm, std::size_t max_cells, HeightMap& map) {
+Status lay_out(const InnerSurface& dish, double cell_mm, std::size_t max_cells, HeightMap& map) {
   if (!(cell_mm > 0.0) || !dish.place.centre_mm.allFinite() || !dish.place.axis.allFinite()) {
     return StatusCode::invalid_configuration;
   }
@@ -33,7 +33,7 @@ Status lay_out(const PlacedDish& dish, double cell_mm, std::size_t max_cells, He
 }
 
 // Slope of a view's line of sight to the dish's middle.
-double sight_slope(const Vec3& camera_mm, const PlacedDish& dish) {
+double sight_slope(const Vec3& camera_mm, const InnerSurface& dish) {
   const double run = (camera_mm.head<2>() - dish.place.centre_mm).norm();
   return (camera_mm.z() - dish.profile.bottom_height_mm()) / std::max(run, 1.0);
 }
@@ -56,7 +56,7 @@ HeightCell fuse(const HeightCell& a, const HeightCell& b, float disagreement_mm)
 
 }  // namespace
 
-Status build_height_map(std::span<const SurfaceGrid> views, const PlacedDish& dish,
+Status build_height_map(std::span<const SurfaceGrid> views, const InnerSurface& dish,
                         const HeightMapParams& params, HeightMapWorkspace& workspace, HeightMap& map) {
   map = {};
   const Status laid_out = lay_out(dish, params.cell_mm, workspace.first.size(), map);

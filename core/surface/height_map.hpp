@@ -88,7 +88,7 @@ struct HeightMapWorkspace {
 // (hidden_cells.hpp), or else what is seen at the sheet's foot, level. `kind` stays hidden for filled cells.
 // Grids without points count as no view. out_of_memory when the dish has more cells than the workspace;
 // too_little_depth when nothing is seen; invalid_configuration for a cell size that is not positive.
-Status build_height_map(std::span<const SurfaceGrid> views, const PlacedDish& dish,
+Status build_height_map(std::span<const SurfaceGrid> views, const InnerSurface& dish,
                         const HeightMapParams& params, HeightMapWorkspace& workspace, HeightMap& map);
 
 }  // namespace traygauge

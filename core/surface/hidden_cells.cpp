@@ -61,7 +61,7 @@ class SourceMap {
 
 class HiddenFill {
  public:
-  HiddenFill(const PlacedDish& dish, const HeightMapParams& params, double steepest_sight,
+  HiddenFill(const InnerSurface& dish, const HeightMapParams& params, double steepest_sight,
              std::span<Source> sources, HeightMap& map)
       : dish_(dish),
         params_(params),
@@ -188,7 +188,7 @@ class HiddenFill {
     return bound_mm - std::max(excess, 0.0F) * slope * run_mm / drop;
   }
 
-  const PlacedDish& dish_;
+  const InnerSurface& dish_;
   const HeightMapParams& params_;
   ImageView<Source> sources_;
   HeightMap& map_;
@@ -199,7 +199,7 @@ class HiddenFill {
 
 }  // namespace
 
-void fill_hidden_cells(const PlacedDish& dish, const HeightMapParams& params, double steepest_sight,
+void fill_hidden_cells(const InnerSurface& dish, const HeightMapParams& params, double steepest_sight,
                        std::span<Source> sources, HeightMap& map) {
   HiddenFill fill(dish, params, steepest_sight, sources, map);
   fill.fill_holes();

@@ -29,7 +29,7 @@ double max_height(std::span<const std::uint32_t> histogram, double ignored_cells
 
 }  // namespace
 
-Status integrate_height_map(const HeightMap& map, const PlacedDish& dish, const HeightVolumeParams& params,
+Status integrate_height_map(const HeightMap& map, const InnerSurface& dish, const HeightVolumeParams& params,
                             HeightVolumeWorkspace& workspace) {
   constexpr std::size_t kBins = HeightVolumeWorkspace::kBins;
   std::fill(workspace.items.begin(), workspace.items.end(), HeightVolume{});

@@ -42,7 +42,7 @@ struct HeightVolumeWorkspace {
 // Sums (height − dish) · area over the item cells of `map` into `workspace.items`. A cell counts whole, with
 // the label at its centre: sampled areas have no bias. Surface below the dish counts negative. no_food_label
 // when no cell has an item's label.
-Status integrate_height_map(const HeightMap& map, const PlacedDish& dish, const HeightVolumeParams& params,
+Status integrate_height_map(const HeightMap& map, const InnerSurface& dish, const HeightVolumeParams& params,
                             HeightVolumeWorkspace& workspace);
 
 }  // namespace traygauge

@@ -1,6 +1,7 @@
 // One view as profile `best` keeps it until the measurement is done.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -33,6 +34,8 @@ struct BestView {
     pyramid.allocate(arena, limits.max_frame_width, limits.max_frame_height);
   }
 };
+
+using ViewPair = std::array<const BestView*, 2>;
 
 // Checks sizes, labels and exposure, makes the grey pyramid, and finds the card. `view` has its lens and labels.
 Status prepare_best_view(const FrameView& frame, const Configuration& configuration,

@@ -18,11 +18,11 @@ PixelBox box_of(const LabelRegions& regions, const LabelSet& labels) {
   return box;
 }
 
-std::array<StoredView, 2> stored_views(const std::array<BestView, 2>& views, const SceneGeometry& geometry,
+std::array<StoredView, 2> stored_views(const ViewPair& views, const SceneGeometry& geometry,
                                        const LabelSet& labels) {
   std::array<StoredView, 2> stored;
   for (std::size_t v = 0; v < 2; ++v) {
-    stored[v] = {views[v].gray.levels[0], views[v].labels, box_of(views[v].regions, labels), views[v].lens,
+    stored[v] = {views[v]->gray.levels[0], views[v]->labels, box_of(views[v]->regions, labels), views[v]->lens,
                  geometry.joint.camera_from_table[v]};
   }
   return stored;
@@ -59,10 +59,10 @@ struct DishHeights {
 };
 
 // Status of one item, once its dish was measured.
-StatusCode judge_item(const std::array<BestView, 2>& views, std::uint8_t label, const HeightVolume& volume,
+StatusCode judge_item(const ViewPair& views, std::uint8_t label, const HeightVolume& volume,
                       const VolumeExtractionParams& params) {
-  const std::uint32_t first_px = views[0].regions.pixels[label];
-  const std::uint32_t second_px = views[1].regions.pixels[label];
+  const std::uint32_t first_px = views[0]->regions.pixels[label];
+  const std::uint32_t second_px = views[1]->regions.pixels[label];
   if (first_px == 0 || second_px == 0) return StatusCode::item_hidden;
   if (std::min(first_px, second_px) < static_cast<std::uint32_t>(params.min_item_px)) {
     return StatusCode::item_too_small;
@@ -87,17 +87,17 @@ Vec3 centre_of(const HeightMap& map, std::uint8_t label) {
 }
 
 template <class Action>
-void for_each_item(const std::array<BestView, 2>& views, const DishOnTray& dish, Action&& action) {
+void for_each_item(const ViewPair& views, const DishOnTray& dish, Action&& action) {
   for (int value = kFirstItemLabel; value <= kLastItemLabel; ++value) {
     const auto label = static_cast<std::uint8_t>(value);
-    const bool seen = views[0].regions.pixels[label] > 0 || views[1].regions.pixels[label] > 0;
+    const bool seen = views[0]->regions.pixels[label] > 0 || views[1]->regions.pixels[label] > 0;
     if (seen && dish.labels.contains(label)) action(label);
   }
 }
 
 }  // namespace
 
-void measure_dish(const std::array<BestView, 2>& views, const SceneGeometry& geometry, std::size_t index,
+void measure_dish(const ViewPair& views, const SceneGeometry& geometry, std::size_t index,
                   const Configuration& configuration, DishMeasurementWorkspace& workspace, StageClock& clock,
                   MeasurementReport& report) {
   const BestParams& best = configuration.best;

@@ -38,7 +38,7 @@ struct DishMeasurementWorkspace {
 
 // Appends the items on dish `index` of `geometry` to `workspace.items`, and its height map to
 // `workspace.surfaces`. What fails here fails for all of them: every item then carries that status.
-void measure_dish(const std::array<BestView, 2>& views, const SceneGeometry& geometry, std::size_t index,
+void measure_dish(const ViewPair& views, const SceneGeometry& geometry, std::size_t index,
                   const Configuration& configuration, DishMeasurementWorkspace& workspace, StageClock& clock,
                   MeasurementReport& report);
 

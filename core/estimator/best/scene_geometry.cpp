@@ -15,19 +15,19 @@ std::span<const DishModel> candidates_for(std::uint8_t label, std::span<const Di
   return {first, last};
 }
 
-bool is_seen(const std::array<BestView, 2>& views, std::uint8_t label) {
-  return views[0].regions.pixels[label] > 0 || views[1].regions.pixels[label] > 0;
+bool is_seen(const ViewPair& views, std::uint8_t label) {
+  return views[0]->regions.pixels[label] > 0 || views[1]->regions.pixels[label] > 0;
 }
 
-Status trace_outlines(const std::array<BestView, 2>& views, const Configuration& configuration,
+Status trace_outlines(const ViewPair& views, const Configuration& configuration,
                       SceneGeometryWorkspace& workspace, const SceneGeometry& geometry) {
   for (std::size_t d = 0; d < geometry.dish_count; ++d) {
     const DishRegion region{geometry.dishes[d].label, geometry.dishes[d].labels};
     for (std::size_t v = 0; v < 2; ++v) {
       workspace.outlines[d][v].clear();
-      if (views[v].regions.pixels[region.dish] == 0) continue;
+      if (views[v]->regions.pixels[region.dish] == 0) continue;
       const Status status =
-          trace_dish_outline(views[v].labels, views[v].lens, region, configuration.best.outline,
+          trace_dish_outline(views[v]->labels, views[v]->lens, region, configuration.best.outline,
                              workspace.outline, workspace.outlines[d][v]);
       if (!status.ok()) return status;
     }
@@ -35,12 +35,12 @@ Status trace_outlines(const std::array<BestView, 2>& views, const Configuration&
   return StatusCode::ok;
 }
 
-JointInput join(const std::array<BestView, 2>& views, const ReferenceCard& card,
+JointInput join(const ViewPair& views, const ReferenceCard& card,
                 std::span<const PointTrack> tracks, std::span<const JointDish> dishes) {
   JointInput input;
   for (std::size_t v = 0; v < 2; ++v) {
-    input.cards[v] = {views[v].card.camera_from_table, views[v].card.information};
-    input.focals_px[v] = views[v].lens.pinhole.mean_focal_px();
+    input.cards[v] = {views[v]->card.camera_from_table, views[v]->card.information};
+    input.focals_px[v] = views[v]->lens.pinhole.mean_focal_px();
   }
   input.card_middle_mm = print_point_mm({0.5 * card.width_mm, 0.5 * card.height_mm}, card.thickness_mm);
   input.tracks = tracks;
@@ -50,7 +50,7 @@ JointInput join(const std::array<BestView, 2>& views, const ReferenceCard& card,
 
 }  // namespace
 
-Status list_dishes(const std::array<BestView, 2>& views, const Configuration& configuration,
+Status list_dishes(const ViewPair& views, const Configuration& configuration,
                    SceneGeometry& geometry) {
   geometry.dish_count = 0;
   for (int value = kDishLabel; value <= kLastFurtherDishLabel; ++value) {
@@ -63,8 +63,8 @@ Status list_dishes(const std::array<BestView, 2>& views, const Configuration& co
     if (dish.candidates.empty()) return StatusCode::dish_unknown;
   }
   if (geometry.dish_count == 0) return StatusCode::no_dish_label;
-  const DishMembership first = find_dishes_of_items(views[0].labels);
-  const DishMembership second = find_dishes_of_items(views[1].labels);
+  const DishMembership first = find_dishes_of_items(views[0]->labels);
+  const DishMembership second = find_dishes_of_items(views[1]->labels);
   for (int value = kFirstItemLabel; value <= kLastItemLabel; ++value) {
     const auto label = static_cast<std::uint8_t>(value);
     if (!is_seen(views, label)) continue;
@@ -76,15 +76,15 @@ Status list_dishes(const std::array<BestView, 2>& views, const Configuration& co
   return StatusCode::ok;
 }
 
-Status find_geometry(const std::array<BestView, 2>& views, const Configuration& configuration, Random& random,
+Status find_geometry(const ViewPair& views, const Configuration& configuration, Random& random,
                      SceneGeometryWorkspace& workspace, StageClock& clock, MeasurementReport& report,
                      SceneGeometry& geometry) {
   const BestParams& best = configuration.best;
   clock.enter(Stage::matching);
-  const TrackedView first{views[0].gray, views[0].labels, views[0].lens};
-  const TrackedView second{views[1].gray, views[1].labels, views[1].lens};
+  const TrackedView first{views[0]->gray, views[0]->labels, views[0]->lens};
+  const TrackedView second{views[1]->gray, views[1]->labels, views[1]->lens};
   PointTrackingReport tracking;
-  Status status = track_points(first, second, {views[0].card.camera_from_table, views[1].card.camera_from_table},
+  Status status = track_points(first, second, {views[0]->card.camera_from_table, views[1]->card.camera_from_table},
                                configuration.card.thickness_mm, best.tracking, random, workspace.tracking,
                                geometry.tracks, tracking);
   report.corners = static_cast<int>(tracking.corners);

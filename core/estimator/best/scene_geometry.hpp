@@ -52,11 +52,11 @@ struct SceneGeometryWorkspace {
 
 // Lists the dishes that either view shows, with what lies on them. no_dish_label without any; dish_unknown when
 // one of them has no description.
-Status list_dishes(const std::array<BestView, 2>& views, const Configuration& configuration,
+Status list_dishes(const ViewPair& views, const Configuration& configuration,
                    SceneGeometry& geometry);
 
 // Fills the rest of `geometry` and the sparse part of the report.
-Status find_geometry(const std::array<BestView, 2>& views, const Configuration& configuration, Random& random,
+Status find_geometry(const ViewPair& views, const Configuration& configuration, Random& random,
                      SceneGeometryWorkspace& workspace, StageClock& clock, MeasurementReport& report,
                      SceneGeometry& geometry);
 

@@ -52,7 +52,7 @@ struct DishItem {
 
 struct DishInCapture {
   std::string name;
-  PlacedDish dish;
+  InnerSurface dish;
   std::set<int> labels;  // the dish and what lies on it
   std::vector<DishItem> items;
 };

@@ -1,0 +1,38 @@
+// Where every part of profile `best` lies in the estimator's block.
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+#include "core/estimator/best/best_view.hpp"
+#include "core/estimator/best/dish_measurement.hpp"
+#include "core/estimator/best/scene_geometry.hpp"
+#include "core/estimator/configuration.hpp"
+
+namespace traygauge {
+
+// The card's pattern, both views and the results stay; the stages follow each other and share the memory
+// behind them.
+struct BestMemory {
+  CardPattern pattern;
+  std::array<BestView, 2> views;
+  CardAlignmentWorkspace card;
+  SceneGeometryWorkspace geometry;
+  SceneGeometry scene;
+  DishMeasurementWorkspace dish;
+
+  template <class Allocator>
+  constexpr void allocate(Allocator& arena, const Configuration& configuration) {
+    pattern.allocate(arena, configuration.best.card.pattern);
+    for (BestView& view : views) view.allocate(arena, configuration.limits);
+    dish.allocate_kept(arena, configuration);
+    const std::size_t shared = arena.mark();
+    card.allocate(arena, configuration.best.card);
+    arena.rewind(shared);
+    // The tracks are still read while dishes are measured.
+    geometry.allocate(arena, configuration);
+    dish.allocate(arena, configuration);
+  }
+};
+
+}  // namespace traygauge

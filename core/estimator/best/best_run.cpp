@@ -1,0 +1,97 @@
+#include "core/estimator/best/best_run.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "core/estimator/view_input.hpp"
+
+namespace traygauge {
+namespace {
+
+bool works_in_reverse(const BestMemory& memory) {
+  return memory.views[1].regions.dish_pixels > memory.views[0].regions.dish_pixels;
+}
+
+// Where the first dish stands, on the table.
+Vec3 dish_on_table(const SceneGeometry& geometry) {
+  for (std::size_t d = 0; d < geometry.dish_count; ++d) {
+    const JointDishResult& dish = geometry.joint.dishes[d];
+    if (!dish.status.ok()) continue;
+    const Vec2& centre = dish.placed.place.centre_mm;
+    return {centre.x(), centre.y(), 0.0};
+  }
+  return Vec3::Zero();
+}
+
+double relative_angle_deg(const SceneGeometry& geometry) {
+  const Vec3 dish = dish_on_table(geometry);
+  const TableCameras& cameras = geometry.joint.camera_from_table;
+  const Vec3 first = (camera_centre_mm(cameras[0]) - dish).normalized();
+  const Vec3 second = (camera_centre_mm(cameras[1]) - dish).normalized();
+  return std::acos(std::clamp(first.dot(second), -1.0, 1.0)) * 180.0 / std::numbers::pi;
+}
+
+Status summarise(const SceneGeometry& geometry, std::span<const ItemResult> items) {
+  const auto is_measured = [](const ItemResult& item) { return item.status == StatusCode::ok; };
+  const auto measured = std::count_if(items.begin(), items.end(), is_measured);
+  if (items.empty()) return geometry.joint.dishes[0].status;
+  if (measured == static_cast<std::ptrdiff_t>(items.size())) return StatusCode::ok;
+  return measured > 0 ? StatusCode::partial : items.front().status;
+}
+
+void report_pose(const SceneGeometry& geometry, bool reversed, Measurement& measurement) {
+  const Pose motion = second_from_first(geometry.joint.camera_from_table);
+  measurement.has_pose = true;
+  measurement.second_from_first = reversed ? motion.inverse() : motion;
+  measurement.rotation_angle_deg = std::abs(Eigen::AngleAxisd(motion.rotation).angle()) * 180.0 / std::numbers::pi;
+  measurement.relative_angle_deg = relative_angle_deg(geometry);
+  measurement.views.camera_from_table = geometry.joint.camera_from_table;
+  if (reversed) std::swap(measurement.views.camera_from_table[0], measurement.views.camera_from_table[1]);
+}
+
+void warn(const ViewPair& views, const Configuration& configuration, const SceneGeometry& geometry,
+          Measurement& measurement) {
+  const auto set = [&](Warning warning, bool on) { measurement.warnings[static_cast<std::size_t>(warning)] = on; };
+  const ViewGeometryParams& params = configuration.geometry;
+  set(Warning::angle_small, measurement.relative_angle_deg < params.small_angle_deg);
+  set(Warning::angle_large, measurement.relative_angle_deg > params.large_angle_deg);
+  for (std::size_t d = 0; d < geometry.dish_count; ++d) {
+    if (geometry.dishes[d].candidates.size() > 1) set(Warning::dish_guessed, true);
+  }
+  if (views[0]->arm_angle_deg && views[1]->arm_angle_deg) {
+    const double commanded_deg = std::abs(*views[1]->arm_angle_deg - *views[0]->arm_angle_deg);
+    set(Warning::arm_angle_disagrees,
+        std::abs(commanded_deg - measurement.rotation_angle_deg) > params.max_arm_deviation_deg);
+  }
+}
+
+}  // namespace
+
+void run_best(BestMemory& memory, const Configuration& configuration, std::uint64_t seed, StageClock& clock,
+              Measurement& measurement) {
+  const bool reversed = works_in_reverse(memory);
+  const ViewPair views = {&memory.views[reversed ? 1 : 0], &memory.views[reversed ? 0 : 1]};
+  DishMeasurementWorkspace dish = memory.dish;
+  measurement.views.reference_view = reversed ? 1 : 0;
+  Random random(seed);
+  SceneGeometry& geometry = memory.scene;
+  geometry = {};
+  measurement.status = list_dishes(views, configuration, geometry);
+  if (!measurement.status.ok()) return;
+  measurement.status =
+      find_geometry(views, configuration, random, memory.geometry, clock, measurement.report, geometry);
+  if (!measurement.status.ok()) return;
+  report_pose(geometry, reversed, measurement);
+  warn(views, configuration, geometry, measurement);
+  measurement.status = check_angle(measurement.relative_angle_deg, configuration.geometry);
+  if (!measurement.status.ok()) return;
+  for (std::size_t d = 0; d < geometry.dish_count; ++d) {
+    measure_dish(views, geometry, d, configuration, dish, clock, measurement.report);
+  }
+  measurement.status = summarise(geometry, dish.items.items());
+  measurement.items = dish.items.items();
+  measurement.views.surfaces = dish.surfaces.items();
+}
+
+}  // namespace traygauge

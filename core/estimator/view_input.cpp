@@ -1,0 +1,45 @@
+#include "core/estimator/view_input.hpp"
+
+namespace traygauge {
+namespace {
+
+bool touches_edge(const PixelBox& box, int width, int height) {
+  return !box.empty() && (box.left == 0 || box.top == 0 || box.right == width || box.bottom == height);
+}
+
+}  // namespace
+
+Status check_sizes(const FrameView& frame, ImageView<const std::uint8_t> labels, const LensModel& lens,
+                   const EstimatorLimits& limits) {
+  if (frame.empty()) return StatusCode::frame_missing;
+  if (frame.width != lens.width || frame.height != lens.height) return StatusCode::frame_size_mismatch;
+  if (frame.width > limits.max_frame_width || frame.height > limits.max_frame_height) {
+    return StatusCode::frame_size_mismatch;
+  }
+  return labels.width == frame.width && labels.height == frame.height ? StatusCode::ok
+                                                                      : StatusCode::labels_size_mismatch;
+}
+
+Status check_labels(const LabelRegions& regions, ImageView<const std::uint8_t> labels) {
+  bool has_dish = false;
+  bool has_food = false;
+  bool is_cut_off = false;
+  for (std::size_t value = kDishLabel; value <= kLastFurtherDishLabel; ++value) {
+    const auto label = static_cast<std::uint8_t>(value);
+    if (regions.pixels[value] == 0 || (!is_dish(label) && !is_item(label))) continue;
+    has_dish = has_dish || is_dish(label) || is_item(label);
+    has_food = has_food || is_item(label);
+    is_cut_off = is_cut_off || touches_edge(regions.boxes[value], labels.width, labels.height);
+  }
+  if (!has_dish) return StatusCode::no_dish_label;
+  if (!has_food) return StatusCode::no_food_label;
+  return is_cut_off ? StatusCode::dish_cut_off : StatusCode::ok;
+}
+
+Status check_angle(double relative_angle_deg, const ViewGeometryParams& params) {
+  if (relative_angle_deg < params.min_angle_deg) return StatusCode::views_too_close;
+  if (relative_angle_deg > params.max_angle_deg) return StatusCode::views_too_far_apart;
+  return StatusCode::ok;
+}
+
+}  // namespace traygauge

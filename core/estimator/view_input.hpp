@@ -1,0 +1,24 @@
+// What every profile asks of a view before it looks at its pixels.
+#pragma once
+
+#include <cstdint>
+
+#include "core/base/status.hpp"
+#include "core/estimator/configuration.hpp"
+#include "core/image/camera.hpp"
+#include "core/image_view/image_view.hpp"
+#include "core/segmentation/label_regions.hpp"
+
+namespace traygauge {
+
+// frame_missing; frame_size_mismatch with the lens or the memory; labels_size_mismatch with the frame.
+Status check_sizes(const FrameView& frame, ImageView<const std::uint8_t> labels, const LensModel& lens,
+                   const EstimatorLimits& limits);
+
+// no_dish_label, no_food_label, or dish_cut_off when a dish touches the picture's edge.
+Status check_labels(const LabelRegions& regions, ImageView<const std::uint8_t> labels);
+
+// views_too_close or views_too_far_apart.
+Status check_angle(double relative_angle_deg, const ViewGeometryParams& params);
+
+}  // namespace traygauge
