@@ -30,6 +30,7 @@ constexpr auto kTexts = std::to_array<Text>({
     {"frame_too_bright", "The picture is burnt out; lower the exposure or remove the glare."},
     {"no_dish_label", "No pixel is labelled as dish; outline the dish in both views."},
     {"no_food_label", "No food item is labelled in both views; outline at least one item."},
+    {"too_many_dishes", "More than eight dishes are labelled; measure the tray in parts."},
     {"dish_cut_off", "The dish is cut off by the edge of the picture; move it into the middle."},
     {"too_few_features",
      "The picture has too little texture to find corresponding points; check focus and light."},

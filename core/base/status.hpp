@@ -18,6 +18,7 @@ enum class StatusCode : std::uint8_t {
   frame_too_bright,
   no_dish_label,
   no_food_label,
+  too_many_dishes,
   dish_cut_off,
   too_few_features,
   too_few_matches,

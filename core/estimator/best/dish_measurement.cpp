@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/estimator/best/uncertainty.hpp"
+#include "core/surface/triangulation.hpp"
 
 namespace traygauge {
 namespace {
@@ -53,10 +54,23 @@ double tallest_track_mm(const SceneGeometry& geometry, const LabelSet& labels, d
   return tallest_mm;
 }
 
-struct DishHeights {
-  double bottom_mm = 0.0;
-  double top_mm = 0.0;
-};
+Status place_inner_surface(const DishModel& model, const DishPlace& place, InnerSurface& inner) {
+  const Status status = inner.profile.set(model);
+  inner.place = {place.centre_mm, {std::cos(place.azimuth_rad), std::sin(place.azimuth_rad)}};
+  return status;
+}
+
+// Height by which a point in the middle of the dish's bottom rises for each sample of disparity.
+double height_per_sample_mm(const SceneGeometry& geometry, const DishPlace& place, double bottom_mm,
+                            double step_mm) {
+  const Vec3 point(place.centre_mm.x(), place.centre_mm.y(), bottom_mm);
+  Vec2 shift = Vec2::Zero();  // on the bottom's plane, for a mm of height
+  for (std::size_t v = 0; v < 2; ++v) {
+    const Vec3 sight = point - camera_centre_mm(geometry.joint.camera_from_table[v]);
+    shift += (v == 0 ? 1.0 : -1.0) * sight.head<2>() / -sight.z();
+  }
+  return step_mm / std::max(shift.norm(), 1e-3);
+}
 
 // Status of one item, once its dish was measured.
 StatusCode judge_item(const ViewPair& views, std::uint8_t label, const HeightVolume& volume,
@@ -147,6 +161,8 @@ void measure_dish(const ViewPair& views, const SceneGeometry& geometry, std::siz
   clock.enter(Stage::volume);
   status = integrate_height_map(map, inner, best.volume, workspace.volume);
   if (!status.ok()) return refuse(status);
+  const double height_per_px_mm =
+      height_per_sample_mm(geometry, placed.placed.place, bottom_mm, dense.column_step_mm);
   for_each_item(views, dish, [&](std::uint8_t label) {
     const HeightVolume& volume = workspace.volume.items[label];
     ItemResult item;
@@ -158,7 +174,7 @@ void measure_dish(const ViewPair& views, const SceneGeometry& geometry, std::siz
     item.area_mm2 = volume.area_mm2;
     item.mean_height_mm = volume.mean_height_mm;
     item.max_height_mm = volume.max_height_mm;
-    const UncertaintyInput input{volume, centre_of(map, label), dense.height_per_px_mm, dense.column_step_mm};
+    const UncertaintyInput input{volume, centre_of(map, label), height_per_px_mm, dense.column_step_mm};
     item.sigma_ml = estimate_sigma_ml(input, geometry.joint.camera_from_table, geometry.joint.covariance,
                                       best.uncertainty);
     workspace.items.push_back(item);

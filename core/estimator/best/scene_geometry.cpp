@@ -63,15 +63,9 @@ Status list_dishes(const ViewPair& views, const Configuration& configuration,
     if (dish.candidates.empty()) return StatusCode::dish_unknown;
   }
   if (geometry.dish_count == 0) return StatusCode::no_dish_label;
-  const DishMembership first = find_dishes_of_items(views[0]->labels);
-  const DishMembership second = find_dishes_of_items(views[1]->labels);
   for (int value = kFirstItemLabel; value <= kLastItemLabel; ++value) {
     const auto label = static_cast<std::uint8_t>(value);
-    if (!is_seen(views, label)) continue;
-    const std::uint8_t owner = join_memberships(first, second, label);
-    for (std::size_t d = 0; d < geometry.dish_count; ++d) {
-      if (geometry.dishes[d].label == owner) geometry.dishes[d].labels.add(label);
-    }
+    if (is_seen(views, label)) geometry.dishes[0].labels.add(label);
   }
   return StatusCode::ok;
 }
