@@ -17,7 +17,7 @@ using Lanes [[gnu::vector_size(16)]] = float;
 constexpr int kLanes = 4;
 constexpr int kGroups = kAlignmentSide / kLanes;
 constexpr double kReach = 0.5 * (kAlignmentSide - 1);
-constexpr double kWeightSigma = 5.0;  // px of the window: the patch's edge still counts a third
+constexpr double kWeightSigma = 7.5;  // px of the window: the patch's edge still counts a third
 constexpr auto kWeights = gaussian_row<kAlignmentSide>(kWeightSigma);
 
 // Columns of the least-squares problem: shift, its affine terms, gain, offset.
@@ -72,6 +72,10 @@ struct AlignmentTemplate {
   Equations equations;
   double weighted_squares = 0.0;  // Σ w v²
 };
+
+constexpr double kCorrelatedNoise =
+    1.4;  // standard deviations grow by it: noise of compressed pictures is not white
+constexpr double kGradientNoise = 0.5;  // variance of a central difference per variance of white noise
 
 void differentiate(const std::int16_t* sampled, AlignmentTemplate& patch) {
   constexpr int kStride = kAlignmentSide + 2;
@@ -178,7 +182,8 @@ class Window {
   bool sample(const Vec2& centre, float* values) {
     const double x = centre.x() - kReach;
     const double y = centre.y() - kReach;
-    if (!(x >= 0.0 && y >= 0.0 && x < gray_.width - kStride && y < gray_.height - kSide)) return false;
+    if (!(x >= 1.0 && y >= 1.0 && x < gray_.width - kStride - 1 && y < gray_.height - kSide - 1))
+      return false;
     const int left = static_cast<int>(x);
     const int top = static_cast<int>(y);
     if (left != left_ || top != top_) load_pixels(left, top);
@@ -277,6 +282,14 @@ NormalEquations<4> without_affine(const Equations& all) {
   return some;
 }
 
+using Mat2 = Eigen::Matrix2d;
+
+Mat2 inverse_of(const Mat2& m) {
+  Mat2 adjugate;
+  adjugate << m(1, 1), -m(0, 1), -m(1, 0), m(0, 0);
+  return adjugate / m.determinant();
+}
+
 // How much of Σ w r² a step takes away.
 template <int kParameters>
 double explained_squares(const NormalEquations<kParameters>& equations,
@@ -286,17 +299,27 @@ double explained_squares(const NormalEquations<kParameters>& equations,
   return total;
 }
 
-// Mean variance of the two shifts for residuals of variance 1.
+// Mean variance of the two shifts for residuals of variance `noise`, half of which is the patch's own and so
+// lies in its gradients too: the equations hold H = S + N, of which the noise's part N tells nothing about
+// the place, so that the covariance is noise · S⁻¹ H S⁻¹.
 template <int kParameters>
-bool shift_variance(NormalEquations<kParameters> equations, double& variance) {
-  variance = 0.0;
+bool shift_variance(NormalEquations<kParameters> equations, double noise, double weights, double& variance) {
+  Mat2 inverse;
   for (int i = 0; i < 2; ++i) {
     typename NormalEquations<kParameters>::Vector column;
     equations.gradient.setZero();
     equations.gradient[i] = -1.0;
     if (!equations.solve(0.0, column)) return false;
-    variance += 0.5 * column[i];
+    inverse(0, i) = column[0];
+    inverse(1, i) = column[1];
   }
+  const Mat2 shifts = inverse_of(inverse);
+  Mat2 structure = shifts;
+  structure.diagonal().array() -= weights * kGradientNoise * 0.5 * noise;
+  if (!(structure.determinant() > 0.0 && structure.trace() > 0.0)) return false;
+  const Mat2 signal = inverse_of(structure);
+  const Mat2 covariance = noise * signal * shifts * signal;
+  variance = 0.5 * covariance.trace();
   return variance > 0.0;
 }
 
@@ -368,29 +391,24 @@ class Aligner {
   bool judge(PatchMotion motion) {
     if (!gather()) return false;
     const Equations& equations = patch_.equations;
-    const double weights = equations.hessian(kOffset, kOffset);
-    double gain = 0.0;
-    double explained = 0.0;
-    double variance = 0.0;
-    if (motion == PatchMotion::affine) {
-      Equations::Vector step = Equations::Vector::Zero();
-      if (!equations.solve(0.0, step) || !shift_variance(equations, variance)) return false;
-      explained = explained_squares(equations, step);
-      gain = 1.0 + step[kGain];
-    } else {
-      const NormalEquations<4> some = without_affine(equations);
-      NormalEquations<4>::Vector step = NormalEquations<4>::Vector::Zero();
-      if (!some.solve(0.0, step) || !shift_variance(some, variance)) return false;
-      explained = explained_squares(some, step);
-      gain = 1.0 + step[2];
-    }
-    const double rest = std::max(0.0, residuals_.squares - explained) / weights;
+    if (motion == PatchMotion::affine) return judge_with(equations, kGain);
+    return judge_with(without_affine(equations), 2);
+  }
+
+  template <int kParameters>
+  bool judge_with(const NormalEquations<kParameters>& equations, int gain_column) {
+    typename NormalEquations<kParameters>::Vector step = NormalEquations<kParameters>::Vector::Zero();
+    if (!equations.solve(0.0, step)) return false;
+    const double weights = patch_.equations.hessian(kOffset, kOffset);
+    const double rest = std::max(0.0, residuals_.squares - explained_squares(equations, step)) / weights;
     const double contrast = (residuals_.seen_squares - residuals_.seen * residuals_.seen / weights) / weights;
-    if (!(contrast > 0.0 && gain > 0.0)) return false;
+    if (!(contrast > 0.0 && 1.0 + step[gain_column] > 0.0)) return false;
     alignment_.correlation = std::sqrt(std::max(0.0, 1.0 - rest / contrast));
     alignment_.residual_grey = std::sqrt(rest);
-    const double grey = std::max(alignment_.residual_grey, params_.grey_sigma);
-    alignment_.sigma_px = grey * std::sqrt(variance);
+    const double noise = std::max(rest, params_.grey_sigma * params_.grey_sigma);
+    double variance = 0.0;
+    if (!shift_variance(equations, noise, weights, variance)) return false;
+    alignment_.sigma_px = kCorrelatedNoise * std::sqrt(variance);
     return std::isfinite(alignment_.sigma_px);
   }
 
