@@ -30,8 +30,8 @@ struct CornerParams {
   int cell_px = 32;
   // Strongest corners that a bucket keeps, and how many of them are drawn at most: the closer both numbers,
   // the less two seeds differ.
-  int candidates_per_bucket = 9;
-  int corners_per_bucket = 6;
+  int candidates_per_bucket = 14;
+  int corners_per_bucket = 10;
   // Squared grey values per pixel: ten times what white noise of two grey values leaves at half size. Below,
   // wood and smooth leather give corners by the thousand that no other view confirms.
   float min_response = 2.0F;

@@ -6,15 +6,9 @@
 
 #include "core/base/geometry.hpp"
 #include "core/image_view/image_view.hpp"
+#include "core/matching/alignment_equations.hpp"
 
 namespace traygauge {
-
-inline constexpr int kAlignmentSide = 24;  // of the patch, in pixels of the second picture
-
-enum class PatchMotion : std::uint8_t {
-  shift,   // the affine map is known: a plane in known attitude
-  affine,  // it is refined as well
-};
 
 struct PatchAlignmentParams {
   // Steps of the shift alone, 3 to 5 are usual; and steps of the whole map, each of which samples the patch

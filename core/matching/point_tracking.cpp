@@ -255,7 +255,7 @@ bool Tracker::track(const Corner& corner, PointTrack& track) {
     ++report_.not_aligned;
     return false;
   }
-  if (!returns(pixel, alignment)) {
+  if (alignment.sigma_px > params_.sure_sigma_px && !returns(pixel, alignment)) {
     ++report_.not_returned;
     return false;
   }

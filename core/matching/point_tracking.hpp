@@ -51,11 +51,12 @@ struct PointTrackingParams {
   // Lead of the best correlation over any other peak: below, repeated texture is taken for itself.
   double min_lead = 0.05;
 
-  // The finished track: correlation and standard deviation as aligned, and how far it may end from its
-  // start when followed back.
+  // The finished track: correlation and standard deviation as aligned.
   double min_aligned_correlation = 0.8;
   double max_sigma_px = 0.25;
+  // How far from its start it may end when followed back; better tracks than the second always return.
   double max_return_px = 0.3;
+  double sure_sigma_px = 0.1;
   // Distance from the epipolar line of the pose that most tracks agree on: never more than the first, nor
   // than the error of that pose and so many standard deviations.
   double max_epipolar_px = 1.0;
