@@ -12,26 +12,31 @@ using Workspace = CornerResponseWorkspace;
 // Sobel's weights add up to 8 a side and the window holds 25 pixels.
 constexpr float kPerWindow = 1.0F / (64.0F * Workspace::kWindowRows * Workspace::kWindowRows);
 
-void multiply_gradients(const std::uint8_t* __restrict upper, const std::uint8_t* __restrict middle,
-                        const std::uint8_t* __restrict lower, int width, std::int32_t* __restrict xx,
-                        std::int32_t* __restrict xy, std::int32_t* __restrict yy) {
+// Replaces a ring row's products by those of a new row of the picture, in the column sums too.
+void update_products(const std::uint8_t* __restrict upper, const std::uint8_t* __restrict middle,
+                     const std::uint8_t* __restrict lower, int width, const Workspace::Products& ring,
+                     const Workspace::Products& columns) {
+  std::int32_t* __restrict ring_xx = ring.xx.data();
+  std::int32_t* __restrict ring_xy = ring.xy.data();
+  std::int32_t* __restrict ring_yy = ring.yy.data();
+  std::int32_t* __restrict xx = columns.xx.data();
+  std::int32_t* __restrict xy = columns.xy.data();
+  std::int32_t* __restrict yy = columns.yy.data();
   for (int x = 1; x < width - 1; ++x) {
     const auto dx = static_cast<std::int16_t>(
         (upper[x + 1] - upper[x - 1]) + 2 * (middle[x + 1] - middle[x - 1]) + (lower[x + 1] - lower[x - 1]));
     const auto dy = static_cast<std::int16_t>((lower[x - 1] - upper[x - 1]) + 2 * (lower[x] - upper[x]) +
                                               (lower[x + 1] - upper[x + 1]));
-    xx[x] = dx * dx;
-    xy[x] = dx * dy;
-    yy[x] = dy * dy;
+    const std::int32_t new_xx = dx * dx;
+    const std::int32_t new_xy = dx * dy;
+    const std::int32_t new_yy = dy * dy;
+    xx[x] += new_xx - ring_xx[x];
+    xy[x] += new_xy - ring_xy[x];
+    yy[x] += new_yy - ring_yy[x];
+    ring_xx[x] = new_xx;
+    ring_xy[x] = new_xy;
+    ring_yy[x] = new_yy;
   }
-}
-
-void add(std::int32_t* __restrict sums, const std::int32_t* __restrict products, int width) {
-  for (int x = 0; x < width; ++x) sums[x] += products[x];
-}
-
-void subtract(std::int32_t* __restrict sums, const std::int32_t* __restrict products, int width) {
-  for (int x = 0; x < width; ++x) sums[x] -= products[x];
 }
 
 std::int32_t sum_across(const std::int32_t* columns) {
@@ -53,17 +58,8 @@ CornerResponse::CornerResponse(ImageView<const std::uint8_t> gray, CornerRespons
 }
 
 void CornerResponse::add_gradient_row(int y) {
-  Workspace::Products& row = workspace_.rows[static_cast<std::size_t>(y) % Workspace::kWindowRows];
-  Workspace::Products& columns = workspace_.columns;
-  const int width = gray_.width;
-  subtract(columns.xx.data(), row.xx.data(), width);  // of the row that leaves the window
-  subtract(columns.xy.data(), row.xy.data(), width);
-  subtract(columns.yy.data(), row.yy.data(), width);
-  multiply_gradients(gray_.row(y - 1), gray_.row(y), gray_.row(y + 1), width, row.xx.data(), row.xy.data(),
-                     row.yy.data());
-  add(columns.xx.data(), row.xx.data(), width);
-  add(columns.xy.data(), row.xy.data(), width);
-  add(columns.yy.data(), row.yy.data(), width);
+  update_products(gray_.row(y - 1), gray_.row(y), gray_.row(y + 1), gray_.width,
+                  workspace_.rows[static_cast<std::size_t>(y) % Workspace::kWindowRows], workspace_.columns);
 }
 
 void CornerResponse::next_row(std::span<float> responses) {

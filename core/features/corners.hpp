@@ -2,6 +2,7 @@
 // their share.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -25,16 +26,21 @@ constexpr Ground ground_of(std::uint8_t label) {
 }
 
 struct CornerParams {
-  int cell_px = 32;  // side of a bucket in the picture searched; corners keep such distances on average
-  int corners_per_cell = 3;  // drawn from a cell, of each ground: more take longer, fewer are less accurate
-  int candidates_per_cell =
-      6;  // among which they are drawn: more weaken the corners, fewer the seeds' effect
-  float min_response =
-      0.4F;  // squared grey values per pixel; what noise of 2 grey values yields in half size
-  float min_share_of_best = 0.1F;  // of the strongest response in the cell; below, a corner is not drawn
-  int label_margin_px = 8;  // of the labels' picture: a corner closer to another ground may hang over it
-  std::uint8_t burnt_level =
-      250;  // grey value from which a pixel may be a highlight, which moves with the eye
+  // Side of a cell of the picture searched. Every ground in a cell has a bucket of its own.
+  int cell_px = 32;
+  // Strongest corners that a bucket keeps, and how many of them are drawn at most: the closer both numbers,
+  // the less two seeds differ.
+  int candidates_per_bucket = 14;
+  int corners_per_bucket = 10;
+  // Squared grey values per pixel: ten times what white noise of two grey values leaves at half size. Below,
+  // wood and smooth leather give corners by the thousand that no other view confirms.
+  float min_response = 2.0F;
+  // Of the strongest response in the bucket; what is weaker is not drawn.
+  float min_share_of_best = 0.1F;
+  // Of the labels' picture. A corner closer to another ground may hang over it.
+  int label_margin_px = 8;
+  // Grey value from which a pixel may be a highlight, which moves with the eye.
+  std::uint8_t burnt_level = 250;
 };
 
 // In the picture searched.
@@ -45,33 +51,55 @@ struct Corner {
   std::uint8_t label = 0;
 };
 
-constexpr std::size_t corner_cells(int length_px, int cell_px) {
-  return static_cast<std::size_t>((length_px + cell_px - 1) / cell_px);
-}
+// Cells row by row; the last of a row or column may be narrower.
+struct CornerGrid {
+  int cell_px = 1;
+  int columns = 0;
+  int rows = 0;
+
+  constexpr CornerGrid(int width, int height, const CornerParams& params)
+      : cell_px(params.cell_px > 0 ? params.cell_px : 1),
+        columns((width + cell_px - 1) / cell_px),
+        rows((height + cell_px - 1) / cell_px) {}
+  constexpr std::size_t cells() const {
+    return static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows);
+  }
+  constexpr std::size_t cell_of(int x, int y) const {
+    return static_cast<std::size_t>(y / cell_px) * static_cast<std::size_t>(columns) +
+           static_cast<std::size_t>(x / cell_px);
+  }
+};
 
 struct CornerWorkspace {
   CornerResponseWorkspace response;
   std::array<std::span<float>, 3> responses;  // of three rows
-  std::span<Corner> candidates;               // candidates_per_cell for each ground of each cell
+  std::span<float> peaks;                     // of one row
+  std::span<Corner> candidates;               // candidates_per_bucket for each ground of each cell
   std::span<std::uint8_t> counts;
 
   template <class Allocator>
   constexpr void allocate(Allocator& arena, int max_width, int max_height, const CornerParams& params) {
     response.allocate(arena, max_width);
-    for (std::span<float>& row : responses)
-      row = arena.template take<float>(static_cast<std::size_t>(max_width));
-    const std::size_t buckets =
-        kGrounds * corner_cells(max_width, params.cell_px) * corner_cells(max_height, params.cell_px);
-    candidates = arena.template take<Corner>(buckets * static_cast<std::size_t>(params.candidates_per_cell));
+    const auto width = static_cast<std::size_t>(max_width);
+    for (std::span<float>& row : responses) row = arena.template take<float>(width);
+    peaks = arena.template take<float>(width);
+    const std::size_t buckets = kGrounds * CornerGrid(max_width, max_height, params).cells();
+    candidates =
+        arena.template take<Corner>(buckets * static_cast<std::size_t>(params.candidates_per_bucket));
     counts = arena.template take<std::uint8_t>(buckets);
   }
 };
 
-// Fills `corners` round by round (one of each bucket a round, so that a list that overflows is still spread)
-// from `gray`, whose `labels` are `label_scale` times as large; empty labels make everything table. The
-// strongest candidates of a bucket are its local maxima; which of them are used is drawn from `random`.
-void find_corners(ImageView<const std::uint8_t> gray, ImageView<const std::uint8_t> labels, int label_scale,
-                  const CornerParams& params, Random& random, CornerWorkspace& workspace,
-                  BoundedList<Corner>& corners);
+struct CornerPicture {
+  ImageView<const std::uint8_t> gray;
+  ImageView<const std::uint8_t> labels;  // empty: everything is table
+  int label_scale = 1;                   // the labels are so many times as large
+  std::span<const std::uint8_t> hidden;  // cells that hold no corners, not 0; empty: none is hidden
+};
+
+// Fills `corners`, round by round with one of each bucket, so that a full list is still spread. Candidates of
+// a bucket are its strongest local maxima; `random` draws those that are used.
+void find_corners(const CornerPicture& picture, const CornerParams& params, Random& random,
+                  CornerWorkspace& workspace, BoundedList<Corner>& corners);
 
 }  // namespace traygauge

@@ -6,24 +6,25 @@
 
 #include "core/base/geometry.hpp"
 #include "core/image_view/image_view.hpp"
+#include "core/matching/alignment_equations.hpp"
 
 namespace traygauge {
 
-inline constexpr int kAlignmentSide = 16;  // of the patch, in pixels of the second picture
-
-enum class PatchMotion : std::uint8_t {
-  shift,   // the affine map is known: a plane in known attitude
-  affine,  // it is refined as well
-};
-
 struct PatchAlignmentParams {
-  int max_shifts = 8;              // steps of the shift alone: 3 to 5 are usual
-  int max_affine_steps = 3;        // each samples the patch anew
-  double converged_px = 0.02;      // a step below ends: the next would be smaller than its square
-  double max_shift_px = 3.0;       // from the start: farther, another thing was found
-  double max_affine_change = 0.3;  // of any element: a surface that steep is hidden in one of the views
-  double affine_sigma = 0.2;       // prior of the change per element: slopes of 45° seen 15° apart give 0.2
-  double grey_sigma = 2.0;  // grey values: noise assumed in the prior's weight and at least in sigma_px
+  // Steps of the shift alone, 3 to 5 are usual; and steps of the whole map, each of which samples the patch
+  // anew.
+  int max_shifts = 8;
+  int max_affine_steps = 3;
+  // A smaller step is the last.
+  double converged_px = 0.02;
+  // From the start: farther away, something else was found.
+  double max_shift_px = 3.0;
+  // Of any element of the map: a surface that steep is hidden in one of the views.
+  double max_affine_change = 0.3;
+  // Prior of the change per element (slopes of 45° seen 15° apart give 0.2), and the grey values' noise that
+  // weighs it, also the least that a residual is taken for.
+  double affine_sigma = 0.2;
+  double grey_sigma = 0.5;
 };
 
 struct PatchAlignment {

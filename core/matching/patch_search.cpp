@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
+#include <cstring>
 
 #include "core/matching/patch_sampling.hpp"
 
@@ -12,8 +12,11 @@ namespace {
 constexpr int kPixels = kSearchSide * kSearchSide;
 constexpr double kHalf = 0.5 * (kSearchSide - 1);  // from the patch's first pixel to its centre
 constexpr float kMinVariation =
-    64.0F;                 // Σ(v − mean)² of a patch: a grey value a pixel, the least to correlate
-constexpr int kApart = 2;  // pixels within which scores belong to the same peak
+    64.0F;                      // Σ(v − mean)² of a patch: a grey value a pixel, the least to correlate
+constexpr double kApart = 2.0;  // pixels within which two bands see the same peak
+
+constexpr float kNotScored = -2.0F;
+constexpr float kLeastPeak = 0.3F;  // lower ones can neither be right nor rival
 
 struct alignas(16) SearchTemplate {
   std::int16_t values[kPixels];
@@ -38,26 +41,18 @@ bool make_template(ImageView<const std::uint8_t> first, const Vec2& centre, cons
   return true;
 }
 
-// A band's box of the second picture in 16 bits.
-struct SearchArea {
-  int left = 0;
-  int top = 0;
-  int width = 0;
-  int height = 0;
-  const std::int16_t* values = nullptr;
-};
-
 float correlate(const SearchTemplate& patch, const std::int16_t* window, std::ptrdiff_t stride) {
+  // In one piece, so that three long sums remain instead of many short ones.
+  alignas(16) std::int16_t values[kPixels];
+  for (int j = 0; j < kSearchSide; ++j)
+    std::memcpy(values + j * kSearchSide, window + j * stride, kSearchSide * sizeof values[0]);
   std::int32_t products = 0;
   std::int32_t squares = 0;
   std::int32_t sum = 0;
-  for (int j = 0; j < kSearchSide; ++j, window += stride) {
-    const std::int16_t* row = patch.values + j * kSearchSide;
-    for (int i = 0; i < kSearchSide; ++i) {
-      products += row[i] * window[i];
-      squares += window[i] * window[i];
-      sum += window[i];
-    }
+  for (int i = 0; i < kPixels; ++i) {
+    products += patch.values[i] * values[i];
+    squares += values[i] * values[i];
+    sum += values[i];
   }
   const std::int32_t variation = kPixels * squares - sum * sum;
   const float norm = static_cast<float>(variation) / kPixels;
@@ -103,52 +98,63 @@ bool PatchSearch::search(const Vec2& centre, const SearchBand& band) {
   constexpr std::ptrdiff_t kStride = PatchSearchWorkspace::kAreaSide;
   const int width = right - left + kSearchSide;
   for (int y = 0; y < bottom - top + kSearchSide; ++y) {
-    const std::uint8_t* source = second_.row(top + y) + left;
-    std::int16_t* target = workspace_.area.data() + y * kStride;
+    const std::uint8_t* __restrict source = second_.row(top + y) + left;
+    std::int16_t* __restrict target = workspace_.area.data() + y * kStride;
     for (int x = 0; x < width; ++x) target[x] = source[x];
   }
+  const int columns = right - left + 1;
+  const int rows = bottom - top + 1;
+  constexpr std::ptrdiff_t kScoreStride = PatchSearchWorkspace::kScoreSide;
+  for (int y = 0; y < rows + 2; ++y)
+    std::fill_n(workspace_.scores.data() + y * kScoreStride, columns + 2, kNotScored);
   for (int y = top; y <= bottom; ++y) {
     double lo = left;
     double hi = right;
     const double dy = y - begin.y();
     clip(along.x(), along.y() * dy - along.x() * begin.x(), -band.margin_px, length + band.margin_px, lo, hi);
     clip(across.x(), across.y() * dy - across.x() * begin.x(), -band.margin_px, band.margin_px, lo, hi);
+    float* scores = workspace_.scores.data() + (y - top + 1) * kScoreStride + 1 - left;
+    const std::int16_t* windows = workspace_.area.data() + (y - top) * kStride - left;
     const int last = static_cast<int>(std::floor(hi));
-    for (int x = static_cast<int>(std::ceil(lo)); x <= last; ++x) {
-      const std::int16_t* window = workspace_.area.data() + (y - top) * kStride + (x - left);
-      scores_.push_back(
-          {static_cast<std::int16_t>(x), static_cast<std::int16_t>(y), correlate(patch, window, kStride)});
-    }
+    for (int x = static_cast<int>(std::ceil(lo)); x <= last; ++x)
+      scores[x] = correlate(patch, windows + x, kStride);
   }
+  note_peaks(left, top, columns, rows);
   return true;
 }
 
-bool PatchSearch::find_best(FoundPatch& found) const {
-  if (scores_.empty()) return false;
-  const ScoredPosition* best = scores_.begin();
-  for (const ScoredPosition& score : scores_)
-    if (score.correlation > best->correlation) best = &score;
-  // The 3 × 3 scores about the best, and the best outside of its peak.
-  std::array<float, 9> around;
-  around.fill(-2.0F);
-  found.runner_up = -1.0F;
-  for (const ScoredPosition& score : scores_) {
-    const int dx = score.x - best->x;
-    const int dy = score.y - best->y;
-    if (std::abs(dx) > kApart || std::abs(dy) > kApart)
-      found.runner_up = std::max(found.runner_up, score.correlation);
-    if (std::abs(dx) > 1 || std::abs(dy) > 1) continue;
-    float& place = around[static_cast<std::size_t>(3 * (dy + 1) + dx + 1)];
-    place = std::max(place, score.correlation);
-  }
-  const auto vertex = [peak = best->correlation](float before, float after) {
-    if (before < -1.5F || after < -1.5F) return 0.0F;  // at the band's edge
+void PatchSearch::note_peaks(int left, int top, int width, int height) {
+  constexpr std::ptrdiff_t kStride = PatchSearchWorkspace::kScoreSide;
+  const auto vertex = [](float before, float peak, float after) {
     const float curvature = before + after - 2.0F * peak;
     return curvature < 0.0F ? std::clamp(0.5F * (before - after) / curvature, -0.5F, 0.5F) : 0.0F;
   };
-  found.correlation = best->correlation;
-  found.pixel =
-      Vec2(best->x + kHalf + vertex(around[3], around[5]), best->y + kHalf + vertex(around[1], around[7]));
+  for (int y = 0; y < height; ++y) {
+    const float* row = workspace_.scores.data() + (y + 1) * kStride + 1;
+    for (int x = 0; x < width; ++x) {
+      const float* at = row + x;
+      if (*at < kLeastPeak || *at < at[-1] || *at <= at[1] || *at < at[-kStride] || *at <= at[kStride])
+        continue;
+      const auto [low, high] =
+          std::minmax({at[-1 - kStride], at[1 - kStride], at[kStride - 1], at[kStride + 1]});
+      if (*at < high || std::min({low, at[-1], at[1], at[-kStride], at[kStride]}) == kNotScored) continue;
+      peaks_.push_back({Vec2(left + x + kHalf + vertex(at[-1], *at, at[1]),
+                             top + y + kHalf + vertex(at[-kStride], *at, at[kStride])),
+                        *at});
+    }
+  }
+}
+
+bool PatchSearch::find_best(FoundPatch& found) const {
+  if (peaks_.empty()) return false;
+  const CorrelationPeak* best = peaks_.begin();
+  for (const CorrelationPeak& peak : peaks_)
+    if (peak.correlation > best->correlation) best = &peak;
+  found = {best->pixel, best->correlation, -1.0F};
+  for (const CorrelationPeak& peak : peaks_) {
+    if ((peak.pixel - best->pixel).cwiseAbs().maxCoeff() > kApart)
+      found.runner_up = std::max(found.runner_up, peak.correlation);
+  }
   return true;
 }
 

@@ -51,6 +51,8 @@ class Tracker {
         cameras_(cameras),
         transfer_(first.lens, second.lens, cameras) {}
 
+  // Cells of the first view that the second does not see.
+  std::span<const std::uint8_t> find_hidden_cells();
   // Corrects the second pose from the strongest corners.
   void look_first(std::span<const Corner> corners);
   bool track(const Corner& corner, PointTrack& track);
@@ -121,6 +123,24 @@ bool Tracker::search(const Vec2& pixel, const TableRay& ray, const HeightRange& 
   if (!patch_search.find_best(found)) return false;
   found.pixel = stored_from(found.pixel, look.level);
   return true;
+}
+
+std::span<const std::uint8_t> Tracker::find_hidden_cells() {
+  const ImageView<const std::uint8_t> picture = first_.gray.levels[kCornerLevel];
+  const CornerGrid grid(picture.width, picture.height, params_.corners);
+  const std::span<std::uint8_t> hidden = workspace_.hidden_cells.first(grid.cells());
+  for (int row = 0; row < grid.rows; ++row) {
+    for (int column = 0; column < grid.columns; ++column) {
+      const Vec2 centre = (Vec2(column, row) + Vec2::Constant(0.5)) * grid.cell_px;
+      TableRay ray;
+      Vec2 there;
+      const bool seen = transfer_.cast_ray(stored_from(centre, kCornerLevel), ray) &&
+                        transfer_.transfer(ray, 0.0, there) && there.x() > 0.0 && there.y() > 0.0 &&
+                        there.x() < second_.lens.width - 1.0 && there.y() < second_.lens.height - 1.0;
+      hidden[grid.cell_of(column * grid.cell_px, row * grid.cell_px)] = seen ? 0 : 1;
+    }
+  }
+  return hidden;
 }
 
 void Tracker::look_first(std::span<const Corner> corners) {
@@ -235,7 +255,7 @@ bool Tracker::track(const Corner& corner, PointTrack& track) {
     ++report_.not_aligned;
     return false;
   }
-  if (!returns(pixel, alignment)) {
+  if (alignment.sigma_px > params_.sure_sigma_px && !returns(pixel, alignment)) {
     ++report_.not_returned;
     return false;
   }
@@ -255,7 +275,9 @@ void Tracker::drop_contradicting(BoundedList<PointTrack>& tracks) {
   const EpipolarDistance distance(second_from_first(cameras_), focal_px());
   std::size_t kept = 0;
   for (const PointTrack& track : tracks) {
-    if (std::abs(distance(track.first, track.second)) <= params_.max_epipolar_px) tracks[kept++] = track;
+    const double allowed_px =
+        std::min(params_.max_epipolar_px, params_.pose_error_px + params_.max_deviations * track.sigma_px);
+    if (std::abs(distance(track.first, track.second)) <= allowed_px) tracks[kept++] = track;
   }
   report_.off_line = tracks.size() - kept;
   tracks.truncate(kept);
@@ -277,13 +299,14 @@ Status track_points(const TrackedView& first, const TrackedView& second,
   report.camera_from_table = camera_from_table;
   tracks = {};
   if (!is_usable(first) || !is_usable(second)) return StatusCode::frame_size_mismatch;
+  Tracker tracker(first, second, camera_from_table, card_thickness_mm, params, workspace, report);
   BoundedList<Corner> corners(workspace.corner_storage);
-  find_corners(first.gray.levels[kCornerLevel], first.labels, 1 << kCornerLevel, params.corners, random,
-               workspace.corners, corners);
+  find_corners(
+      {first.gray.levels[kCornerLevel], first.labels, 1 << kCornerLevel, tracker.find_hidden_cells()},
+      params.corners, random, workspace.corners, corners);
   report.corners = corners.size();
   if (corners.size() < static_cast<std::size_t>(params.min_tracks)) return StatusCode::too_few_features;
 
-  Tracker tracker(first, second, camera_from_table, card_thickness_mm, params, workspace, report);
   tracker.look_first(corners.items());
   BoundedList<PointTrack> found(workspace.track_storage);
   for (const Corner& corner : corners) {

@@ -18,11 +18,14 @@ struct SeenPoint {
 };
 
 struct PoseCorrectionParams {
-  double turn_sigma_deg = 0.5;  // of the given relative pose, per axis: what a card 86 mm wide leaves open
+  // Of the given relative pose, per axis: what a card of 86 mm leaves open.
+  double turn_sigma_deg = 0.5;
   double shift_sigma_mm = 3.0;
-  double coarsest_scale_px = 20.0;  // a residual of this size counts a quarter at first, then ...
-  double finest_scale_px = 2.0;     // ... down to this one: the coarse search is good to half a pixel
-  int max_iterations = 5;           // for each scale
+  // A residual of this size counts a quarter: first so much, at last so little, since the coarse search is
+  // good to half a pixel.
+  double coarsest_scale_px = 20.0;
+  double finest_scale_px = 2.0;
+  int max_iterations = 5;  // for each scale
 };
 
 // Least squares over the six parameters of `second_from_table`, as in moved(), from Geman and McClure's
