@@ -22,8 +22,15 @@ using Information = Eigen::Matrix<double, 6, 6>;
 using Step = Eigen::Matrix<double, 6, 1>;
 using Matrix12 = Eigen::Matrix<double, 12, 12>;
 
-struct Candidate {
+// What the iterations carry on.
+struct Fit {
   Pose pose;
+  CardTone tone = CardTone::Zero();
+  double spread_gray = 0.0;
+};
+
+struct Candidate {
+  Fit fit;
   double correlation = -1.0;
 };
 
@@ -69,48 +76,38 @@ class Aligner {
   }
 
   // Gauss-Newton with iteratively reweighted residuals; false when the pose is lost.
-  bool refine(const CardPatternLevel& level, CardSampling sampling, int iterations, Pose& pose) const {
-    const CardCorrelation start = correlate(pose, level, sampling);
-    CardTone tone = start.tone;
-    double spread = start.rms_gray;
+  bool refine(const CardPatternLevel& level, CardSampling sampling, int iterations, Fit& fit) const {
+    const CardCorrelation start = correlate(fit.pose, level, sampling);
     if (start.samples < kMinSamples) return false;
+    fit.tone = start.tone;
+    fit.spread_gray = start.rms_gray;
     for (int i = 0; i < iterations; ++i) {
-      const CardLinearisation linearised =
-          picture_.linearise(pose, pattern_.size, level, tone, cutoff(spread), sampling);
+      const CardLinearisation linearised = linearise(level, sampling, fit);
       Eigen::Matrix<double, 12, 1> change;
       if (!linearised.equations.solve(kDamping, change)) return false;
-      const double moved_px = corner_motion_px(pose, change.head<6>());
+      const double moved_px = corner_motion_px(fit.pose, change.head<6>());
       if (!std::isfinite(moved_px)) return false;
       if (moved_px > params_.max_step_px) change *= params_.max_step_px / moved_px;
-      pose = moved(pose, change.head<6>());
-      tone += change.tail<6>();
-      spread = linearised.spread_gray;
-      if (!is_possible(pose)) return false;
+      fit.pose = moved(fit.pose, change.head<6>());
+      fit.tone += change.tail<6>();
+      fit.spread_gray = linearised.spread_gray;
+      if (!is_possible(fit.pose)) return false;
       if (moved_px < params_.converged_px) break;
     }
     return true;
   }
 
-  // The last linearisation, at the pose found.
-  bool measure(const CardPatternLevel& level, CardSampling sampling, CardAlignment& alignment) const {
-    const Pose& pose = alignment.camera_from_table;
-    const CardCorrelation correlation = correlate(pose, level, sampling);
-    CardTone tone = correlation.tone;
-    double spread = correlation.rms_gray;
-    CardLinearisation at_pose;
-    for (int i = 0; i < 3; ++i) {  // the tone and its spread settle
-      at_pose = picture_.linearise(pose, pattern_.size, level, tone, cutoff(spread), sampling);
-      Eigen::Matrix<double, 12, 1> change;
-      if (i == 2) break;
-      if (!at_pose.equations.solve(kDamping, change)) return false;
-      tone += change.tail<6>();
-      spread = at_pose.spread_gray;
-    }
-    alignment.correlation = correlation.correlation;
-    alignment.rms_gray = at_pose.spread_gray;
-    alignment.gain = tone[0];
-    alignment.blur_px = level.blur_mm * px_per_mm(pose);
-    return inform(at_pose, alignment);
+  // What a refined pose is worth.
+  bool measure(const CardPatternLevel& level, CardSampling sampling, const Fit& fit,
+               CardAlignment& alignment) const {
+    const CardLinearisation linearised = linearise(level, sampling, fit);
+    alignment.camera_from_table = fit.pose;
+    alignment.correlation = correlate(fit.pose, level, CardSampling::quarter).correlation;
+    alignment.rms_gray = linearised.spread_gray;
+    alignment.gain = fit.tone[0];
+    alignment.blur_px = level.blur_mm * px_per_mm(fit.pose);
+    alignment.visible_share = picture_.labelled_pixels() / projected_px2(fit.pose);
+    return inform(linearised, alignment);
   }
 
   // Area of the print in the picture, without the lens's distortion.
@@ -134,8 +131,9 @@ class Aligner {
     return print_point_mm({0.5 * size.width_mm, 0.5 * size.height_mm}, size.thickness_mm);
   }
 
-  double cutoff(double spread_gray) const {
-    return params_.cutoff_spreads * std::max(spread_gray, params_.min_spread_gray);
+  CardLinearisation linearise(const CardPatternLevel& level, CardSampling sampling, const Fit& fit) const {
+    const double cutoff_gray = params_.cutoff_spreads * std::max(fit.spread_gray, params_.min_spread_gray);
+    return picture_.linearise(fit.pose, pattern_.size, level, fit.tone, cutoff_gray, sampling);
   }
 
   Vec3 corner_point(std::size_t corner) const {
@@ -175,14 +173,14 @@ class Aligner {
   }
 
   bool inform(const CardLinearisation& at_pose, CardAlignment& alignment) const {
-    Matrix12 bread = at_pose.equations.hessian;
-    const Eigen::LDLT<Matrix12, Eigen::Lower> factors(bread);
+    const Eigen::LDLT<Matrix12, Eigen::Lower> factors(at_pose.equations.hessian);
     if (factors.info() != Eigen::Success || !factors.isPositive()) return false;
     const Matrix12 inverse = factors.solve(Matrix12::Identity());
     const double flattening =
-        at_pose.slope / at_pose.weights;  // a redescending weight bends the normal equations
+        at_pose.slopes / at_pose.weights;  // a redescending weight bends the normal equations
     if (!(flattening > 0.0)) return false;
-    const Matrix12 sandwich = inverse * at_pose.scatter * inverse / (flattening * flattening);
+    const Matrix12 scatter = at_pose.scatter.selfadjointView<Eigen::Lower>();
+    const Matrix12 sandwich = inverse * scatter * inverse / (flattening * flattening);
     Information systematic;
     if (!systematic_covariance(alignment.camera_from_table, systematic)) return false;
     const Information covariance = sandwich.topLeftCorner<6, 6>() + systematic;
@@ -213,8 +211,8 @@ std::size_t lay_print(const CardOutline& outline, const CardModelSize& size, con
     if (!homography_from_four(rays, print, print_from_ray)) continue;
     if (!pose_from_homography(print_from_ray, camera_from_card)) continue;
     for (const Pose& pose : {camera_from_card, mirrored_pose(camera_from_card, centre)}) {
-      candidates[count].pose = table_pose(pose, size.thickness_mm);
-      if (aligner.is_possible(candidates[count].pose)) ++count;
+      candidates[count].fit.pose = table_pose(pose, size.thickness_mm);
+      if (aligner.is_possible(candidates[count].fit.pose)) ++count;
     }
   }
   return count;
@@ -228,10 +226,10 @@ void sort_by_correlation(std::span<Candidate> candidates) {
 // Refines at this blur and measures again; a pose that got lost comes last.
 void refine_candidate(Aligner& aligner, double blur_px, CardSampling sampling, int iterations,
                       Candidate& candidate) {
-  const CardPatternLevel& level = aligner.level_for(candidate.pose, blur_px);
-  aligner.select(candidate.pose, level);
-  const bool kept = aligner.refine(level, sampling, iterations, candidate.pose);
-  candidate.correlation = kept ? aligner.correlate(candidate.pose, level, sampling).correlation : -1.0;
+  const CardPatternLevel& level = aligner.level_for(candidate.fit.pose, blur_px);
+  aligner.select(candidate.fit.pose, level);
+  const bool kept = aligner.refine(level, sampling, iterations, candidate.fit);
+  candidate.correlation = kept ? aligner.correlate(candidate.fit.pose, level, sampling).correlation : -1.0;
 }
 
 // The best pose of the coarse stages.
@@ -240,15 +238,17 @@ Candidate choose(const CardOutline& outline, const CardModelSize& size, const Ca
   Candidates storage;
   const std::span<Candidate> all(storage.data(), lay_print(outline, size, aligner, storage));
   for (Candidate& candidate : all) {
-    const CardPatternLevel& level = aligner.level_for(candidate.pose, params.coarse_blur_px);
-    aligner.select(candidate.pose, level);
-    candidate.correlation = aligner.correlate(candidate.pose, level, CardSampling::sixteenth).correlation;
+    const CardPatternLevel& level = aligner.level_for(candidate.fit.pose, params.coarse_blur_px);
+    aligner.select(candidate.fit.pose, level);
+    candidate.correlation = aligner.correlate(candidate.fit.pose, level, CardSampling::sixteenth).correlation;
   }
   sort_by_correlation(all);
   const std::span<Candidate> best = all.first(std::min(all.size(), kRefined));
   for (Candidate& candidate : best) {
-    refine_candidate(aligner, params.coarse_blur_px, CardSampling::quarter, params.coarse_iterations,
-                     candidate);
+    const bool is_close = candidate.correlation >= best[0].correlation - params.max_correlation_lag;
+    if (is_close)
+      refine_candidate(aligner, params.coarse_blur_px, CardSampling::sixteenth, params.coarse_iterations,
+                       candidate);
   }
   sort_by_correlation(best);
   return best.empty() ? Candidate{} : best[0];
@@ -287,18 +287,16 @@ Status align_card(ImageView<const std::uint8_t> gray, ImageView<const std::uint8
                    candidate);
   if (!(candidate.correlation >= params.min_correlation)) return StatusCode::card_not_found;
 
-  const CardPatternLevel& level = find_blur(aligner, candidate.pose, params.finest_blur_px);
-  aligner.select(candidate.pose, level);
+  const CardPatternLevel& level = find_blur(aligner, candidate.fit.pose, params.finest_blur_px);
+  aligner.select(candidate.fit.pose, level);
   const CardSampling sampling = picture.used_pixels() > 4 * params.max_samples   ? CardSampling::sixteenth
                                 : picture.used_pixels() > 2 * params.max_samples ? CardSampling::quarter
                                 : picture.used_pixels() > params.max_samples     ? CardSampling::half
                                                                                  : CardSampling::all;
-  alignment.camera_from_table = candidate.pose;
-  if (!aligner.refine(level, sampling, params.fine_iterations, alignment.camera_from_table)) {
+  if (!aligner.refine(level, sampling, params.fine_iterations, candidate.fit)) {
     return StatusCode::card_not_found;
   }
-  alignment.visible_share = picture.labelled_pixels() / aligner.projected_px2(alignment.camera_from_table);
-  if (!aligner.measure(level, sampling, alignment)) return StatusCode::card_not_found;
+  if (!aligner.measure(level, sampling, candidate.fit, alignment)) return StatusCode::card_not_found;
   const bool is_seen =
       alignment.correlation >= params.min_correlation && alignment.visible_share >= params.min_visible_share;
   return is_seen ? StatusCode::ok : StatusCode::card_not_found;

@@ -29,14 +29,15 @@ struct CardAlignmentParams {
   // Sharper than a lens and its pixels make the picture, the fit follows aliases in it; the finest blur lies
   // above their usual 0.3 to 0.5 px. Up to `finest_blur_px · 2^1.5` are tried for pictures out of focus.
   double finest_blur_px = 0.6;
+  double max_correlation_lag = 0.25;  // of a first pose behind the best, to be refined as well
   int coarse_iterations = 5;
   int medium_iterations = 4;
   int fine_iterations = 4;
-  double cutoff_spreads = 3.0;   // of Geman and McClure's weights, in robust standard deviations
+  double cutoff_spreads = 6.0;   // of Geman and McClure's weights, in robust standard deviations
   double min_spread_gray = 1.0;  // below it residuals are rounding
   double max_step_px = 8.0;      // of a corner in one iteration: further, the linearisation means nothing
-  double converged_px = 0.003;   // a corner's step that ends a stage
-  int max_samples = 14'000;      // of the fine stage; more make the pose slower, no longer better
+  double converged_px = 0.01;    // a corner's step that ends a stage
+  int max_samples = 60'000;      // of the fine stage; more make the pose slower, no longer better
 
   double min_correlation = 0.5;    // of print and picture; wrong places stay below 0.3
   double min_visible_share = 0.5;  // of the card

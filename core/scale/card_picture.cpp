@@ -1,166 +1,87 @@
 #include "core/scale/card_picture.hpp"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <bit>
 #include <cmath>
 
-#include "core/base/table_frame.hpp"
+#include "core/scale/print_lanes.hpp"
+#include "core/scale/print_plane.hpp"
 
 namespace traygauge {
 namespace {
 
 constexpr int kGrayBins = 256;
+constexpr double kNormalDeviations = 1.4826;  // standard deviation over the median size, of normal noise
+static_assert(kCardTileSide % kPrintLanes == 0);
 
 std::uint64_t mask_of(CardSampling sampling) {
   switch (sampling) {
-    case CardSampling::half:
-      return 0xAA55AA55AA55AA55U;
-    case CardSampling::quarter:
-      return 0x0055005500550055U;
-    case CardSampling::sixteenth:
-      return 0x0000004400000044U;
-    default:
+    case CardSampling::all:
       return ~std::uint64_t{0};
+    case CardSampling::half:
+      return 0x00FF00FF00FF00FFU;
+    default:
+      return 0x0000FF000000FF00U;
   }
 }
 
-// How a tile lies on the print under a pose; mm from the print's top left corner, right and down.
-struct TilePlace {
-  Vec2 centre = Vec2::Zero();
-  Eigen::Matrix2d by_pixel = Eigen::Matrix2d::Zero();
-  Eigen::Matrix2d by_ray = Eigen::Matrix2d::Zero();
-  double depth = 0.0;  // along the optical axis, mm; 0: nowhere near the print
+bool is_taken(const CardTile& tile, CardSampling sampling) {
+  return sampling != CardSampling::sixteenth || ((tile.x + 2 * tile.y) / kCardTileSide) % 4 == 0;
+}
 
-  bool valid() const { return depth > 0.0; }
-};
-
-constexpr double kMinDepthMm = 1.0;
-constexpr double kMaxDistanceShare = 4.0;  // of a tile from the print's corner, in widths and heights
-
-// The map from rays to the print that a pose implies.
-class PrintPlane {
- public:
-  PrintPlane(const Pose& camera_from_table, const CardModelSize& size)
-      : pose_(camera_from_table), size_(size) {
-    ray_from_print_ << pose_.rotation.col(0), -pose_.rotation.col(1),
-        pose_.rotation.col(2) * size.thickness_mm + pose_.translation;
-    print_from_ray_ = ray_from_print_.inverse();
+// Calls use(tile, place, bits) for every tile with samples.
+template <class Use>
+void for_each_tile(std::span<const CardTile> tiles, const PrintPlane& plane, CardSampling sampling, Use use) {
+  const std::uint64_t mask = mask_of(sampling);
+  for (const CardTile& tile : tiles) {
+    const std::uint64_t bits = tile.used & mask;
+    if (bits == 0 || !is_taken(tile, sampling)) continue;
+    const PrintPlace place = plane.place(tile.ray);
+    if (place.valid()) use(tile, place, bits);
   }
+}
 
-  TilePlace place(const CardTile& tile) const {
-    TilePlace place;
-    const Vec3 mapped = print_from_ray_ * tile.ray.homogeneous();
-    if (!(mapped.z() > 0.0) || mapped.z() > 1.0 / kMinDepthMm) return place;
-    place.centre = mapped.head<2>() / mapped.z();
-    if (!(normalised(place.centre).cwiseAbs().maxCoeff() < kMaxDistanceShare)) return place;
-    place.by_ray =
-        (print_from_ray_.topLeftCorner<2, 2>() - place.centre * print_from_ray_.block<1, 2>(2, 0)) /
-        mapped.z();
-    place.by_pixel = place.by_ray * tile.ray_by_pixel;
-    place.depth = 1.0 / mapped.z();
-    return place;
+// Calls use(column, row, flags) for every kPrintLanes pixels of a tile of which some are samples.
+template <class Use>
+void for_each_lanes(std::uint64_t bits, Use use) {
+  constexpr unsigned kLaneBits = (1U << kPrintLanes) - 1U;
+  for (int bit = 0; bit < kCardTileSide * kCardTileSide; bit += kPrintLanes) {
+    const auto here = static_cast<unsigned>(bits >> bit) & kLaneBits;
+    if (here != 0) use(bit % kCardTileSide, bit / kCardTileSide, here);
   }
-
-  // Where the print under a fixed ray moves with the pose's step.
-  Eigen::Matrix<double, 2, 6> print_by_step(const TilePlace& place, const Vec2& ray) const {
-    const Vec3 turned = pose_.rotation * print_point_mm(place.centre, size_.thickness_mm);
-    Eigen::Matrix<double, 2, 6> ray_by_step;
-    for (int row = 0; row < 2; ++row) {
-      const Vec3 by_point = (Vec3::Unit(row) - ray(row) * Vec3::UnitZ()) / place.depth;
-      ray_by_step.row(row) << turned.cross(by_point).transpose(), by_point.transpose();
-    }
-    return -place.by_ray * ray_by_step;
-  }
-
-  Vec2 normalised(const Vec2& print_mm) const {
-    return {2.0 * print_mm.x() / size_.width_mm - 1.0, 2.0 * print_mm.y() / size_.height_mm - 1.0};
-  }
-
- private:
-  Pose pose_;
-  CardModelSize size_;
-  Mat3 ray_from_print_;
-  Mat3 print_from_ray_;
-};
-
-// The print's grey value and its slope per level pixel.
-struct PrintSample {
-  float gray;
-  float by_x;
-  float by_y;
-};
-
-// Linear interpolation of a level along a tile's pixels.
-class TileSampler {
- public:
-  TileSampler(const CardPatternLevel& level, const TilePlace& place)
-      : data_(level.gray.data),
-        stride_(level.gray.stride),
-        max_x_(static_cast<float>(level.gray.width) - 1.001F),
-        max_y_(static_cast<float>(level.gray.height) - 1.001F) {
-    const Eigen::Matrix2d step = level.px_per_mm.asDiagonal() * place.by_pixel;
-    const Vec2 centre = (level.px_per_mm.cwiseProduct(place.centre).array() - 0.5).matrix();
-    const Vec2 first = centre - step * Vec2::Constant(0.5 * (kCardTileSide - 1));
-    first_x_ = static_cast<float>(first.x());
-    first_y_ = static_cast<float>(first.y());
-    x_by_column_ = static_cast<float>(step(0, 0));
-    x_by_row_ = static_cast<float>(step(0, 1));
-    y_by_column_ = static_cast<float>(step(1, 0));
-    y_by_row_ = static_cast<float>(step(1, 1));
-  }
-
-  PrintSample at(int column, int row) const {
-    const auto c = static_cast<float>(column);
-    const auto r = static_cast<float>(row);
-    const float x = std::clamp(first_x_ + c * x_by_column_ + r * x_by_row_, 0.0F, max_x_);
-    const float y = std::clamp(first_y_ + c * y_by_column_ + r * y_by_row_, 0.0F, max_y_);
-    const int left = static_cast<int>(x);
-    const int top = static_cast<int>(y);
-    const float fx = x - static_cast<float>(left);
-    const float fy = y - static_cast<float>(top);
-    const std::uint8_t* upper = data_ + top * stride_ + left;
-    const std::uint8_t* lower = upper + stride_;
-    const float a = upper[0];
-    const float b = upper[1];
-    const float c0 = lower[0];
-    const float d = lower[1];
-    const float above = a + fx * (b - a);
-    const float below = c0 + fx * (d - c0);
-    return {above + fy * (below - above), (b - a) + fy * ((d - c0) - (b - a)), below - above};
-  }
-
- private:
-  const std::uint8_t* data_;
-  std::ptrdiff_t stride_;
-  float max_x_;
-  float max_y_;
-  float first_x_ = 0.0F;
-  float first_y_ = 0.0F;
-  float x_by_column_ = 0.0F;
-  float x_by_row_ = 0.0F;
-  float y_by_column_ = 0.0F;
-  float y_by_row_ = 0.0F;
-};
+}
 
 // Weighted sums over a tile's samples of the products of (by_x, by_y, gray, 1) among themselves and with the
 // residual.
 struct TileSums {
-  std::array<float, 10> products{};  // lower triangle by rows
-  std::array<float, 4> residuals{};
+  std::array<FloatLanes, 10> products{};  // lower triangle by rows
+  std::array<FloatLanes, 4> residuals{};
+  FloatLanes weights{};
+  FloatLanes slopes{};
 
-  void add(const PrintSample& print, float residual, float weight) {
-    const std::array<float, 4> v = {print.by_x, print.by_y, print.gray, 1.0F};
+  void add(const PrintLanes& print, FloatLanes residual, FloatLanes weight) {
+    const std::array<FloatLanes, 3> v = {print.by_x, print.by_y, print.gray};
     std::size_t k = 0;
-    for (std::size_t i = 0; i < 4; ++i) {
-      const float scaled = weight * v[i];
+    for (std::size_t i = 0; i < 3; ++i) {
+      const FloatLanes scaled = weight * v[i];
       residuals[i] += scaled * residual;
       for (std::size_t j = 0; j <= i; ++j) products[k++] += scaled * v[j];
     }
+    for (std::size_t j = 0; j < 3; ++j) products[k++] += weight * v[j];
+    products[k] += weight;
+    residuals[3] += weight * residual;
+    weights += weight;
   }
 };
 
 using Histogram = std::array<std::uint32_t, kGrayBins>;
+
+void count_sizes(FloatLanes residual, unsigned bits, Histogram& histogram) {
+  const FloatLanes size = residual < 0.0F ? -residual : residual;
+  const FloatLanes last = FloatLanes{} + (kGrayBins - 1.0F);
+  const IntLanes bins = __builtin_convertvector(size < last ? size : last, IntLanes);
+  for (int i = 0; i < kPrintLanes; ++i) histogram[static_cast<std::size_t>(bins[i])] += bits >> i & 1U;
+}
 
 double median_of(const Histogram& histogram, int count) {
   int below = 0;
@@ -172,20 +93,45 @@ double median_of(const Histogram& histogram, int count) {
   return kGrayBins;
 }
 
-// Adds a tile's sums, whose four terms move with the 12 parameters by `by_parameter`.
-void add_tile(const TileSums& sums, const Eigen::Matrix<double, 4, 12>& by_parameter, CardLinearisation& to) {
-  Eigen::Matrix4d products;
-  Eigen::Vector4d residuals;
-  std::size_t k = 0;
-  for (int i = 0; i < 4; ++i) {
-    residuals[i] = sums.residuals[static_cast<std::size_t>(i)];
-    for (int j = 0; j <= i; ++j) products(i, j) = products(j, i) = sums.products[k++];
+// Adds a tile's sums. Its grey values move with the pose's step by `gray_by_step` times (by_x, by_y), and
+// with gain and offset, each by `linear` times its three parameters.
+void add_tile(const TileSums& sums, const Eigen::Matrix<double, 2, 6>& gray_by_step, const Vec3& linear,
+              CardLinearisation& to) {
+  std::array<double, 10> p{};
+  std::array<double, 4> r{};
+  for (std::size_t i = 0; i < 10; ++i) p[i] = sum_of(sums.products[i]);
+  for (std::size_t i = 0; i < 4; ++i) r[i] = sum_of(sums.residuals[i]);
+  Eigen::Matrix<double, 12, 1> gradient;
+  auto& hessian = to.equations.hessian;
+  for (int i = 0; i < 6; ++i) {
+    const double a = gray_by_step(0, i);
+    const double b = gray_by_step(1, i);
+    gradient[i] = a * r[0] + b * r[1];
+    const double along_x = a * p[0] + b * p[1];
+    const double along_y = a * p[1] + b * p[2];
+    for (int j = 0; j <= i; ++j) hessian(i, j) += along_x * gray_by_step(0, j) + along_y * gray_by_step(1, j);
+    const double with_gain = a * p[3] + b * p[4];
+    const double with_offset = a * p[6] + b * p[7];
+    for (int k = 0; k < 3; ++k) {
+      hessian(6 + k, i) += with_gain * linear[k];
+      hessian(9 + k, i) += with_offset * linear[k];
+    }
   }
-  const Eigen::Matrix<double, 4, 12> half = products * by_parameter;
-  const Eigen::Matrix<double, 12, 1> gradient = by_parameter.transpose() * residuals;
-  to.equations.hessian.noalias() += by_parameter.transpose() * half;
+  for (int i = 0; i < 3; ++i) {
+    gradient[6 + i] = r[2] * linear[i];
+    gradient[9 + i] = r[3] * linear[i];
+    for (int j = 0; j < 3; ++j) {
+      const double both = linear[i] * linear[j];
+      hessian(9 + i, 6 + j) += both * p[8];
+      if (j > i) continue;
+      hessian(6 + i, 6 + j) += both * p[5];
+      hessian(9 + i, 9 + j) += both * p[9];
+    }
+  }
   to.equations.gradient -= gradient;
-  to.scatter.noalias() += gradient * gradient.transpose();
+  for (int i = 0; i < 12; ++i) {
+    for (int j = 0; j <= i; ++j) to.scatter(i, j) += gradient[i] * gradient[j];
+  }
 }
 
 }  // namespace
@@ -237,17 +183,24 @@ void CardPicture::select(const Pose& camera_from_table, const CardModelSize& siz
   const PrintPlane plane(camera_from_table, size);
   const Vec2 middle(0.5 * size.width_mm, 0.5 * size.height_mm);
   const Vec2 inside = (middle.array() - margin_mm).matrix();
+  constexpr double kHalf = 0.5 * (kCardTileSide - 1);
   used_ = 0;
   for (CardTile& tile : tiles_) {
     tile.used = 0;
-    const TilePlace place = plane.place(tile);
+    const PrintPlace place = plane.place(tile.ray);
     if (!place.valid()) continue;
-    for (std::uint64_t rest = tile.labelled; rest != 0; rest &= rest - 1) {
-      const int bit = std::countr_zero(rest);
-      const Vec2 offset(bit % 8 - 3.5, bit / 8 - 3.5);
-      const Vec2 from_middle = place.centre + place.by_pixel * offset - middle;
-      const bool is_inside = std::abs(from_middle.x()) < inside.x() && std::abs(from_middle.y()) < inside.y();
-      if (is_inside) tile.used |= std::uint64_t{1} << bit;
+    const Eigen::Matrix2d by_pixel = place.by_ray * tile.ray_by_pixel;
+    const Vec2 from_middle = place.centre - middle;
+    const Vec2 reach = kHalf * by_pixel.cwiseAbs().rowwise().sum();
+    if (((from_middle.cwiseAbs() + reach).array() < inside.array()).all()) {
+      tile.used = tile.labelled;
+    } else {
+      for (std::uint64_t rest = tile.labelled; rest != 0; rest &= rest - 1) {
+        const int bit = std::countr_zero(rest);
+        const Vec2 offset(bit % kCardTileSide - kHalf, bit / kCardTileSide - kHalf);
+        const Vec2 at = from_middle + by_pixel * offset;
+        if ((at.cwiseAbs().array() < inside.array()).all()) tile.used |= std::uint64_t{1} << bit;
+      }
     }
     used_ += std::popcount(tile.used);
   }
@@ -256,46 +209,35 @@ void CardPicture::select(const Pose& camera_from_table, const CardModelSize& siz
 CardCorrelation CardPicture::correlate(const Pose& camera_from_table, const CardModelSize& size,
                                        const CardPatternLevel& level, CardSampling sampling) const {
   const PrintPlane plane(camera_from_table, size);
-  const std::uint64_t mask = mask_of(sampling);
   CardCorrelation result;
-  double print = 0.0;
-  double picture = 0.0;
-  double print_print = 0.0;
-  double picture_picture = 0.0;
-  double print_picture = 0.0;
-  for (const CardTile& tile : tiles_) {
-    if ((tile.used & mask) == 0) continue;
-    const TilePlace place = plane.place(tile);
-    if (!place.valid()) continue;
-    const TileSampler sampler(level, place);
-    std::array<float, 5> sums{};
-    for (std::uint64_t rest = tile.used & mask; rest != 0; rest &= rest - 1) {
-      const int bit = std::countr_zero(rest);
-      const float p = sampler.at(bit % 8, bit / 8).gray;
-      const auto g = static_cast<float>(gray_.at(tile.x + bit % 8, tile.y + bit / 8));
-      sums[0] += p;
-      sums[1] += g;
-      sums[2] += p * p;
-      sums[3] += g * g;
-      sums[4] += p * g;
-    }
-    print += sums[0];
-    picture += sums[1];
-    print_print += sums[2];
-    picture_picture += sums[3];
-    print_picture += sums[4];
-    result.samples += std::popcount(tile.used & mask);
-  }
+  std::array<double, 5> sums{};  // of print, picture, and their products
+  for_each_tile(
+      tiles_, plane, sampling, [&](const CardTile& tile, const PrintPlace& place, std::uint64_t bits) {
+        const PrintSampler sampler(level, place.centre, place.by_ray * tile.ray_by_pixel, kCardTileSide);
+        std::array<FloatLanes, 5> lanes{};
+        for_each_lanes(bits, [&](int column, int row, unsigned flags) {
+          const FloatLanes used = flags_of(flags);
+          const FloatLanes print = used * sampler.at(column, row).gray;
+          const FloatLanes picture = used * load_gray(gray_.row(tile.y + row) + tile.x + column);
+          lanes[0] += print;
+          lanes[1] += picture;
+          lanes[2] += print * print;
+          lanes[3] += picture * picture;
+          lanes[4] += print * picture;
+        });
+        for (std::size_t i = 0; i < sums.size(); ++i) sums[i] += sum_of(lanes[i]);
+        result.samples += std::popcount(bits);
+      });
   if (result.samples < 2) return result;
   const double n = result.samples;
-  const double varies = print_print - print * print / n;
-  const double picture_varies = picture_picture - picture * picture / n;
-  const double together = print_picture - print * picture / n;
-  if (!(varies > n) || !(picture_varies > n)) return result;  // flat to one grey value: nothing to compare
-  result.correlation = together / std::sqrt(varies * picture_varies);
-  result.tone[0] = together / varies;
-  result.tone[3] = (picture - result.tone[0] * print) / n;
-  result.rms_gray = std::sqrt(std::max(0.0, picture_varies - together * together / varies) / n);
+  const double print_varies = sums[2] - sums[0] * sums[0] / n;
+  const double picture_varies = sums[3] - sums[1] * sums[1] / n;
+  const double together = sums[4] - sums[0] * sums[1] / n;
+  if (!(print_varies > n) || !(picture_varies > n)) return result;  // flat to one grey value: nothing to see
+  result.correlation = together / std::sqrt(print_varies * picture_varies);
+  result.tone[0] = together / print_varies;
+  result.tone[3] = (sums[1] - result.tone[0] * sums[0]) / n;
+  result.rms_gray = std::sqrt(std::max(0.0, picture_varies - together * together / print_varies) / n);
   return result;
 }
 
@@ -303,48 +245,37 @@ CardLinearisation CardPicture::linearise(const Pose& camera_from_table, const Ca
                                          const CardPatternLevel& level, const CardTone& tone,
                                          double cutoff_gray, CardSampling sampling) const {
   const PrintPlane plane(camera_from_table, size);
-  const std::uint64_t mask = mask_of(sampling);
   const auto inverse_cutoff = static_cast<float>(1.0 / cutoff_gray);
   CardLinearisation result;
-  result.scatter.setZero();
   Histogram histogram{};
-  for (const CardTile& tile : tiles_) {
-    if ((tile.used & mask) == 0) continue;
-    const TilePlace place = plane.place(tile);
-    if (!place.valid()) continue;
-    const Vec2 at = plane.normalised(place.centre);
-    const Vec3 linear(1.0, at.x(), at.y());
-    const double gain = tone.head<3>().dot(linear);
-    const auto gain_f = static_cast<float>(gain);
-    const auto offset_f = static_cast<float>(tone.tail<3>().dot(linear));
-    const TileSampler sampler(level, place);
-    TileSums sums;
-    float weights = 0.0F;
-    float slopes = 0.0F;
-    for (std::uint64_t rest = tile.used & mask; rest != 0; rest &= rest - 1) {
-      const int bit = std::countr_zero(rest);
-      const PrintSample print = sampler.at(bit % 8, bit / 8);
-      const auto gray = static_cast<float>(gray_.at(tile.x + bit % 8, tile.y + bit / 8));
-      const float residual = gray - gain_f * print.gray - offset_f;
-      const float ratio = residual * inverse_cutoff;
-      const float root = 1.0F / (1.0F + ratio * ratio);
-      const float weight = root * root;
-      sums.add(print, residual, weight);
-      weights += weight;
-      slopes += weight * (4.0F * root - 3.0F);
-      ++histogram[static_cast<std::size_t>(std::min(255.0F, std::abs(residual)))];
-    }
-    const Eigen::Matrix<double, 2, 6> by_step = plane.print_by_step(place, tile.ray);
-    Eigen::Matrix<double, 4, 12> by_parameter = Eigen::Matrix<double, 4, 12>::Zero();
-    by_parameter.topLeftCorner<2, 6>() = gain * level.px_per_mm.asDiagonal() * by_step;
-    by_parameter.block<1, 3>(2, 6) = linear.transpose();
-    by_parameter.block<1, 3>(3, 9) = linear.transpose();
-    add_tile(sums, by_parameter, result);
-    result.weights += weights;
-    result.slope += slopes;
-    result.samples += std::popcount(tile.used & mask);
-  }
-  result.spread_gray = 1.4826 * median_of(histogram, result.samples);
+  for_each_tile(
+      tiles_, plane, sampling, [&](const CardTile& tile, const PrintPlace& place, std::uint64_t bits) {
+        const Vec2 at = plane.normalised(place.centre);
+        const Vec3 linear(1.0, at.x(), at.y());
+        const double gain = tone.head<3>().dot(linear);
+        const auto gain_lanes = static_cast<float>(gain);
+        const auto offset_lanes = static_cast<float>(tone.tail<3>().dot(linear));
+        const PrintSampler sampler(level, place.centre, place.by_ray * tile.ray_by_pixel, kCardTileSide);
+        TileSums sums;
+        for_each_lanes(bits, [&](int column, int row, unsigned flags) {
+          const PrintLanes print = sampler.at(column, row);
+          const FloatLanes gray = load_gray(gray_.row(tile.y + row) + tile.x + column);
+          const FloatLanes residual = gray - gain_lanes * print.gray - offset_lanes;
+          const FloatLanes ratio = residual * inverse_cutoff;
+          const FloatLanes root = 1.0F / (1.0F + ratio * ratio);
+          const FloatLanes weight = flags_of(flags) * root * root;
+          sums.add(print, residual, weight);
+          sums.slopes += weight * (4.0F * root - 3.0F);
+          count_sizes(residual, flags, histogram);
+        });
+        const Eigen::Matrix<double, 2, 6> gray_by_step =
+            gain * level.px_per_mm.asDiagonal() * plane.print_by_step(place, tile.ray);
+        add_tile(sums, gray_by_step, linear, result);
+        result.weights += sum_of(sums.weights);
+        result.slopes += sum_of(sums.slopes);
+        result.samples += std::popcount(bits);
+      });
+  result.spread_gray = kNormalDeviations * median_of(histogram, result.samples);
   return result;
 }
 

@@ -32,8 +32,13 @@ struct CardTile {
   Eigen::Matrix2d ray_by_pixel = Eigen::Matrix2d::Zero();
 };
 
-// Which of a tile's pixels are taken.
-enum class CardSampling : std::uint8_t { all, half, quarter, sixteenth };
+// Which pixels are taken: whole rows, since eight pixels cost as much as one.
+enum class CardSampling : std::uint8_t {
+  all,
+  half,       // every second row
+  quarter,    // every fourth row
+  sixteenth,  // every fourth row of every fourth tile
+};
 
 // How the print's grey values turn into the picture's: gain and offset change linearly over the card, as
 // gloss and light do. In the order 1, x, y of gain, then of offset; x and y from −1 to 1 over the card.
@@ -51,11 +56,12 @@ struct CardCorrelation {
 // CardTone.
 struct CardLinearisation {
   NormalEquations<12> equations;
-  Eigen::Matrix<double, 12, 12>
-      scatter;               // of the tiles' gradients: the variance of the sum as the data show it
+  // Sum of the outer products of the tiles' gradients, lower triangle: the variance of the gradient that the
+  // data show, whatever their noise.
+  NormalEquations<12>::Matrix scatter = NormalEquations<12>::Matrix::Zero();
   double spread_gray = 0.0;  // robust standard deviation of the residuals
   double weights = 0.0;      // their sum over the samples
-  double slope = 0.0;        // mean derivative of weighted residuals; below the mean weight
+  double slopes = 0.0;       // sum of the weighted residuals' derivatives; less, since weights fall
   int samples = 0;
 };
 
