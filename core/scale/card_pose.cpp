@@ -70,21 +70,6 @@ double refine(std::span<const CardTrack> tracks, std::span<const std::uint8_t> i
   return minimise<6>(problem, search, pose).cost;
 }
 
-// The pose that weak perspective cannot tell from this one: depths along the line of sight to the card's
-// points' centroid mirrored.
-Pose flipped(const Pose& pose, const Vec3& centre_on_card) {
-  const Vec3 centre = pose * centre_on_card;
-  const Vec3 sight = centre.normalized();
-  Pose other;
-  for (int axis = 0; axis < 2; ++axis) {
-    const Vec3 side = pose.rotation.col(axis);
-    other.rotation.col(axis) = side - 2.0 * sight.dot(side) * sight;
-  }
-  other.rotation.col(2) = other.rotation.col(0).cross(other.rotation.col(1));
-  other.translation = centre - other.rotation * centre_on_card;
-  return other;
-}
-
 }  // namespace
 
 bool pose_from_homography(const Mat3& pattern_from_ray, Pose& camera_from_card) {
@@ -127,7 +112,7 @@ bool card_pose_from_homography(const Mat3& pattern_from_ray, std::span<const Car
   double cost = refine(tracks, inliers, view, params, pose.camera_from_card);
   pose.ambiguity_ratio = 0.0;
   if (params.try_flipped) {
-    Pose other = flipped(pose.camera_from_card, sum / count);
+    Pose other = mirrored_pose(pose.camera_from_card, sum / count);
     double other_cost = refine(tracks, inliers, view, params, other);
     if (other_cost < cost) {
       std::swap(pose.camera_from_card, other);
@@ -138,6 +123,19 @@ bool card_pose_from_homography(const Mat3& pattern_from_ray, std::span<const Car
   }
   pose.rms_ray = std::sqrt(cost / count);
   return std::isfinite(cost);
+}
+
+Pose mirrored_pose(const Pose& camera_from_card, const Vec3& centre_on_card) {
+  const Vec3 centre = camera_from_card * centre_on_card;
+  const Vec3 sight = centre.normalized();
+  Pose other;
+  for (int axis = 0; axis < 2; ++axis) {
+    const Vec3 side = camera_from_card.rotation.col(axis);
+    other.rotation.col(axis) = side - 2.0 * sight.dot(side) * sight;
+  }
+  other.rotation.col(2) = other.rotation.col(0).cross(other.rotation.col(1));
+  other.translation = centre - other.rotation * centre_on_card;
+  return other;
 }
 
 Pose motion_from_card(const Pose& first_from_card, const Pose& second_from_card) {

@@ -29,6 +29,10 @@ bool card_pose_from_homography(const Mat3& pattern_from_ray, std::span<const Car
                                std::span<const std::uint8_t> inliers, CardView view,
                                const CardPoseParams& params, CardPose& pose);
 
+// The pose that weak perspective cannot tell from this one: the depths of the card's points, along the line
+// of sight to `centre_on_card`, mirrored.
+Pose mirrored_pose(const Pose& camera_from_card, const Vec3& centre_on_card);
+
 // The motion of the camera between two views of the resting card: second_from_first, mm.
 Pose motion_from_card(const Pose& first_from_card, const Pose& second_from_card);
 

@@ -1,0 +1,282 @@
+#include "core/scale/card_picture.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include "core/scale/print_lanes.hpp"
+#include "core/scale/print_plane.hpp"
+
+namespace traygauge {
+namespace {
+
+constexpr int kGrayBins = 256;
+constexpr double kNormalDeviations = 1.4826;  // standard deviation over the median size, of normal noise
+static_assert(kCardTileSide % kPrintLanes == 0);
+
+std::uint64_t mask_of(CardSampling sampling) {
+  switch (sampling) {
+    case CardSampling::all:
+      return ~std::uint64_t{0};
+    case CardSampling::half:
+      return 0x00FF00FF00FF00FFU;
+    default:
+      return 0x0000FF000000FF00U;
+  }
+}
+
+bool is_taken(const CardTile& tile, CardSampling sampling) {
+  return sampling != CardSampling::sixteenth || ((tile.x + 2 * tile.y) / kCardTileSide) % 4 == 0;
+}
+
+// Calls use(tile, place, bits) for every tile with samples.
+template <class Use>
+void for_each_tile(std::span<const CardTile> tiles, const PrintPlane& plane, CardSampling sampling, Use use) {
+  const std::uint64_t mask = mask_of(sampling);
+  for (const CardTile& tile : tiles) {
+    const std::uint64_t bits = tile.used & mask;
+    if (bits == 0 || !is_taken(tile, sampling)) continue;
+    const PrintPlace place = plane.place(tile.ray);
+    if (place.valid()) use(tile, place, bits);
+  }
+}
+
+// Calls use(column, row, flags) for every kPrintLanes pixels of a tile of which some are samples.
+template <class Use>
+void for_each_lanes(std::uint64_t bits, Use use) {
+  constexpr unsigned kLaneBits = (1U << kPrintLanes) - 1U;
+  for (int bit = 0; bit < kCardTileSide * kCardTileSide; bit += kPrintLanes) {
+    const auto here = static_cast<unsigned>(bits >> bit) & kLaneBits;
+    if (here != 0) use(bit % kCardTileSide, bit / kCardTileSide, here);
+  }
+}
+
+// Weighted sums over a tile's samples of the products of (by_x, by_y, gray, 1) among themselves and with the
+// residual.
+struct TileSums {
+  std::array<FloatLanes, 10> products{};  // lower triangle by rows
+  std::array<FloatLanes, 4> residuals{};
+  FloatLanes weights{};
+  FloatLanes slopes{};
+
+  void add(const PrintLanes& print, FloatLanes residual, FloatLanes weight) {
+    const std::array<FloatLanes, 3> v = {print.by_x, print.by_y, print.gray};
+    std::size_t k = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const FloatLanes scaled = weight * v[i];
+      residuals[i] += scaled * residual;
+      for (std::size_t j = 0; j <= i; ++j) products[k++] += scaled * v[j];
+    }
+    for (std::size_t j = 0; j < 3; ++j) products[k++] += weight * v[j];
+    products[k] += weight;
+    residuals[3] += weight * residual;
+    weights += weight;
+  }
+};
+
+using Histogram = std::array<std::uint32_t, kGrayBins>;
+
+void count_sizes(FloatLanes residual, unsigned bits, Histogram& histogram) {
+  const FloatLanes size = residual < 0.0F ? -residual : residual;
+  const FloatLanes last = FloatLanes{} + (kGrayBins - 1.0F);
+  const IntLanes bins = __builtin_convertvector(size < last ? size : last, IntLanes);
+  for (int i = 0; i < kPrintLanes; ++i) histogram[static_cast<std::size_t>(bins[i])] += bits >> i & 1U;
+}
+
+double median_of(const Histogram& histogram, int count) {
+  int below = 0;
+  for (int bin = 0; bin < kGrayBins; ++bin) {
+    const auto here = static_cast<int>(histogram[static_cast<std::size_t>(bin)]);
+    if (2 * (below + here) >= count) return bin + (0.5 * count - below) / std::max(here, 1);
+    below += here;
+  }
+  return kGrayBins;
+}
+
+// Adds a tile's sums. Its grey values move with the pose's step by `gray_by_step` times (by_x, by_y), and
+// with gain and offset, each by `linear` times its three parameters.
+void add_tile(const TileSums& sums, const Eigen::Matrix<double, 2, 6>& gray_by_step, const Vec3& linear,
+              CardLinearisation& to) {
+  std::array<double, 10> p{};
+  std::array<double, 4> r{};
+  for (std::size_t i = 0; i < 10; ++i) p[i] = sum_of(sums.products[i]);
+  for (std::size_t i = 0; i < 4; ++i) r[i] = sum_of(sums.residuals[i]);
+  Eigen::Matrix<double, 12, 1> gradient;
+  auto& hessian = to.equations.hessian;
+  for (int i = 0; i < 6; ++i) {
+    const double a = gray_by_step(0, i);
+    const double b = gray_by_step(1, i);
+    gradient[i] = a * r[0] + b * r[1];
+    const double along_x = a * p[0] + b * p[1];
+    const double along_y = a * p[1] + b * p[2];
+    for (int j = 0; j <= i; ++j) hessian(i, j) += along_x * gray_by_step(0, j) + along_y * gray_by_step(1, j);
+    const double with_gain = a * p[3] + b * p[4];
+    const double with_offset = a * p[6] + b * p[7];
+    for (int k = 0; k < 3; ++k) {
+      hessian(6 + k, i) += with_gain * linear[k];
+      hessian(9 + k, i) += with_offset * linear[k];
+    }
+  }
+  for (int i = 0; i < 3; ++i) {
+    gradient[6 + i] = r[2] * linear[i];
+    gradient[9 + i] = r[3] * linear[i];
+    for (int j = 0; j < 3; ++j) {
+      const double both = linear[i] * linear[j];
+      hessian(9 + i, 6 + j) += both * p[8];
+      if (j > i) continue;
+      hessian(6 + i, 6 + j) += both * p[5];
+      hessian(9 + i, 9 + j) += both * p[9];
+    }
+  }
+  to.equations.gradient -= gradient;
+  for (int i = 0; i < 12; ++i) {
+    for (int j = 0; j <= i; ++j) to.scatter(i, j) += gradient[i] * gradient[j];
+  }
+}
+
+}  // namespace
+
+Status CardPicture::load(ImageView<const std::uint8_t> gray, ImageView<const std::uint8_t> labels,
+                         const PixelBox& box, const LensModel& lens, const CardPictureParams& params) {
+  gray_ = gray;
+  tiles_ = {};
+  labelled_ = used_ = 0;
+  const int e = params.erosion_px;
+  const int left = std::max(box.left, e);
+  const int top = std::max(box.top, e);
+  const int right = std::min(box.right, labels.width - e);
+  const int bottom = std::min(box.bottom, labels.height - e);
+  const int columns = std::max(0, (right - left) / kCardTileSide);
+  const int rows = std::max(0, (bottom - top) / kCardTileSide);
+  const auto is_card = [&](int x, int y) { return labels.at(x, y) == kCardLabel; };
+  // Half a box is card at the least when it lies askew, so this keeps all tiles of usual cards.
+  const int every = 1 + columns * rows / (2 * std::max(1, static_cast<int>(storage_.size())));
+  std::size_t count = 0;
+  for (int i = 0; i < columns * rows && count < storage_.size(); i += every) {
+    CardTile tile;
+    tile.x = left + i % columns * kCardTileSide;
+    tile.y = top + i / columns * kCardTileSide;
+    for (int bit = 0; bit < 64; ++bit) {
+      const int x = tile.x + bit % 8;
+      const int y = tile.y + bit / 8;
+      if (is_card(x, y) && is_card(x - e, y) && is_card(x + e, y) && is_card(x, y - e) && is_card(x, y + e)) {
+        tile.labelled |= std::uint64_t{1} << bit;
+      }
+    }
+    const Vec2 centre(tile.x + 0.5 * (kCardTileSide - 1), tile.y + 0.5 * (kCardTileSide - 1));
+    Vec2 along_x;
+    Vec2 along_y;
+    if (tile.labelled == 0 || !lens.undistort_pixel(centre, tile.ray) ||
+        !lens.undistort_pixel(centre + Vec2::UnitX(), along_x) ||
+        !lens.undistort_pixel(centre + Vec2::UnitY(), along_y)) {
+      continue;
+    }
+    tile.ray_by_pixel << along_x - tile.ray, along_y - tile.ray;
+    labelled_ += std::popcount(tile.labelled);
+    storage_[count++] = tile;
+  }
+  tiles_ = storage_.first(count);
+  return labelled_ > 0 ? StatusCode::ok : StatusCode::card_not_found;
+}
+
+void CardPicture::select(const Pose& camera_from_table, const CardModelSize& size, double margin_mm) {
+  const PrintPlane plane(camera_from_table, size);
+  const Vec2 middle(0.5 * size.width_mm, 0.5 * size.height_mm);
+  const Vec2 inside = (middle.array() - margin_mm).matrix();
+  constexpr double kHalf = 0.5 * (kCardTileSide - 1);
+  used_ = 0;
+  for (CardTile& tile : tiles_) {
+    tile.used = 0;
+    const PrintPlace place = plane.place(tile.ray);
+    if (!place.valid()) continue;
+    const Eigen::Matrix2d by_pixel = place.by_ray * tile.ray_by_pixel;
+    const Vec2 from_middle = place.centre - middle;
+    const Vec2 reach = kHalf * by_pixel.cwiseAbs().rowwise().sum();
+    if (((from_middle.cwiseAbs() + reach).array() < inside.array()).all()) {
+      tile.used = tile.labelled;
+    } else {
+      for (std::uint64_t rest = tile.labelled; rest != 0; rest &= rest - 1) {
+        const int bit = std::countr_zero(rest);
+        const Vec2 offset(bit % kCardTileSide - kHalf, bit / kCardTileSide - kHalf);
+        const Vec2 at = from_middle + by_pixel * offset;
+        if ((at.cwiseAbs().array() < inside.array()).all()) tile.used |= std::uint64_t{1} << bit;
+      }
+    }
+    used_ += std::popcount(tile.used);
+  }
+}
+
+CardCorrelation CardPicture::correlate(const Pose& camera_from_table, const CardModelSize& size,
+                                       const CardPatternLevel& level, CardSampling sampling) const {
+  const PrintPlane plane(camera_from_table, size);
+  CardCorrelation result;
+  std::array<double, 5> sums{};  // of print, picture, and their products
+  for_each_tile(
+      tiles_, plane, sampling, [&](const CardTile& tile, const PrintPlace& place, std::uint64_t bits) {
+        const PrintSampler sampler(level, place.centre, place.by_ray * tile.ray_by_pixel, kCardTileSide);
+        std::array<FloatLanes, 5> lanes{};
+        for_each_lanes(bits, [&](int column, int row, unsigned flags) {
+          const FloatLanes used = flags_of(flags);
+          const FloatLanes print = used * sampler.at(column, row).gray;
+          const FloatLanes picture = used * load_gray(gray_.row(tile.y + row) + tile.x + column);
+          lanes[0] += print;
+          lanes[1] += picture;
+          lanes[2] += print * print;
+          lanes[3] += picture * picture;
+          lanes[4] += print * picture;
+        });
+        for (std::size_t i = 0; i < sums.size(); ++i) sums[i] += sum_of(lanes[i]);
+        result.samples += std::popcount(bits);
+      });
+  if (result.samples < 2) return result;
+  const double n = result.samples;
+  const double print_varies = sums[2] - sums[0] * sums[0] / n;
+  const double picture_varies = sums[3] - sums[1] * sums[1] / n;
+  const double together = sums[4] - sums[0] * sums[1] / n;
+  if (!(print_varies > n) || !(picture_varies > n)) return result;  // flat to one grey value: nothing to see
+  result.correlation = together / std::sqrt(print_varies * picture_varies);
+  result.tone[0] = together / print_varies;
+  result.tone[3] = (sums[1] - result.tone[0] * sums[0]) / n;
+  result.rms_gray = std::sqrt(std::max(0.0, picture_varies - together * together / print_varies) / n);
+  return result;
+}
+
+CardLinearisation CardPicture::linearise(const Pose& camera_from_table, const CardModelSize& size,
+                                         const CardPatternLevel& level, const CardTone& tone,
+                                         double cutoff_gray, CardSampling sampling) const {
+  const PrintPlane plane(camera_from_table, size);
+  const auto inverse_cutoff = static_cast<float>(1.0 / cutoff_gray);
+  CardLinearisation result;
+  Histogram histogram{};
+  for_each_tile(
+      tiles_, plane, sampling, [&](const CardTile& tile, const PrintPlace& place, std::uint64_t bits) {
+        const Vec2 at = plane.normalised(place.centre);
+        const Vec3 linear(1.0, at.x(), at.y());
+        const double gain = tone.head<3>().dot(linear);
+        const auto gain_lanes = static_cast<float>(gain);
+        const auto offset_lanes = static_cast<float>(tone.tail<3>().dot(linear));
+        const PrintSampler sampler(level, place.centre, place.by_ray * tile.ray_by_pixel, kCardTileSide);
+        TileSums sums;
+        for_each_lanes(bits, [&](int column, int row, unsigned flags) {
+          const PrintLanes print = sampler.at(column, row);
+          const FloatLanes gray = load_gray(gray_.row(tile.y + row) + tile.x + column);
+          const FloatLanes residual = gray - gain_lanes * print.gray - offset_lanes;
+          const FloatLanes ratio = residual * inverse_cutoff;
+          const FloatLanes root = 1.0F / (1.0F + ratio * ratio);
+          const FloatLanes weight = flags_of(flags) * root * root;
+          sums.add(print, residual, weight);
+          sums.slopes += weight * (4.0F * root - 3.0F);
+          count_sizes(residual, flags, histogram);
+        });
+        const Eigen::Matrix<double, 2, 6> gray_by_step =
+            gain * level.px_per_mm.asDiagonal() * plane.print_by_step(place, tile.ray);
+        add_tile(sums, gray_by_step, linear, result);
+        result.weights += sum_of(sums.weights);
+        result.slopes += sum_of(sums.slopes);
+        result.samples += std::popcount(bits);
+      });
+  result.spread_gray = kNormalDeviations * median_of(histogram, result.samples);
+  return result;
+}
+
+}  // namespace traygauge
