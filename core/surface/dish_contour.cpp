@@ -4,8 +4,6 @@
 #include <array>
 #include <cmath>
 
-#include "core/segmentation/label_regions.hpp"
-
 namespace traygauge {
 namespace {
 
@@ -23,10 +21,10 @@ constexpr std::array<Step, 4> kLeftPixels{{{-1, -1}, {0, -1}, {0, 0}, {-1, 0}}};
 
 class BorderWalk {
  public:
-  BorderWalk(ImageView<const std::uint8_t> labels, DishContour& contour)
-      : labels_(labels), contour_(contour) {}
+  BorderWalk(ImageView<const std::uint8_t> labels, const LabelSet& on_dish, DishContour& contour)
+      : labels_(labels), on_dish_(on_dish), contour_(contour) {}
 
-  bool is_dish(int x, int y) const { return labels_.contains(x, y) && is_on_dish(labels_.at(x, y)); }
+  bool is_dish(int x, int y) const { return labels_.contains(x, y) && on_dish_.contains(labels_.at(x, y)); }
 
   // Walks around the region from the left side of a dish pixel. Returns the enclosed area in pixels, negative
   // around a hole. Pixels that touch at a corner only count as separate.
@@ -51,11 +49,12 @@ class BorderWalk {
   bool add_side(int x, int y, std::size_t heading) {
     const Step step = kSteps[heading];
     const Step outside{x + kLeftPixels[heading].x, y + kLeftPixels[heading].y};
+    const Step inside{x + kRightPixels[heading].x, y + kRightPixels[heading].y};
     const bool against_table =
         labels_.contains(outside.x, outside.y) && labels_.at(outside.x, outside.y) == kBackgroundLabel;
     return contour_.sides.push_back({static_cast<float>(x) - 0.5F + 0.5F * static_cast<float>(step.x),
                                      static_cast<float>(y) - 0.5F + 0.5F * static_cast<float>(step.y),
-                                     against_table});
+                                     against_table, labels_.at(inside.x, inside.y)});
   }
 
   std::size_t turn(int x, int y, std::size_t heading) const {
@@ -65,6 +64,7 @@ class BorderWalk {
   }
 
   ImageView<const std::uint8_t> labels_;
+  const LabelSet& on_dish_;
   DishContour& contour_;
 };
 
@@ -73,26 +73,27 @@ struct RegionCentre {
   int row = 0;
 };
 
-RegionCentre measure_centre(ImageView<const std::uint8_t> labels) {
+RegionCentre measure_centre(ImageView<const std::uint8_t> labels, const LabelSet& on_dish, int step) {
   double count = 0.0;
   double row_sum = 0.0;
-  for (int y = 0; y < labels.height; ++y) {
+  for (int y = 0; y < labels.height; y += step) {
     const std::uint8_t* row = labels.row(y);
     int in_row = 0;
-    for (int x = 0; x < labels.width; ++x) in_row += is_on_dish(row[x]) ? 1 : 0;
+    for (int x = 0; x < labels.width; x += step) in_row += on_dish.contains(row[x]) ? 1 : 0;
     count += in_row;
     row_sum += static_cast<double>(in_row) * y;
   }
-  return {count, count > 0.0 ? static_cast<int>(row_sum / count) : 0};
+  return {count * step * step, count > 0.0 ? static_cast<int>(row_sum / count) : 0};
 }
 
 }  // namespace
 
-Status trace_dish_contour(ImageView<const std::uint8_t> labels, DishContour& contour) {
+Status trace_dish_contour(ImageView<const std::uint8_t> labels, const LabelSet& on_dish, int search_step,
+                          DishContour& contour) {
   contour.sides.clear();
-  const RegionCentre centre = measure_centre(labels);
+  const RegionCentre centre = measure_centre(labels, on_dish, search_step);
   if (centre.pixels == 0.0) return StatusCode::no_dish_label;
-  BorderWalk walk(labels, contour);
+  BorderWalk walk(labels, on_dish, contour);
   bool is_list_full = false;
   // Only a region that holds most of the pixels reaches over their mean row for certain.
   for (int x = 0; x < labels.width; ++x) {
@@ -103,6 +104,10 @@ Status trace_dish_contour(ImageView<const std::uint8_t> labels, DishContour& con
   }
   contour.sides.clear();
   return is_list_full ? StatusCode::out_of_memory : StatusCode::no_dish_label;
+}
+
+Status trace_dish_contour(ImageView<const std::uint8_t> labels, DishContour& contour) {
+  return trace_dish_contour(labels, labels_of_single_dish(), 1, contour);
 }
 
 bool fit_contour_curve(const DishContour& contour, std::size_t index, const ContourFitParams& params,

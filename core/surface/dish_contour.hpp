@@ -9,6 +9,7 @@
 #include "core/base/geometry.hpp"
 #include "core/base/status.hpp"
 #include "core/image_view/image_view.hpp"
+#include "core/segmentation/label_set.hpp"
 
 namespace traygauge {
 
@@ -17,6 +18,7 @@ struct BorderSide {
   float x_px = 0.0F;
   float y_px = 0.0F;
   bool against_table = false;  // false where the card, another dish or the picture's edge bounds the dish
+  std::uint8_t label = 0;      // of the dish pixel: the dish itself, or food that hides its rim
 };
 
 // Closed and in order, clockwise in the picture, so the dish lies on the right of the walk.
@@ -30,8 +32,13 @@ struct DishContour {
   Vec2 place(std::size_t index) const { return {sides[index].x_px, sides[index].y_px}; }
 };
 
-// Walks around the region of dish and items that makes up most of their pixels; specks and holes are passed
-// over. no_dish_label without such a region, out_of_memory when it has more sides than the list holds.
+// Walks around the region of `on_dish` that makes up most of its pixels; specks and holes are passed over. Of
+// every so many rows and columns one is searched for the region. no_dish_label without such a region,
+// out_of_memory when it has more sides than the list holds.
+Status trace_dish_contour(ImageView<const std::uint8_t> labels, const LabelSet& on_dish, int search_step,
+                          DishContour& contour);
+
+// The same for the only dish, labels 1…199.
 Status trace_dish_contour(ImageView<const std::uint8_t> labels, DishContour& contour);
 
 struct ContourFitParams {

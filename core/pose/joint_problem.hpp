@@ -1,0 +1,111 @@
+// The least-squares problem of the joint refinement: both cameras over the table, how the card lies on it,
+// and the places of the dishes.
+//
+// The dishes' places are eliminated from the normal equations (Schur's complement), so that the problem's
+// size does not depend on how many stand on the tray.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <span>
+
+#include "core/base/geometry.hpp"
+#include "core/base/levenberg_marquardt.hpp"
+#include "core/base/table_frame.hpp"
+#include "core/matching/point_track.hpp"
+#include "core/pose/card_prior.hpp"
+#include "core/pose/track_residuals.hpp"
+#include "core/surface/dish_placement.hpp"
+
+namespace traygauge {
+
+// A step of the first camera (6), of the second (6), of the card's lie (tilt 2, raised 1).
+inline constexpr int kJointParameters = 15;
+inline constexpr int kLieParameter = 12;
+inline constexpr std::size_t kMaxPlacedDishes = 8;
+using JointVector = Eigen::Matrix<double, kJointParameters, 1>;
+using JointMatrix = Eigen::Matrix<double, kJointParameters, kJointParameters>;
+
+struct JointState {
+  TableCameras camera_from_table;
+  CardLie card;
+  std::array<DishPlace, kMaxPlacedDishes> places;
+};
+
+// How a track's residuals count: a residual r costs r²/variance / (1 + r²/scale²) (Geman and McClure); a
+// scale of zero switches it off. px².
+struct TrackWeight {
+  double line_variance = 1.0;
+  double line_squared_scale = 0.0;
+  double table_variance = 1.0;
+  double table_squared_scale = 0.0;
+};
+
+struct JointRim {
+  DishOutlines outlines;
+  PlacePrior prior;
+  double point_sigma_px = 1.0;
+  double scale_px = 1.0;
+};
+
+// What the elimination leaves behind for going back: place step = −from_place − from_cameras · camera step.
+struct PlaceElimination {
+  PlaceMatrix covariance = PlaceMatrix::Zero();  // of the place with the cameras fixed
+  PlaceVector from_place = PlaceVector::Zero();
+  Eigen::Matrix<double, kPlaceParameters, kCameraParameters> from_cameras =
+      Eigen::Matrix<double, kPlaceParameters, kCameraParameters>::Zero();
+};
+
+struct JointTerms {
+  std::array<CardAlignment, 2> cards;
+  Vec3 card_pivot_mm = Vec3::Zero();
+  double lie_tilt_information = 0.0;
+  double lie_raised_information = 0.0;
+  std::span<const PointTrack> tracks;
+  std::span<const TrackWeight> weights;
+  std::span<const JointRim> rims;
+  FocalsPx focals_px{};
+};
+
+class JointProblem {
+ public:
+  using Equations = NormalEquations<kJointParameters>;
+
+  // `eliminations`: one a rim, overwritten by each linearisation.
+  JointProblem(const JointTerms& terms, std::span<PlaceElimination> eliminations)
+      : terms_(terms), eliminations_(eliminations) {}
+
+  double cost(const JointState& state) const;
+  double linearise(const JointState& state, Equations& equations) const;
+  // After a linearisation: the dishes follow the cameras.
+  JointState moved(const JointState& state, const JointVector& step) const;
+
+ private:
+  double add_cards(const JointState& state, Equations& equations) const;
+  double add_tracks(const JointState& state, Equations& equations) const;
+  double add_rim(const JointState& state, std::size_t index, Equations& equations) const;
+  double cards_cost(const JointState& state) const;
+  double tracks_cost(const JointState& state) const;
+  double rim_cost(const JointState& state, std::size_t index) const;
+
+  const JointTerms& terms_;
+  std::span<PlaceElimination> eliminations_;
+};
+
+// The inverse of a positive definite matrix given by its lower triangle; zero when it is not.
+template <int kSize>
+Eigen::Matrix<double, kSize, kSize> inverse_information(
+    const Eigen::Matrix<double, kSize, kSize>& information) {
+  NormalEquations<kSize> unit;
+  unit.hessian = information;
+  Eigen::Matrix<double, kSize, kSize> covariance;
+  for (int i = 0; i < kSize; ++i) {
+    typename NormalEquations<kSize>::Vector column = NormalEquations<kSize>::Vector::Zero();
+    unit.gradient = -NormalEquations<kSize>::Vector::Unit(i);
+    if (!unit.solve(0.0, column)) return Eigen::Matrix<double, kSize, kSize>::Zero();
+    covariance.col(i) = column;
+  }
+  return covariance;
+}
+
+}  // namespace traygauge

@@ -1,0 +1,113 @@
+// Both cameras, the table and the places of the dishes from everything at once: the card's alignment in each
+// view, point tracks, the table's texture and the dishes' outlines. Levenberg and Marquardt's method with
+// robust weights; tracks are believed as far as what is already known can tell them from wrong ones.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "core/base/geometry.hpp"
+#include "core/base/status.hpp"
+#include "core/base/table_frame.hpp"
+#include "core/matching/point_track.hpp"
+#include "core/pose/card_prior.hpp"
+#include "core/pose/joint_problem.hpp"
+#include "core/pose/table_consensus.hpp"
+#include "core/surface/dish_model.hpp"
+#include "core/surface/dish_placement.hpp"
+
+namespace traygauge {
+
+struct JointParams {
+  // A card on a table: crumbs, a bent corner. Degrees about each axis, and mm on top of its thickness.
+  double card_tilt_sigma_deg = 0.1;
+  double card_raised_sigma_mm = 0.1;
+  double min_track_sigma_px = 0.05;  // below it lens calibration and rolling edges decide
+  // Roughness of a table: paper, weave, grooves. Points that differ by more are no table.
+  double table_flatness_mm = 0.15;
+  double robust_sigmas = 3.0;  // Geman and McClure's scale, in standard deviations of what is expected
+  // How many times worse than stated the tracks may be before they count as wrong rather than as noisy.
+  double max_noise_factor = 3.0;
+  bool use_tracks = true;
+  bool use_table = true;
+  bool use_rims = true;
+  TableConsensusParams table;
+  int iterations = 4;                  // of each of the four rounds of weighing and refining
+  int min_dish_tracks = 20;            // fewer tracks on dishes contradict nothing
+  double min_dish_inlier_share = 0.3;  // of them; below it the dishes moved against the card
+  DishPlacementParams placement;
+};
+
+// A dish to be placed. `candidates`: the one described, or all that are known.
+struct JointDish {
+  DishOutlines outlines;
+  std::span<const DishModel> candidates;
+};
+
+struct JointInput {
+  std::array<CardAlignment, 2> cards;
+  Vec3 card_middle_mm = Vec3::Zero();  // of the print, in the table frame
+  std::span<const PointTrack> tracks;
+  std::span<const JointDish> dishes;
+  FocalsPx focals_px{};  // mean focal length of each stored picture
+};
+
+// What one kind of measurement had to say.
+struct TermReport {
+  int count = 0;
+  int inliers = 0;
+  double rms = 0.0;  // of the inliers, px; for the card: deviations in standard deviations
+};
+
+struct JointDishResult {
+  Status status = StatusCode::rim_not_found;  // as place_dish
+  PlacedDish placed;                          // its covariance includes that of the cameras
+  // The place's answer to a step of the cameras, so that both vary together.
+  Eigen::Matrix<double, kPlaceParameters, kCameraParameters> place_by_cameras =
+      Eigen::Matrix<double, kPlaceParameters, kCameraParameters>::Zero();
+};
+
+struct JointResult {
+  TableCameras camera_from_table;  // z = 0 is the table, whatever the card lies like
+  CardLie card;
+  JointMatrix covariance = JointMatrix::Zero();          // of steps as in JointProblem
+  std::array<JointDishResult, kMaxPlacedDishes> dishes;  // in the order of the input
+  TermReport cards;
+  TermReport lines;       // all tracks off their epipolar lines
+  TermReport dish_lines;  // those of them that are neither background nor card
+  TermReport table;       // background along its line
+  TermReport rims;
+  double track_noise_factor = 1.0;  // of the tracks' errors against what they state
+  int iterations = 0;
+};
+
+struct JointWorkspace {
+  std::span<TrackWeight> weights;
+  std::span<double> magnitudes;
+  std::span<TableSighting> sightings;
+  std::span<JointRim> rims;
+  std::span<PlaceElimination> eliminations;
+  DishPlacementWorkspace placement;
+
+  // `max_outline_points`: of one dish in one view.
+  template <class Allocator>
+  constexpr void allocate(Allocator& arena, std::size_t max_tracks, std::size_t max_outline_points) {
+    weights = arena.template take<TrackWeight>(max_tracks);
+    magnitudes = arena.template take<double>(max_tracks);
+    sightings = arena.template take<TableSighting>(max_tracks);
+    rims = arena.template take<JointRim>(kMaxPlacedDishes);
+    eliminations = arena.template take<PlaceElimination>(kMaxPlacedDishes);
+    placement.allocate(arena, max_outline_points);
+  }
+};
+
+// Tracks beyond the workspace's capacity are left out, as are dishes beyond kMaxPlacedDishes. A dish that
+// could not be placed carries its own status and has no say. card_not_found: an alignment that is not finite
+// or has no information; pose_contradicts_card: most of what is tracked on the dishes moved otherwise than
+// the card.
+Status refine_jointly(const JointInput& input, const JointParams& params, JointWorkspace& workspace,
+                      JointResult& result);
+
+}  // namespace traygauge

@@ -1,0 +1,90 @@
+#include "core/pose/table_consensus.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/levenberg_marquardt.hpp"
+#include "core/base/random.hpp"
+
+namespace traygauge {
+namespace {
+
+constexpr double kMinSine =
+    0.2;  // between the directions of two points from the card; nearly one line is none
+
+Vec3 functional(const TableSighting& sighting) {
+  return {1.0, sighting.x_mm, sighting.y_mm};
+}
+
+double squared_deviation(const TableSighting& sighting, const TableCorrection& table) {
+  const double deviation = (sighting.height_mm - functional(sighting).dot(table)) / sighting.sigma_mm;
+  return deviation * deviation;
+}
+
+double score(std::span<const TableSighting> sightings, const Mat3& information, const TableCorrection& table,
+             const TableConsensusParams& params) {
+  const double squared_limit = params.inlier_sigmas * params.inlier_sigmas;
+  const double squared_reach = params.reach_mm * params.reach_mm;
+  double sum = table.dot(information * table);
+  for (const TableSighting& sighting : sightings) {
+    const double squared_distance = sighting.x_mm * sighting.x_mm + sighting.y_mm * sighting.y_mm;
+    const double weight = squared_reach / (squared_reach + squared_distance);
+    sum += weight * std::min(squared_deviation(sighting, table), squared_limit);
+  }
+  return sum;
+}
+
+// The plane of no height at the card's middle through both points.
+bool span_plane(const TableSighting& one, const TableSighting& other, TableCorrection& table) {
+  const double cross = one.x_mm * other.y_mm - one.y_mm * other.x_mm;
+  const double lengths = std::hypot(one.x_mm, one.y_mm) * std::hypot(other.x_mm, other.y_mm);
+  if (!(std::abs(cross) > kMinSine * lengths)) return false;
+  table = {0.0, (one.height_mm * other.y_mm - other.height_mm * one.y_mm) / cross,
+           (one.x_mm * other.height_mm - other.x_mm * one.height_mm) / cross};
+  return true;
+}
+
+// Least squares over the points within the limit, with the prior.
+TableCorrection refit(std::span<const TableSighting> sightings, const Mat3& information,
+                      const TableCorrection& table, double squared_limit) {
+  NormalEquations<3> equations;
+  equations.hessian = information;
+  equations.gradient = information * table;
+  for (const TableSighting& sighting : sightings) {
+    if (squared_deviation(sighting, table) > squared_limit) continue;
+    const double weight = 1.0 / (sighting.sigma_mm * sighting.sigma_mm);
+    const Vec3 jacobian = functional(sighting);
+    equations.add(jacobian.dot(table) - sighting.height_mm, jacobian, weight);
+  }
+  Vec3 step = Vec3::Zero();
+  return equations.solve(0.0, step) ? TableCorrection(table + step) : table;
+}
+
+}  // namespace
+
+TableCorrection find_table(std::span<TableSighting> sightings, const Mat3& prior,
+                           const TableConsensusParams& params) {
+  const Mat3 information = prior.inverse();
+  const double squared_limit = params.inlier_sigmas * params.inlier_sigmas;
+  TableCorrection best = TableCorrection::Zero();
+  double best_score = score(sightings, information, best, params);
+  Random random(params.seed);
+  const auto count = static_cast<std::uint32_t>(sightings.size());
+  for (int sample = 0; count >= 2 && sample < params.samples; ++sample) {
+    TableCorrection table;
+    const TableSighting& one = sightings[random.below(count)];
+    if (!span_plane(one, sightings[random.below(count)], table)) continue;
+    if (!(table.dot(information * table) <= params.max_squared_deviation)) continue;
+    const double sum = score(sightings, information, table, params);
+    if (!(sum < best_score)) continue;
+    best = table;
+    best_score = sum;
+  }
+  for (int round = 0; round < params.refits; ++round)
+    best = refit(sightings, information, best, squared_limit);
+  for (TableSighting& sighting : sightings)
+    sighting.is_table = squared_deviation(sighting, best) <= squared_limit;
+  return best;
+}
+
+}  // namespace traygauge

@@ -1,0 +1,258 @@
+#include "core/surface/dish_placement.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace traygauge {
+namespace {
+
+constexpr std::size_t kMaxCandidates = 32;
+constexpr double kFreeAzimuthSigmaRad = 0.5;    // of a measured place: keeps a round one regular
+constexpr double kRoundAzimuthSigmaRad = 0.01;  // of a round dish, whose azimuth means nothing
+constexpr double kRoundMm = 0.5;                // axes that differ by less
+constexpr std::size_t kStep = 3;                // of the outline's points, while a place is being found
+constexpr double kHold = 1e4;                   // times the information of a described size and height
+constexpr double kMinImprovement = 1e-6;   // relative decrease of the cost that is worth another iteration
+constexpr double kMedianToSigma = 1.4826;  // of normal errors
+constexpr double kScaleSigmas = 3.0;
+
+double information(double sigma) {
+  return 1.0 / (sigma * sigma);
+}
+
+// The ellipse through both outlines laid on the level `height_mm`.
+bool guess_place(const DishOutlines& outlines, const TableCameras& cameras, double height_mm,
+                 DishPlacementWorkspace& workspace, DishPlace& place) {
+  workspace.points_mm.clear();
+  for (std::size_t view = 0; view < 2; ++view) {
+    const Vec3 centre_mm = camera_centre_mm(cameras[view]);
+    for (const Vec2& ray : outlines[view]) {
+      const Vec3 direction = cameras[view].rotation.transpose() * ray.homogeneous();
+      const double depth = (height_mm - centre_mm.z()) / direction.z();
+      if (std::isfinite(depth) && depth > 0.0) workspace.points_mm.push_back(centre_mm + depth * direction);
+    }
+  }
+  RimEllipse ellipse;
+  const Plane level{Vec3::UnitZ(), height_mm};
+  if (!fit_rim_size(workspace.points_mm.items(), level, ellipse).ok()) return false;
+  place.centre_mm = ellipse.centre_mm.head<2>();
+  place.azimuth_rad = std::atan2(ellipse.axes[0].y(), ellipse.axes[0].x());
+  place.edge_height_mm = height_mm;
+  place.size_mm = ellipse.size_mm;
+  return as_vector(place).allFinite();
+}
+
+// About a described dish, as far as the choice would let another differ from it.
+PlacePrior prior_of_measurement(const DishPlace& described, const DishPlacementParams& params) {
+  PlacePrior prior{as_vector(described), PlaceVector::Zero()};
+  prior.information[kPlaceAzimuth] = information(kFreeAzimuthSigmaRad);
+  prior.information[kPlaceHeight] = information(params.choice.height_tolerance_mm);
+  prior.information.segment<2>(kPlaceSize).setConstant(information(params.choice.size_tolerance_mm));
+  prior.information[kPlaceDrop] = information(params.edge_drop_sigma_mm);
+  return prior;
+}
+
+int choose_candidate(std::span<const DishModel> candidates, const DishPlace& measured,
+                     const DishChoiceParams& params) {
+  std::array<DishCandidate, kMaxCandidates> known{};
+  const std::size_t count = std::min(candidates.size(), kMaxCandidates);
+  for (std::size_t i = 0; i < count; ++i) {
+    known[i] = {candidates[i].outer_size_mm, edge_height_mm(candidates[i])};
+  }
+  return choose_dish(std::span(known).first(count), measured.size_mm, measured.edge_height_mm, params);
+}
+
+// Whether one of the views that have a say contradicts the place found.
+bool contradicts(const DishOutlines& outlines, const TableCameras& cameras, const FocalsPx& focals_px,
+                 const DishPlace& place, const DishPlacementParams& params,
+                 DishPlacementWorkspace& workspace) {
+  for (std::size_t view = 0; view < 2; ++view) {
+    if (outlines[view].size() < static_cast<std::size_t>(params.min_view_points)) continue;
+    DishOutlines alone;
+    alone[view] = outlines[view];
+    OutlineFit fit;
+    robust_scale_px(alone, cameras, focals_px, place, params, workspace, fit);
+    if (fit.inliers < params.min_inlier_share * fit.points || fit.rms_px > params.max_rms_px) return true;
+  }
+  return false;
+}
+
+// The start for a known dish: its own size, turned so that its axes lie as measured.
+DishPlace start_of(const DishModel& model, const DishPlace& measured) {
+  DishPlace start = measured;
+  start.size_mm = model.outer_size_mm;
+  const bool is_across =
+      (model.outer_size_mm[0] < model.outer_size_mm[1]) != (measured.size_mm[0] < measured.size_mm[1]);
+  if (is_across) start.azimuth_rad += 0.5 * std::numbers::pi;
+  const bool is_round = std::abs(model.outer_size_mm[0] - model.outer_size_mm[1]) < kRoundMm;
+  if (is_round) start.azimuth_rad = 0.0;
+  // Half a turn leaves an ellipse as it is.
+  start.azimuth_rad = std::remainder(start.azimuth_rad, std::numbers::pi);
+  return start;
+}
+
+void invert_information(const NormalEquations<kPlaceParameters>& equations, PlaceMatrix& covariance) {
+  NormalEquations<kPlaceParameters> unit;
+  unit.hessian = equations.hessian;
+  for (int i = 0; i < kPlaceParameters; ++i) {
+    PlaceVector column;
+    unit.gradient = -PlaceVector::Unit(i);
+    if (!unit.solve(0.0, column)) column.setZero();
+    covariance.col(i) = column;
+  }
+}
+
+class DishPlacement {
+ public:
+  DishPlacement(const DishOutlines& outlines, const TableCameras& cameras, const FocalsPx& focals_px,
+                const DishPlacementParams& params, DishPlacementWorkspace& workspace)
+      : outlines_(outlines),
+        cameras_(cameras),
+        focals_px_(focals_px),
+        params_(params),
+        workspace_(workspace) {
+    search_.max_iterations = params.iterations;
+    search_.min_improvement = kMinImprovement;
+  }
+
+  Status place(std::span<const DishModel> candidates, PlacedDish& placed) {
+    DishPlace best;
+    double best_cost = kUnseenPlace;
+    for (const DishModel& model : candidates) {
+      DishPlace place;
+      if (!guess_place(outlines_, cameras_, edge_height_mm(model), workspace_, place)) continue;
+      place = start_of(model, place);
+      place.edge_drop_mm = params_.edge_drop_mm;
+      const double cost = fit_described(model, place);
+      if (!(cost < best_cost) || !as_vector(place).allFinite()) continue;
+      best = place;
+      best_cost = cost;
+    }
+    if (!(best_cost < kUnseenPlace)) return StatusCode::rim_not_found;
+    placed.place = placed.measured = best;
+    measure(best, placed);
+    if (contradicts(outlines_, cameras_, focals_px_, placed.measured, params_, workspace_))
+      return StatusCode::labels_inconsistent;
+    placed.candidate = choose_candidate(candidates, placed.measured, params_.choice);
+    if (placed.candidate < 0) return StatusCode::dish_unknown;
+    finish(candidates[static_cast<std::size_t>(placed.candidate)], placed);
+    return StatusCode::ok;
+  }
+
+ private:
+  // The dish as it is described, from wide to narrow. Held at its size and height it withstands many wrong
+  // points, which a freer one would stretch towards. Returns the cost at the narrow end.
+  double fit_described(const DishModel& model, DishPlace& place) {
+    PlacePrior prior = prior_of(model, place.azimuth_rad, params_);
+    prior.information.segment<3>(kPlaceHeight) *= kHold;
+    double cost = kUnseenPlace;
+    for (const double scale_px : params_.first_robust_scales_px) cost = fit(prior, scale_px, kStep, place);
+    return cost;
+  }
+
+  // What the outlines say themselves: from there, given the freedom to be another dish. A described dish that
+  // does not fit leaves a large scale behind, and with it a long reach.
+  void measure(const DishPlace& described, PlacedDish& placed) {
+    const PlacePrior prior = prior_of_measurement(described, params_);
+    OutlineFit unused;
+    DishPlacementParams reaching = params_;
+    reaching.max_robust_scale_px = params_.first_robust_scales_px[0];
+    double scale_px =
+        robust_scale_px(outlines_, cameras_, focals_px_, described, reaching, workspace_, unused);
+    fit(prior, scale_px, kStep, placed.measured);
+    scale_px =
+        robust_scale_px(outlines_, cameras_, focals_px_, placed.measured, params_, workspace_, placed.fit);
+    fit(prior, scale_px, kStep, placed.measured);
+  }
+
+  void finish(const DishModel& model, PlacedDish& placed) {
+    placed.place = start_of(model, placed.measured);
+    const PlacePrior prior = prior_of(model, placed.place.azimuth_rad, params_);
+    const double scale_px =
+        robust_scale_px(outlines_, cameras_, focals_px_, placed.measured, params_, workspace_, placed.fit);
+    fit(prior, scale_px, 1, placed.place);
+    const PlacementProblem problem(outlines_, cameras_, focals_px_, prior, params_.point_sigma_px, scale_px,
+                                   1);
+    NormalEquations<kPlaceParameters> equations;
+    problem.linearise(placed.place, equations);
+    invert_information(equations, placed.covariance);
+    robust_scale_px(outlines_, cameras_, focals_px_, placed.place, params_, workspace_, placed.fit);
+  }
+
+  double fit(const PlacePrior& prior, double scale_px, std::size_t step, DishPlace& place) const {
+    const PlacementProblem problem(outlines_, cameras_, focals_px_, prior, params_.point_sigma_px, scale_px,
+                                   step);
+    return minimise<kPlaceParameters>(problem, search_, place).cost;
+  }
+
+  const DishOutlines& outlines_;
+  const TableCameras& cameras_;
+  const FocalsPx& focals_px_;
+  const DishPlacementParams& params_;
+  DishPlacementWorkspace& workspace_;
+  LevenbergMarquardtParams search_;
+};
+
+}  // namespace
+
+double edge_height_mm(const DishModel& model) {
+  return model.profile_size > 0 ? model.profile_points[0].height_mm : model.rim_height_mm;
+}
+
+PlacePrior prior_of(const DishModel& model, double azimuth_rad, const DishPlacementParams& params) {
+  PlacePrior prior;
+  prior.mean[kPlaceAzimuth] = azimuth_rad;
+  const bool is_round = std::abs(model.outer_size_mm[0] - model.outer_size_mm[1]) < kRoundMm;
+  prior.information[kPlaceAzimuth] = is_round ? information(kRoundAzimuthSigmaRad) : 0.0;
+  prior.mean[kPlaceHeight] = edge_height_mm(model);
+  prior.information[kPlaceHeight] = information(params.height_sigma_mm);
+  prior.mean.segment<2>(kPlaceSize) = Vec2(model.outer_size_mm[0], model.outer_size_mm[1]);
+  prior.information.segment<2>(kPlaceSize).setConstant(information(params.size_sigma_mm));
+  prior.mean[kPlaceDrop] = params.edge_drop_mm;
+  prior.information[kPlaceDrop] = information(params.edge_drop_sigma_mm);
+  return prior;
+}
+
+double robust_scale_px(const DishOutlines& outlines, const TableCameras& cameras, const FocalsPx& focals_px,
+                       const DishPlace& place, const DishPlacementParams& params,
+                       DishPlacementWorkspace& workspace, OutlineFit& fit) {
+  std::size_t count = 0;
+  for (std::size_t view = 0; view < 2; ++view) {
+    const RimProjection rim(place, cameras[view], focals_px[view]);
+    for (const Vec2& ray : outlines[view]) {
+      double residual_px = 0.0;
+      if (count < workspace.magnitudes_px.size() && rim.residual(ray, residual_px))
+        workspace.magnitudes_px[count++] = std::abs(residual_px);
+    }
+  }
+  fit = {};
+  if (count == 0) return params.max_robust_scale_px;
+  const std::span<double> magnitudes_px = workspace.magnitudes_px.first(count);
+  std::sort(magnitudes_px.begin(), magnitudes_px.end());
+  const double sigma_px = kMedianToSigma * magnitudes_px[count / 2];
+  const double scale_px =
+      std::clamp(kScaleSigmas * sigma_px, params.min_robust_scale_px, params.max_robust_scale_px);
+  double squares = 0.0;
+  for (const double magnitude_px : magnitudes_px) {
+    if (magnitude_px > scale_px) break;
+    squares += magnitude_px * magnitude_px;
+    ++fit.inliers;
+  }
+  fit.points = static_cast<int>(outlines[0].size() + outlines[1].size());
+  fit.rms_px = fit.inliers > 0 ? std::sqrt(squares / fit.inliers) : 0.0;
+  return scale_px;
+}
+
+Status place_dish(const DishOutlines& outlines, const TableCameras& cameras, const FocalsPx& focals_px,
+                  std::span<const DishModel> candidates, const DishPlacementParams& params,
+                  DishPlacementWorkspace& workspace, PlacedDish& placed) {
+  placed = {};
+  const std::size_t points = outlines[0].size() + outlines[1].size();
+  if (points < static_cast<std::size_t>(params.min_points)) return StatusCode::rim_not_found;
+  if (candidates.empty()) return StatusCode::dish_unknown;
+
+  return DishPlacement(outlines, cameras, focals_px, params, workspace).place(candidates, placed);
+}
+
+}  // namespace traygauge

@@ -1,0 +1,85 @@
+// Where a dish stands on the table, and which of the known dishes it is, from its outlines in both views.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <span>
+
+#include "core/base/bounded_list.hpp"
+#include "core/base/geometry.hpp"
+#include "core/base/status.hpp"
+#include "core/base/table_frame.hpp"
+#include "core/surface/dish_model.hpp"
+#include "core/surface/placement_problem.hpp"
+#include "core/surface/rim_ellipse.hpp"
+#include "core/surface/rim_residual.hpp"
+
+namespace traygauge {
+
+struct DishPlacementParams {
+  // Of one outline point. Label outlines are right to about half a pixel, and wrong the same way over about
+  // four points of DishOutlineParams: together they count as one.
+  double point_sigma_px = 1.0;
+  // A point further off than about this counts as something else: a glass before the rim, a wall below it.
+  // Geman and McClure's scale; taken from the points' median, within these bounds.
+  double min_robust_scale_px = 1.5;
+  double max_robust_scale_px = 6.0;
+  std::array<double, 3> first_robust_scales_px{25.0, 10.0, 5.0};  // while the place is not yet known
+  // What a dish of a known kind may differ by: glaze and firing, feet, and a tray that is not level.
+  double height_sigma_mm = 0.5;
+  double size_sigma_mm = 0.5;
+  // The upright side of the edge: between a knife's edge and a thick rim.
+  double edge_drop_mm = 1.0;
+  double edge_drop_sigma_mm = 1.0;
+  int min_points = 24;            // in both views together
+  int min_view_points = 8;        // a view with fewer has no say
+  double min_inlier_share = 0.5;  // of each view's points on the outline found; fewer contradict it
+  double max_rms_px = 3.0;        // of those
+  int iterations = 12;            // for each robust scale
+  DishChoiceParams choice;
+};
+
+struct OutlineFit {
+  int points = 0;
+  int inliers = 0;
+  double rms_px = 0.0;  // of the inliers
+};
+
+struct PlacedDish {
+  int candidate = -1;  // which of the described dishes
+  DishPlace place;
+  PlaceMatrix covariance = PlaceMatrix::Zero();  // with the cameras taken for exact
+  DishPlace measured;                            // size and height as the outlines show them
+  OutlineFit fit;
+};
+
+struct DishPlacementWorkspace {
+  BoundedList<Vec3> points_mm;
+  std::span<double> magnitudes_px;
+
+  template <class Allocator>
+  constexpr void allocate(Allocator& arena, std::size_t max_points) {
+    points_mm = BoundedList<Vec3>(arena.template take<Vec3>(2 * max_points));
+    magnitudes_px = arena.template take<double>(2 * max_points);
+  }
+};
+
+// The height of the edge that the outline shows.
+double edge_height_mm(const DishModel& model);
+
+// The prior of a dish of this kind, about whose azimuth nothing is known unless it is round.
+PlacePrior prior_of(const DishModel& model, double azimuth_rad, const DishPlacementParams& params);
+
+// The robust scale for these outlines about this place; and, into `fit`, how well they agree.
+double robust_scale_px(const DishOutlines& outlines, const TableCameras& cameras, const FocalsPx& focals_px,
+                       const DishPlace& place, const DishPlacementParams& params,
+                       DishPlacementWorkspace& workspace, OutlineFit& fit);
+
+// Places the dish at given cameras. rim_not_found: too few points, or they lie on no ellipse;
+// labels_inconsistent: no dish has both outlines; dish_unknown: the dish that has them is none of the
+// candidates (`placed.measured` says what it is).
+Status place_dish(const DishOutlines& outlines, const TableCameras& cameras, const FocalsPx& focals_px,
+                  std::span<const DishModel> candidates, const DishPlacementParams& params,
+                  DishPlacementWorkspace& workspace, PlacedDish& placed);
+
+}  // namespace traygauge
