@@ -15,7 +15,7 @@ namespace traygauge {
 
 struct SurfaceRefinementParams {
   int iterations = 3;        // each resamples the picture anew
-  int window_radius = 3;     // 1 to kMaxRefinementRadius
+  int window_radius = 2;     // 1 to kMaxRefinementRadius
   double max_step_px = 1.0;  // of an iteration: the linearisation reaches about a pixel
   double stiffness =
       12.0;             // grey², against the mean squared gradient of a window: noise of 2 to 4 grey levels
