@@ -36,6 +36,7 @@ struct SurfaceRefinementWorkspace {
   std::span<float> lower_tie;
   std::span<float> terms;  // kChannels of 2 kMaxRefinementRadius + 1 rows
   std::span<float> sums;   // kChannels of one row, with kMaxRefinementRadius beyond its ends
+  std::span<float> windows;  // kChannels of one row
   std::span<float> row;
 
   template <class Allocator>
@@ -48,6 +49,7 @@ struct SurfaceRefinementWorkspace {
     lower_tie = arena.template take<float>(samples);
     terms = arena.template take<float>(columns * kChannels * (2 * kMaxRefinementRadius + 1));
     sums = arena.template take<float>(columns * kChannels);
+    windows = arena.template take<float>(columns * kChannels);
     row = arena.template take<float>(columns);
   }
 };
