@@ -1,6 +1,7 @@
 #include "core/stereo/semi_global.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cstdlib>
 #include <cstring>
 #include <limits>
@@ -14,250 +15,344 @@ namespace {
 // Path costs stay below worst cost + large penalty; a pad above that never wins and never overflows.
 constexpr std::uint8_t kPadCost = 200;
 constexpr int kWorstCost = 63;
+constexpr std::uint16_t kNoSum = 0x7fff;
 
 ByteLanes least(ByteLanes a, ByteLanes b) {
   return a < b ? a : b;
 }
 
-std::uint8_t least_lane(ByteLanes lanes) {
-  std::uint64_t halves[2];
-  std::memcpy(halves, &lanes, sizeof lanes);
-  HalfByteLanes low;
-  HalfByteLanes high;
-  std::memcpy(&low, &halves[0], sizeof low);
-  std::memcpy(&high, &halves[1], sizeof high);
-  std::uint8_t result = 255;
-  const HalfByteLanes both = low < high ? low : high;
-  for (int i = 0; i < 8; ++i) result = std::min(result, static_cast<std::uint8_t>(both[i]));
-  return result;
+using WideLanes [[gnu::vector_size(16)]] = std::uint16_t;
+using WordLanes [[gnu::vector_size(16)]] = std::uint32_t;
+using DoubleWordLanes [[gnu::vector_size(16)]] = std::uint64_t;
+
+// One byte in all lanes; the multiplication spares the compiler's byte by byte assembly.
+ByteLanes spread(std::uint8_t value) {
+  const std::uint64_t eight = value * std::uint64_t{0x0101010101010101};
+  return reinterpret_cast<ByteLanes>(DoubleWordLanes{eight, eight});
 }
 
-// One path cost vector with padding: [pad | lanes | pad].
-struct PathRow {
-  std::uint8_t* lanes;
-  std::uint8_t* floors;
-  int stride;  // of pixels
-  std::uint8_t* at(int x) const { return lanes + (x + 1) * stride + kBandPadding; }
-  std::uint8_t& floor(int x) const { return floors[x + 1]; }
+// The least lane, in all lanes. Shuffles of whole words are single instructions on every processor.
+ByteLanes spread_least(ByteLanes v) {
+  const auto words = reinterpret_cast<WordLanes>(v);
+  v = least(v, reinterpret_cast<ByteLanes>(__builtin_shuffle(words, WordLanes{2, 3, 0, 1})));
+  const auto pairs = reinterpret_cast<WordLanes>(v);
+  v = least(v, reinterpret_cast<ByteLanes>(__builtin_shuffle(pairs, WordLanes{1, 0, 3, 2})));
+  const auto halves = reinterpret_cast<WordLanes>(v);
+  v = least(v, reinterpret_cast<ByteLanes>((halves << 16) | (halves >> 16)));
+  const auto bytes = reinterpret_cast<WideLanes>(v);
+  return least(v, reinterpret_cast<ByteLanes>((bytes << 8) | (bytes >> 8)));
+}
+
+// Sums are kept as bytes come apart: the even lanes of a register, then the odd ones.
+constexpr int kHalfLanes = kBandLanes / 2;
+static_assert(std::endian::native == std::endian::little, "even lanes are the low bytes of pairs");
+
+// The path costs of a band of kChunks registers, between paddings that never win: neighbours' bands are read
+// at their offset.
+template <int kChunks>
+struct PathCosts {
+  std::uint8_t low_padding[kBandPadding];
+  std::uint8_t lanes[static_cast<std::size_t>(kChunks * kBandLanes)];
+  std::uint8_t high_padding[kBandPadding];
+  ByteLanes least;  // of the lanes, in each
 };
 
+// In the order of the disparities.
+template <int kLanes>
+void gather_sums(const std::uint16_t* stored, std::uint16_t* sums) {
+  for (int chunk = 0; chunk < kLanes; chunk += kBandLanes) {
+    for (int k = 0; k < kHalfLanes; ++k) {
+      sums[chunk + 2 * k] = stored[chunk + k];
+      sums[chunk + 2 * k + 1] = stored[chunk + kHalfLanes + k];
+    }
+  }
+}
+
+// Lowers the sums of successive pixels of the second picture, and notes their disparities.
+template <int kLanes>
+void offer(const std::uint16_t* sums, int first_disparity, std::uint16_t* best, std::int16_t* found) {
+  constexpr CostLanes kSteps{0, 1, 2, 3, 4, 5, 6, 7};
+  for (int k = 0; k < kLanes; k += kHalfLanes) {
+    const auto sum = load_lanes<CostLanes>(sums + k);
+    const auto before = load_lanes<CostLanes>(best + k);
+    const CostLanes lower = sum < before;
+    const CostLanes disparity = broadcast(first_disparity + k) + kSteps;
+    const CostLanes lowest = smaller(sum, before);
+    const CostLanes chosen = (disparity & lower) | (load_lanes<CostLanes>(found + k) & ~lower);
+    std::memcpy(best + k, &lowest, sizeof lowest);
+    std::memcpy(found + k, &chosen, sizeof chosen);
+  }
+}
+
+template <int kChunks>
 class Matcher {
  public:
-  Matcher(const BandedPair& pair, ImageView<const std::int16_t> first_disparity, int lanes,
-          const SemiGlobalParams& params, SemiGlobalWorkspace& workspace)
-      : pair_(pair), base_(first_disparity), lanes_(lanes), params_(params), workspace_(workspace) {
+  static constexpr int kLanes = kChunks * kBandLanes;
+  using Path = PathCosts<kChunks>;
+
+  Matcher(const BandedPair& pair, ImageView<const std::int16_t> first_disparity, const SemiGlobalParams& params,
+          SemiGlobalWorkspace& workspace)
+      : pair_(pair), base_(first_disparity), params_(params), workspace_(workspace) {
     width_ = pair.gray[0].width;
     height_ = pair.gray[0].height;
-    stride_ = lanes + 2 * kBandPadding;
-    border_penalty_ = static_cast<std::uint8_t>(params.border_penalty);
+    border_penalty_ = spread(static_cast<std::uint8_t>(params.border_penalty));
+    label_penalty_ = spread(static_cast<std::uint8_t>(params.label_penalty));
+    small_penalty_ = spread(static_cast<std::uint8_t>(params.small_step_penalty));
     for (int contrast = 0; contrast < 256; ++contrast) {
       const int penalty =
           params.large_step_penalty * params.edge_contrast / (params.edge_contrast + contrast);
       large_penalty_[static_cast<std::size_t>(contrast)] =
-          static_cast<std::uint8_t>(std::max(penalty, params.least_large_penalty));
+          spread(static_cast<std::uint8_t>(std::max(penalty, params.least_large_penalty)));
     }
   }
 
   void sweep(bool forward, const std::array<ImageView<Disparity>, 2>* disparity);
 
  private:
-  PathRow path_row(int which, int direction) const {
-    const auto row = static_cast<std::size_t>(which);
-    const int columns = width_ + 2;
-    return {workspace_.paths[row].data() + direction * columns * stride_,
-            workspace_.floors[row].data() + direction * columns, stride_};
+  // Path costs of the pixels of a row, in one direction, with one pixel beyond either end.
+  Path* path_row(int which, int direction) const {
+    auto* paths = reinterpret_cast<Path*>(workspace_.paths[static_cast<std::size_t>(which)].data());
+    return paths + direction * (width_ + 2) + 1;
   }
-  void clear(const PathRow& row, int x) const {
-    std::uint8_t* path = row.at(x) - kBandPadding;
-    std::memset(path, kPadCost, static_cast<std::size_t>(stride_));
-    std::memset(path + kBandPadding, 0, static_cast<std::size_t>(lanes_));
-    row.floor(x) = 0;
+  static void clear(Path& path) {
+    std::memset(path.low_padding, kPadCost, kBandPadding);
+    std::memset(path.lanes, 0, kLanes);
+    std::memset(path.high_padding, kPadCost, kBandPadding);
+    path.least = ByteLanes{};
   }
   void load_second_row(int y);
   void compute_costs(int x, int y);
-  std::uint8_t extend(const std::uint8_t* before, std::uint8_t floor, int shift, std::uint8_t large,
-                      std::uint8_t* path) const;
+  void start(Path& path) const;
+  void extend(const Path& before, int shift, ByteLanes large, Path& path) const;
+  template <std::size_t kPaths>
+  static void add_paths(const std::array<const Path*, 4>& paths, bool first, std::uint16_t* sums);
+  void sweep_row(int y, int previous_y, int step);
   void choose(int y, const std::array<ImageView<Disparity>, 2>& disparity);
   // What a jump between two neighbours costs.
-  std::uint8_t large_penalty(int x, int y, int from_x, int from_y) const {
+  ByteLanes large_penalty(int x, int y, int from_x, int from_y) const {
     if (pair_.labels[0].at(x, y) != pair_.labels[0].at(from_x, from_y)) return border_penalty_;
     const int contrast = std::abs(pair_.gray[0].at(x, y) - pair_.gray[0].at(from_x, from_y));
     return large_penalty_[static_cast<std::size_t>(contrast)];
   }
   std::uint16_t* sums_at(int x, int y) const {
-    return workspace_.sums.data() + (static_cast<std::ptrdiff_t>(y) * width_ + x) * lanes_;
+    return workspace_.sums.data() + (static_cast<std::ptrdiff_t>(y) * width_ + x) * kLanes;
   }
 
   const BandedPair& pair_;
   ImageView<const std::int16_t> base_;
-  int lanes_;
   const SemiGlobalParams& params_;
   SemiGlobalWorkspace& workspace_;
   int width_ = 0;
   int height_ = 0;
-  int stride_ = 0;
-  std::array<std::uint8_t, 256> large_penalty_{};
-  std::uint8_t border_penalty_ = 0;
-  alignas(16) std::array<std::uint8_t, kMaxBandLanes> costs_{};
+  std::array<ByteLanes, 256> large_penalty_{};
+  ByteLanes border_penalty_{};
+  ByteLanes label_penalty_{};
+  ByteLanes small_penalty_{};
+  std::array<ByteLanes, static_cast<std::size_t>(kChunks)> costs_{};
 };
 
 // The second picture's row between paddings that match nothing.
-void Matcher::load_second_row(int y) {
+template <int kChunks>
+void Matcher<kChunks>::load_second_row(int y) {
   const auto padding = static_cast<std::size_t>(kMaxBandLanes);
   const auto columns = static_cast<std::size_t>(width_);
-  std::memcpy(workspace_.padded_codes.data() + padding, pair_.codes[1].row(y),
-              columns * sizeof(std::uint32_t));
+  std::memcpy(workspace_.padded_codes.data() + padding, pair_.codes[1].row(y), columns * sizeof(std::uint32_t));
   std::memset(workspace_.padded_labels.data(), 0, padding);
   std::memcpy(workspace_.padded_labels.data() + padding, pair_.labels[1].row(y), columns);
   std::memset(workspace_.padded_labels.data() + padding + columns, 0, padding);
 }
 
-void Matcher::compute_costs(int x, int y) {
+template <int kChunks>
+void Matcher<kChunks>::compute_costs(int x, int y) {
   const std::uint32_t code = pair_.codes[0].at(x, y);
   const std::uint32_t mask = pair_.mask.at(x, y);
-  const std::uint8_t label = pair_.labels[0].at(x, y);
-  const auto penalty = static_cast<std::uint8_t>(params_.label_penalty);
+  const ByteLanes label = spread(pair_.labels[0].at(x, y));
   // A band may start far outside; it stays within the padding, where nothing matches.
-  const int start = std::clamp(x + base_.at(x, y), -kMaxBandLanes, width_ + kMaxBandLanes - lanes_);
+  const int start = std::clamp(x + base_.at(x, y), -kMaxBandLanes, width_ + kMaxBandLanes - kLanes);
   const std::uint32_t* codes = workspace_.padded_codes.data() + kMaxBandLanes + start;
   const std::uint8_t* labels = workspace_.padded_labels.data() + kMaxBandLanes + start;
-  std::uint8_t* costs = costs_.data();
-  for (int chunk = 0; chunk < lanes_; chunk += kBandLanes) {
-    std::uint32_t bits[kBandLanes];
+  for (int chunk = 0; chunk < kChunks; ++chunk) {
+    std::uint8_t bits[kBandLanes];
     for (int k = 0; k < kBandLanes; ++k) {
-      std::uint32_t v = (code ^ codes[chunk + k]) & mask;
+      std::uint32_t v = (code ^ codes[chunk * kBandLanes + k]) & mask;
       v = v - ((v >> 1) & 0x55555555U);
       v = (v & 0x33333333U) + ((v >> 2) & 0x33333333U);
       v = (v + (v >> 4)) & 0x0f0f0f0fU;
       v = v + (v >> 8);
-      bits[k] = (v + (v >> 16)) & 0x3fU;
+      bits[k] = static_cast<std::uint8_t>((v + (v >> 16)) & 0x3fU);
     }
-    for (int k = 0; k < kBandLanes; ++k) {
-      const std::uint8_t other = labels[chunk + k];
-      const auto different = static_cast<std::uint8_t>(other == label ? 0 : penalty);
-      const auto cost = static_cast<std::uint8_t>(static_cast<std::uint8_t>(bits[k]) + different);
-      costs[chunk + k] = other == 0 ? static_cast<std::uint8_t>(kWorstCost) : cost;
-    }
+    const auto others = load_lanes<ByteLanes>(labels + chunk * kBandLanes);
+    const auto different = reinterpret_cast<ByteLanes>(others != label);
+    const ByteLanes cost = load_lanes<ByteLanes>(bits) + (different & label_penalty_);
+    costs_[static_cast<std::size_t>(chunk)] = others == ByteLanes{} ? spread(kWorstCost) : cost;
   }
+}
+
+// A path that begins here.
+template <int kChunks>
+void Matcher<kChunks>::start(Path& path) const {
+  clear(path);
+  ByteLanes lowest = spread(255);
+  for (int chunk = 0; chunk < kChunks; ++chunk) {
+    const ByteLanes cost = costs_[static_cast<std::size_t>(chunk)];
+    std::memcpy(path.lanes + chunk * kBandLanes, &cost, sizeof cost);
+    lowest = least(lowest, cost);
+  }
+  path.least = spread_least(lowest);
 }
 
 // L(d) = C(d) + min(L'(d), L'(d ± 1) + P1, min L' + P2) − min L', with the neighbour's band `shift` lower.
-std::uint8_t Matcher::extend(const std::uint8_t* before, std::uint8_t floor, int shift, std::uint8_t large,
-                             std::uint8_t* path) const {
+template <int kChunks>
+void Matcher<kChunks>::extend(const Path& before, int shift, ByteLanes large, Path& path) const {
   const bool apart = std::abs(shift) >= kBandPadding;
-  const ByteLanes jump = broadcast_byte(static_cast<std::uint8_t>(floor + large));
-  const ByteLanes small = broadcast_byte(static_cast<std::uint8_t>(params_.small_step_penalty));
-  const ByteLanes floors = broadcast_byte(floor);
-  ByteLanes lowest = broadcast_byte(255);
-  for (int chunk = 0; chunk < lanes_; chunk += kBandLanes) {
+  const ByteLanes jump = before.least + large;
+  ByteLanes lowest = spread(255);
+  for (int chunk = 0; chunk < kChunks; ++chunk) {
     ByteLanes best = jump;
     if (!apart) {
-      const std::uint8_t* from = before + chunk + shift;
+      // From the whole object: a band that is shifted reads its neighbour's padding.
+      const std::uint8_t* from =
+          reinterpret_cast<const std::uint8_t*>(&before) + kBandPadding + chunk * kBandLanes + shift;
       const ByteLanes beside = least(load_lanes<ByteLanes>(from - 1), load_lanes<ByteLanes>(from + 1));
-      best = least(best, least(load_lanes<ByteLanes>(from), beside + small));
+      best = least(best, least(load_lanes<ByteLanes>(from), beside + small_penalty_));
     }
-    const ByteLanes total = load_lanes<ByteLanes>(costs_.data() + chunk) + (best - floors);
-    std::memcpy(path + chunk, &total, sizeof total);
+    const ByteLanes total = costs_[static_cast<std::size_t>(chunk)] + (best - before.least);
+    std::memcpy(path.lanes + chunk * kBandLanes, &total, sizeof total);
     lowest = least(lowest, total);
   }
-  return least_lane(lowest);
+  path.least = spread_least(lowest);
 }
 
-void Matcher::sweep(bool forward, const std::array<ImageView<Disparity>, 2>* disparity) {
-  const int step = forward ? 1 : -1;
+template <int kChunks>
+template <std::size_t kPaths>
+void Matcher<kChunks>::add_paths(const std::array<const Path*, 4>& paths, bool first, std::uint16_t* sums) {
+  for (int chunk = 0; chunk < kChunks; ++chunk) {
+    WideLanes even{};
+    WideLanes odd{};
+    for (std::size_t k = 0; k < kPaths; k += 2) {
+      // Two path costs fit a byte: twice worst cost and large penalty.
+      const auto pair = reinterpret_cast<WideLanes>(load_lanes<ByteLanes>(paths[k]->lanes + chunk * kBandLanes) +
+                                                    load_lanes<ByteLanes>(paths[k + 1]->lanes + chunk * kBandLanes));
+      even += pair & 0xff;
+      odd += pair >> 8;
+    }
+    std::uint16_t* at = sums + chunk * kBandLanes;
+    if (!first) {
+      even += load_lanes<WideLanes>(at);
+      odd += load_lanes<WideLanes>(at + kHalfLanes);
+    }
+    std::memcpy(at, &even, sizeof even);
+    std::memcpy(at + kHalfLanes, &odd, sizeof odd);
+  }
+}
+
+template <int kChunks>
+void Matcher<kChunks>::sweep_row(int y, int previous_y, int step) {
+  const int parity = y & 1;
   const int directions = params_.diagonal_paths ? 3 : 1;
-  for (int which = 0; which < 2; ++which) {
-    for (int direction = 0; direction < 3; ++direction) {
-      const PathRow row = path_row(which, direction);
-      for (int x = -1; x <= width_; ++x) clear(row, x);
+  constexpr std::array<int, 3> kSides{0, -1, 1};
+  std::array<Path*, 3> now{};
+  std::array<const Path*, 3> before{};
+  for (int k = 0; k < 3; ++k) {
+    now[static_cast<std::size_t>(k)] = path_row(parity, k);
+    before[static_cast<std::size_t>(k)] = path_row(1 - parity, k);
+  }
+  const bool has_previous = previous_y >= 0 && previous_y < height_;
+  const std::uint8_t* labels = pair_.labels[0].row(y);
+  const std::uint8_t* previous_labels = has_previous ? pair_.labels[0].row(previous_y) : nullptr;
+  std::array<Path, 2> along;
+  clear(along[0]);
+  clear(along[1]);
+  bool open = false;
+  for (int j = 0; j < width_; ++j) {
+    const int x = step > 0 ? j : width_ - 1 - j;
+    if (labels[x] == 0) {
+      open = false;
+      continue;
+    }
+    compute_costs(x, y);
+    const int base = base_.at(x, y);
+    Path& here = along[static_cast<std::size_t>(j & 1)];
+    if (open) {
+      extend(along[static_cast<std::size_t>(1 - (j & 1))], base - base_.at(x - step, y),
+             large_penalty(x, y, x - step, y), here);
+    } else {
+      start(here);
+      open = true;
+    }
+    std::uint16_t* sums = sums_at(x, y);
+    std::array<const Path*, 4> paths{&here, &here, &here, &here};
+    for (int k = 0; k < directions; ++k) {
+      const auto i = static_cast<std::size_t>(k);
+      const int from_x = x + kSides[i];
+      Path& path = now[i][x];
+      if (has_previous && from_x >= 0 && from_x < width_ && previous_labels[from_x] != 0) {
+        extend(before[i][from_x], base - base_.at(from_x, previous_y),
+               large_penalty(x, y, from_x, previous_y), path);
+      } else {
+        start(path);
+      }
+      paths[i + 1] = &path;
+    }
+    if (directions == 3) {
+      add_paths<4>(paths, step > 0, sums);
+    } else {
+      add_paths<2>(paths, step > 0, sums);
     }
   }
-  alignas(16) std::array<std::uint8_t, kMaxBandLanes + 2 * kBandPadding> row_path{};
+}
+
+template <int kChunks>
+void Matcher<kChunks>::sweep(bool forward, const std::array<ImageView<Disparity>, 2>* disparity) {
+  for (int which = 0; which < 2; ++which) {
+    for (int i = -1; i < 3 * (width_ + 2) - 1; ++i) clear(path_row(which, 0)[i]);
+  }
+  const int step = forward ? 1 : -1;
   for (int i = 0; i < height_; ++i) {
     const int y = forward ? i : height_ - 1 - i;
-    const int previous_y = y - step;
-    const bool has_previous = i > 0;
-    const int current = i & 1;
     load_second_row(y);
-    std::memset(row_path.data(), kPadCost, row_path.size());
-    std::uint8_t* along = row_path.data() + kBandPadding;
-    std::uint8_t along_floor = 0;
-    bool along_open = false;
-    for (int j = 0; j < width_; ++j) {
-      const int x = forward ? j : width_ - 1 - j;
-      std::array<PathRow, 3> rows;
-      for (int k = 0; k < directions; ++k) rows[static_cast<std::size_t>(k)] = path_row(current, k);
-      if (pair_.labels[0].at(x, y) == 0) {
-        for (int k = 0; k < directions; ++k) clear(rows[static_cast<std::size_t>(k)], x);
-        along_open = false;
-        continue;
-      }
-      compute_costs(x, y);
-      const int base = base_.at(x, y);
-      std::uint16_t* sums = sums_at(x, y);
-      if (forward) std::memset(sums, 0, static_cast<std::size_t>(lanes_) * sizeof *sums);
-      const auto add = [&](const std::uint8_t* path) {
-        for (int k = 0; k < lanes_; ++k) sums[k] = static_cast<std::uint16_t>(sums[k] + path[k]);
-      };
-      if (!along_open) {
-        std::memset(along, 0, static_cast<std::size_t>(lanes_));
-        along_floor = 0;
-        along_floor = extend(along, 0, 0, 0, along);
-        along_open = true;
-      } else {
-        alignas(16) std::array<std::uint8_t, kMaxBandLanes> next{};
-        along_floor = extend(along, along_floor, base - base_.at(x - step, y),
-                             large_penalty(x, y, x - step, y), next.data());
-        std::memcpy(along, next.data(), static_cast<std::size_t>(lanes_));
-      }
-      add(along);
-      constexpr std::array<int, 3> kSides{0, -1, 1};
-      for (int k = 0; k < directions; ++k) {
-        const int from_x = x + kSides[static_cast<std::size_t>(k)];
-        const PathRow before = path_row(1 - current, k);
-        const PathRow& now = rows[static_cast<std::size_t>(k)];
-        const bool known =
-            has_previous && from_x >= 0 && from_x < width_ && pair_.labels[0].at(from_x, previous_y) != 0;
-        if (!known) {
-          clear(now, x);
-          now.floor(x) = extend(now.at(x), 0, 0, 0, now.at(x));
-        } else {
-          now.floor(x) = extend(before.at(from_x), before.floor(from_x), base - base_.at(from_x, previous_y),
-                                large_penalty(x, y, from_x, previous_y), now.at(x));
-        }
-        add(now.at(x));
-      }
-    }
+    sweep_row(y, y - step, step);
     if (disparity != nullptr) choose(y, *disparity);
   }
 }
 
 // The least sum of every pixel of the first picture, and of all that meet in one of the second.
-void Matcher::choose(int y, const std::array<ImageView<Disparity>, 2>& disparity) {
+template <int kChunks>
+void Matcher<kChunks>::choose(int y, const std::array<ImageView<Disparity>, 2>& disparity) {
   Disparity* first = disparity[0].row(y);
   Disparity* second = disparity[1].row(y);
-  std::uint16_t* second_best = workspace_.second_best.data();
-  std::fill_n(second, width_, kNoDisparity);
-  std::fill_n(second_best, width_, std::numeric_limits<std::uint16_t>::max());
+  const std::uint8_t* labels = pair_.labels[0].row(y);
+  const std::uint8_t* second_labels = pair_.labels[1].row(y);
+  std::uint16_t* second_best = workspace_.second_best.data() + kMaxBandLanes;
+  std::int16_t* second_found = workspace_.second_found.data() + kMaxBandLanes;
+  std::fill_n(workspace_.second_best.data(), width_ + 2 * kMaxBandLanes, kNoSum);
   for (int x = 0; x < width_; ++x) {
     first[x] = kNoDisparity;
-    if (pair_.labels[0].at(x, y) == 0) continue;
-    const std::uint16_t* sums = sums_at(x, y);
+    if (labels[x] == 0) continue;
     const int base = base_.at(x, y);
-    int best = -1;
-    for (int k = 0; k < lanes_; ++k) {
-      const int partner = x + base + k;
-      if (partner < 0 || partner >= width_ || pair_.labels[1].at(partner, y) == 0) continue;
-      if (best < 0 || sums[k] < sums[best]) best = k;
-      if (sums[k] >= second_best[partner]) continue;
-      second_best[partner] = sums[k];
-      second[partner] = static_cast<Disparity>((base + k) * kDisparityScale);
-    }
-    if (best < 0) continue;
+    std::uint16_t sums[static_cast<std::size_t>(kLanes)];
+    gather_sums<kLanes>(sums_at(x, y), sums);
+    int best = 0;
+    for (int k = 1; k < kLanes; ++k) best = sums[k] < sums[best] ? k : best;
     int fraction = 0;
-    if (best > 0 && best + 1 < lanes_) fraction = parabola_offset(sums[best - 1], sums[best], sums[best + 1]);
+    if (best > 0 && best + 1 < kLanes) fraction = parabola_offset(sums[best - 1], sums[best], sums[best + 1]);
     first[x] = static_cast<Disparity>((base + best) * kDisparityScale + fraction);
+    const int start = std::clamp(x + base, -kMaxBandLanes, width_ + kMaxBandLanes - kLanes);
+    offer<kLanes>(sums, start - x, second_best + start, second_found + start);
   }
+  for (int x = 0; x < width_; ++x) {
+    const bool known = second_labels[x] != 0 && second_best[x] != kNoSum;
+    second[x] = known ? static_cast<Disparity>(second_found[x] * kDisparityScale) : kNoDisparity;
+  }
+}
+
+template <int kChunks>
+void match_band(const BandedPair& pair, ImageView<const std::int16_t> first_disparity,
+                const SemiGlobalParams& params, SemiGlobalWorkspace& workspace,
+                const std::array<ImageView<Disparity>, 2>& disparity) {
+  Matcher<kChunks> matcher(pair, first_disparity, params, workspace);
+  matcher.sweep(true, nullptr);
+  matcher.sweep(false, &disparity);
 }
 
 }  // namespace
@@ -265,9 +360,21 @@ void Matcher::choose(int y, const std::array<ImageView<Disparity>, 2>& disparity
 void match_semi_global(const BandedPair& pair, ImageView<const std::int16_t> first_disparity, int lanes,
                        const SemiGlobalParams& params, SemiGlobalWorkspace& workspace,
                        const std::array<ImageView<Disparity>, 2>& disparity) {
-  Matcher matcher(pair, first_disparity, lanes, params, workspace);
-  matcher.sweep(true, nullptr);
-  matcher.sweep(false, &disparity);
+  static_assert(kMaxBandLanes == 6 * kBandLanes);
+  switch (lanes / kBandLanes) {
+    case 1:
+      return match_band<1>(pair, first_disparity, params, workspace, disparity);
+    case 2:
+      return match_band<2>(pair, first_disparity, params, workspace, disparity);
+    case 3:
+      return match_band<3>(pair, first_disparity, params, workspace, disparity);
+    case 4:
+      return match_band<4>(pair, first_disparity, params, workspace, disparity);
+    case 5:
+      return match_band<5>(pair, first_disparity, params, workspace, disparity);
+    default:
+      return match_band<6>(pair, first_disparity, params, workspace, disparity);
+  }
 }
 
 }  // namespace traygauge

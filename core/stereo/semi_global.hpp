@@ -17,7 +17,7 @@ struct SemiGlobalParams {
   int small_step_penalty = 4;    // a change by one disparity: slanted food is the rule
   int large_step_penalty = 28;   // by more, in plain areas
   int least_large_penalty = 10;  // where the picture has an edge of several edge_contrast
-  int border_penalty = 6;        // between samples of different labels
+  int border_penalty = 12;        // between samples of different labels
   int edge_contrast = 12;        // grey levels that halve the large penalty
   int label_penalty = 16;        // partners with different labels
   bool diagonal_paths = true;    // eight paths instead of four
@@ -38,21 +38,21 @@ struct BandedPair {
 struct SemiGlobalWorkspace {
   std::span<std::uint16_t> sums;                  // path costs of all pixels and disparities
   std::array<std::span<std::uint8_t>, 2> paths;   // two rows of path costs in three directions
-  std::array<std::span<std::uint8_t>, 2> floors;  // least path cost, likewise
   std::span<std::uint32_t> padded_codes;          // one row of the second picture
   std::span<std::uint8_t> padded_labels;
   std::span<std::uint16_t> second_best;  // one row: least sum of each pixel of the second picture
+  std::span<std::int16_t> second_found;          // and its disparity
 
   template <class Allocator>
   constexpr void allocate(Allocator& arena, int max_columns, int max_states) {
     const auto columns = static_cast<std::size_t>(max_columns) + 2;
-    constexpr auto kLanes = static_cast<std::size_t>(kMaxBandLanes + 2 * kBandPadding);
+    constexpr auto kLanes = static_cast<std::size_t>(kMaxBandLanes + 2 * kBandPadding + kBandLanes);
     sums = arena.template take<std::uint16_t>(static_cast<std::size_t>(max_states));
     for (auto& row : paths) row = arena.template take<std::uint8_t>(3 * columns * kLanes);
-    for (auto& row : floors) row = arena.template take<std::uint8_t>(3 * columns);
     padded_codes = arena.template take<std::uint32_t>(columns + 2 * kMaxBandLanes);
     padded_labels = arena.template take<std::uint8_t>(columns + 2 * kMaxBandLanes);
-    second_best = arena.template take<std::uint16_t>(columns);
+    second_best = arena.template take<std::uint16_t>(columns + 2 * kMaxBandLanes);
+    second_found = arena.template take<std::int16_t>(columns + 2 * kMaxBandLanes);
   }
 };
 

@@ -10,6 +10,7 @@ namespace traygauge {
 namespace {
 
 constexpr int kChannels = SurfaceRefinementWorkspace::kChannels;
+constexpr float kLeastHold = 1e-6F;   // grey²: keeps a sample that nothing holds where it is
 constexpr float kLeastEnergy = 0.01F;  // grey², of a window without any gradient
 
 // Value and slope of the cubic through four samples (Catmull-Rom).
@@ -47,6 +48,7 @@ class Refinement {
     const int slot = y % (2 * kMaxRefinementRadius + 1);
     return workspace_.terms.data() + (slot * kChannels + channel) * columns_ + kMaxRefinementRadius;
   }
+  float* windows(int channel) { return workspace_.windows.data() + channel * columns_; }
   float* sums(int channel) { return workspace_.sums.data() + channel * columns_ + kMaxRefinementRadius; }
   static std::ptrdiff_t at(ImageView<float> picture, int y) { return std::ptrdiff_t{y} * picture.width; }
   void compute_terms(int y);
@@ -137,20 +139,28 @@ void Refinement::solve_row(int y) {
   float* target = workspace_.target.data() + at(disparity_, y);
   const float* disparity = disparity_.row(y);
   const auto most = static_cast<float>(params_.max_step_px);
-  std::array<const float*, kChannels> sum;
-  for (int k = 0; k < kChannels; ++k) sum[static_cast<std::size_t>(k)] = sums(k) - radius;
-  for (int x = 0; x < disparity_.width; ++x) {
-    std::array<float, kChannels> window{};
-    for (int i = 0; i <= 2 * radius; ++i) {
-      for (std::size_t k = 0; k < kChannels; ++k) window[k] += sum[k][x + i];
+  const int width = disparity_.width;
+  for (int k = 0; k < kChannels; ++k) {
+    const float* sum = sums(k) - radius;
+    float* window = windows(k);
+    for (int x = 0; x < width; ++x) window[x] = sum[x];
+    for (int i = 1; i <= 2 * radius; ++i) {
+      for (int x = 0; x < width; ++x) window[x] += sum[x + i];
     }
-    const float share = window[0] > 0.0F ? 1.0F / window[0] : 0.0F;
-    const float energy = window[3] - window[2] * window[2] * share;
-    const float product = window[4] - window[2] * window[1] * share;
-    const float step = std::clamp(product / std::max(energy, kLeastEnergy), -most, most);
-    const float weight = std::max(energy * share, 0.0F);
+  }
+  const float* count = windows(0);
+  const float* residual = windows(1);
+  const float* gradient = windows(2);
+  const float* square = windows(3);
+  const float* product = windows(4);
+  for (int x = 0; x < width; ++x) {
+    const float share = count[x] > 0.0F ? 1.0F / count[x] : 0.0F;
+    const float energy = square[x] - gradient[x] * gradient[x] * share;
+    const float correlation = product[x] - gradient[x] * residual[x] * share;
+    const float weight = std::max(energy, 0.0F) * share;
+    const float step = correlation / std::max(energy, kLeastEnergy);
     certainty[x] = weight;
-    target[x] = weight * (disparity[x] + step);
+    target[x] = weight * (disparity[x] + std::max(std::min(step, most), -most));
   }
 }
 
@@ -161,6 +171,38 @@ void Refinement::collect_evidence() {
     if (y + radius < disparity_.height) compute_terms(y + radius);
     solve_row(y);
   }
+}
+
+// A row of the membrane and what pulls at it.
+struct MembraneRow {
+  float* disparity;
+  const float* old;  // a copy, with one more at either end
+  const float* above;
+  const float* below;
+  const float* certainty;
+  const float* target;
+  const float* right_tie;
+  const float* lower_tie;
+  const float* upper_tie;
+};
+
+void relax_row(const MembraneRow& row, float up, float stiffness, int width) {
+  float* __restrict__ disparity = row.disparity;
+  const float* __restrict__ old = row.old;
+  const float* __restrict__ above = row.above;
+  const float* __restrict__ below = row.below;
+  const auto relax_one = [&](int x, float left_tie) {
+    const float right_tie = row.right_tie[x];
+    const float lower_tie = row.lower_tie[x];
+    const float upper_tie = up * row.upper_tie[x];
+    const float pull =
+        left_tie * old[x - 1] + right_tie * old[x + 1] + upper_tie * above[x] + lower_tie * below[x];
+    const float ties = left_tie + right_tie + upper_tie + lower_tie;
+    const float total = kLeastHold + row.certainty[x] + stiffness * ties;
+    disparity[x] = (kLeastHold * old[x] + row.target[x] + stiffness * pull) / total;
+  };
+  relax_one(0, 0.0F);
+  for (int x = 1; x < width; ++x) relax_one(x, row.right_tie[x - 1]);
 }
 
 // One Gauss-Seidel step from row to row, a Jacobi step within each.
@@ -183,15 +225,8 @@ void Refinement::relax(bool downwards) {
     old[-1] = old[0];
     old[width] = old[width - 1];
     const float up = y > 0 ? 1.0F : 0.0F;
-    for (int x = 0; x < width; ++x) {
-      const float left_tie = x > 0 ? right_tie[x - 1] : 0.0F;
-      const float upper = up * upper_tie[x];
-      const float pull =
-          left_tie * old[x - 1] + right_tie[x] * old[x + 1] + upper * above[x] + lower_tie[x] * below[x];
-      const float ties = left_tie + right_tie[x] + upper + lower_tie[x];
-      const float total = certainty[x] + stiffness * ties;
-      disparity[x] = total > 0.0F ? (target[x] + stiffness * pull) / total : old[x];
-    }
+    relax_row({disparity, old, above, below, certainty, target, right_tie, lower_tie, upper_tie}, up, stiffness,
+              width);
   }
 }
 

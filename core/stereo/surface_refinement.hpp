@@ -15,7 +15,7 @@ namespace traygauge {
 
 struct SurfaceRefinementParams {
   int iterations = 3;        // each resamples the picture anew
-  int window_radius = 3;     // 1 to kMaxRefinementRadius
+  int window_radius = 2;     // 1 to kMaxRefinementRadius
   double max_step_px = 1.0;  // of an iteration: the linearisation reaches about a pixel
   double stiffness =
       12.0;             // grey², against the mean squared gradient of a window: noise of 2 to 4 grey levels
@@ -36,6 +36,7 @@ struct SurfaceRefinementWorkspace {
   std::span<float> lower_tie;
   std::span<float> terms;  // kChannels of 2 kMaxRefinementRadius + 1 rows
   std::span<float> sums;   // kChannels of one row, with kMaxRefinementRadius beyond its ends
+  std::span<float> windows;  // kChannels of one row
   std::span<float> row;
 
   template <class Allocator>
@@ -48,6 +49,7 @@ struct SurfaceRefinementWorkspace {
     lower_tie = arena.template take<float>(samples);
     terms = arena.template take<float>(columns * kChannels * (2 * kMaxRefinementRadius + 1));
     sums = arena.template take<float>(columns * kChannels);
+    windows = arena.template take<float>(columns * kChannels);
     row = arena.template take<float>(columns);
   }
 };

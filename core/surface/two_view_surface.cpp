@@ -30,6 +30,23 @@ DisparityRange height_range(const PlaneRectification& grid, double low_mm, doubl
   return {static_cast<int>(std::floor(least)), static_cast<int>(std::ceil(most))};
 }
 
+// The label that two of four samples share.
+void halve_labels(ImageView<const std::uint8_t> source, ImageView<std::uint8_t> target) {
+  for (int y = 0; y < target.height; ++y) {
+    const std::uint8_t* upper = source.row(2 * y);
+    const std::uint8_t* lower = source.row(std::min(2 * y + 1, source.height - 1));
+    for (int x = 0; x < target.width; ++x) {
+      const int left = 2 * x;
+      const int right = std::min(left + 1, source.width - 1);
+      const std::uint8_t a = upper[left];
+      const std::uint8_t b = upper[right];
+      const std::uint8_t c = lower[left];
+      const std::uint8_t d = lower[right];
+      target.at(x, y) = a == b || a == c || a == d ? a : b == c || b == d ? b : c;
+    }
+  }
+}
+
 void sample_view(const PlaneRectification& grid, int v, const StoredView& stored, const LabelTable& kept,
                  int levels, View& view) {
   std::uint8_t* gray = view.gray_storage.data();
@@ -44,7 +61,7 @@ void sample_view(const PlaneRectification& grid, int v, const StoredView& stored
       grid.sample_labels(v, stored, kept, view.labels[0]);
     } else {
       halve(view.gray[level - 1], view.gray[level]);
-      halve_mask(view.labels[level - 1], view.labels[level]);
+      halve_labels(view.labels[level - 1], view.labels[level]);
     }
     gray += static_cast<std::ptrdiff_t>(width) * height;
     labels += static_cast<std::ptrdiff_t>(width) * height;
