@@ -9,7 +9,6 @@
 #include <ostream>
 
 #include "firmware/base/exit_status.hpp"
-#include "firmware/config/dish_library.hpp"
 #include "firmware/config/parameters.hpp"
 #include "firmware/config/profile.hpp"
 #include "firmware/evaluate/evaluation.hpp"
@@ -98,7 +97,7 @@ int run_evaluate(const EvaluateOptions& options, std::ostream& out, std::ostream
     return kExitMeasured;
   }
   if (options.set.empty()) throw UsageError("evaluate: name a capture or a folder of captures");
-  protocol.config_folder = find_config_folder(options.config);
+  protocol.config = options.config;
   if (!options.out.empty()) create_folder(options.out);
   std::vector<std::string> skipped;
   const std::vector<PairRuns> runs = run_with_progress(options, protocol, skipped, error);

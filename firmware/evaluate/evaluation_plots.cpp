@@ -132,7 +132,7 @@ std::string plot_signed_errors(const Evaluation& evaluation) {
           ": bias " + signed_text(figures.bias, 2) + " %, MAPE " + fixed(figures.mape, 2) + " %, " +
           fixed(figures.within_10, 1) + " % within ±10 %" + beyond(histogram.below + histogram.above, x.high),
       x, make_axis("share of the volumes (%)", 0.0, drawn.largest_share_percent(), 5));
-  chart.shade_x(-10.0, 10.0, "within ±10 %");
+  if (x.high > 10.0) chart.shade_x(-10.0, 10.0, "within ±10 %");
   chart.bars(drawn, kBlue);
   chart.vertical(0.0, kZeroLine, "");
   chart.vertical(figures.bias, kMeanLine, "bias");
@@ -185,7 +185,7 @@ std::string plot_error_by_angle(const Evaluation& evaluation) {
               count(points.size(), "dot") + ": an item of a pair, mean over seeds; lines: bins of 5°" +
                   beyond(static_cast<int>(outside), y.high),
               make_axis("relative angle (degrees)", 0.0, largest_angle + 1.0, 8), y);
-  if (y.high >= 10.0) chart.shade_y(-10.0, 10.0, "within ±10 %");
+  if (y.high > 10.0) chart.shade_y(-10.0, 10.0, "within ±10 %");
   chart.horizontal(0.0, kZeroLine, "");
   chart.markers(points, {Marker::dot, kBlue, 3.5, 0.45}, "signed error of an item");
   const std::vector<DataPoint> mape = bin_means(evaluation, &SetFigures::mape);

@@ -212,8 +212,9 @@ std::string accuracy_rows(const FigureRow& line) {
 
 std::string sigma_rows(const FigureRow& line, bool is_estimated) {
   using Group = const GroupEvaluation&;
-  std::string text = line("truth within two sigma", [](Group g) {
-    return g.sigma.is_estimated ? percent(g.sigma.coverage, 1) : std::string("not estimated");
+  std::string text = line("truth within two sigma", [&](Group g) -> std::string {
+    if (!is_estimated) return "not estimated";
+    return percent(g.sigma.coverage, 1);
   });
   if (!is_estimated) return text;
   const auto stated = [&](const char* title, const std::function<std::string(const SigmaFigures&)>& value) {

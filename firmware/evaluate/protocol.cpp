@@ -15,6 +15,7 @@ namespace {
 
 struct Task {
   std::filesystem::path folder;
+  std::vector<DishDescription> dishes;  // of the capture, or those to choose from
   std::array<int, 2> pair{};
 };
 
@@ -37,11 +38,12 @@ Pose pose_of(const WorldToCamera& matrix) {
   return pose;
 }
 
-std::optional<PairTruth> truth_of(const Truth& truth, const Task& task, const DishDescription& dish) {
+std::optional<PairTruth> truth_of(const Truth& truth, const Task& task) {
   const auto first = static_cast<std::size_t>(task.pair[0]);
   const auto second = static_cast<std::size_t>(task.pair[1]);
   if (std::max(first, second) >= truth.poses.size()) return {};
-  return PairTruth{pose_of(truth.poses[first]), pose_of(truth.poses[second]), dish.bottom_height_mm};
+  return PairTruth{pose_of(truth.poses[first]), pose_of(truth.poses[second]),
+                   task.dishes.front().bottom_height_mm};
 }
 
 Run record(const Measurement& measurement, std::uint64_t seed, const std::optional<PairTruth>& truth) {
@@ -61,15 +63,13 @@ Run record(const Measurement& measurement, std::uint64_t seed, const std::option
 PairRuns run_pair(const std::filesystem::path& set, const Task& task, const ProtocolOptions& options,
                   const std::function<void()>& measured) {
   const Capture capture = read_capture(task.folder);
-  const std::vector<DishDescription> dishes =
-      capture.dishes.empty() ? read_dish_library(options.config_folder) : capture.dishes;
   PairRuns result;
   result.capture = name_below(set, task.folder);
   result.pair = task.pair;
   result.truth = read_truth(task.folder).value();
-  const auto truth = truth_of(result.truth, task, dishes.front());
+  const auto truth = truth_of(result.truth, task);
   if (truth) result.true_angle_deg = truth->relative_angle_deg();
-  CaptureSession session(capture, task.pair, dishes, options.parameters);
+  CaptureSession session(capture, task.pair, task.dishes, options.parameters);
   for (int run = 1; run <= options.runs; ++run) {
     const auto seed = static_cast<std::uint64_t>(run);
     result.runs.push_back(record(session.measure(seed), seed, truth));
@@ -96,8 +96,10 @@ std::vector<Task> plan_tasks(const std::filesystem::path& set, const ProtocolOpt
       skipped.push_back(name_below(set, folder) + ": " + *reason);
       continue;
     }
+    const auto dishes =
+        capture.dishes.empty() ? read_dish_library(find_config_folder(options.config)) : capture.dishes;
     const auto pairs = capture.pairs.empty() ? std::vector<std::array<int, 2>>{{0, 1}} : capture.pairs;
-    for (const auto& pair : pairs) tasks.push_back({folder, pair});
+    for (const auto& pair : pairs) tasks.push_back({folder, dishes, pair});
   }
   return tasks;
 }

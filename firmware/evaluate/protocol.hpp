@@ -22,7 +22,7 @@ struct ProtocolOptions {
   int jobs = 1;              // captures' pairs measured at the same time
   Configuration parameters;  // of the stages; camera, card and dish come from the captures
   ProfileAbilities profile = kProfileAbilities.front();
-  std::filesystem::path config_folder;
+  std::string config;  // folder with dishes/, for captures that name no dish; empty: the usual one
 };
 
 struct ItemEstimate {

@@ -8,6 +8,7 @@
 #include <iterator>
 
 #include "firmware/evaluate/evaluation.hpp"
+#include "firmware/evaluate/statistics.hpp"
 #include "tests/captures/single_dish_captures.hpp"
 
 namespace traygauge {

@@ -1,0 +1,173 @@
+// `traygauge evaluate` on the fake estimator: what is measured, what counts as refused, what is written.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <vector>
+
+#include "tests/firmware/command_runner.hpp"
+#include "tests/firmware/evaluate/xml_check.hpp"
+#include "tests/firmware/fake/fake_estimator.hpp"
+#include "tests/simulator/capture/temporary_capture.hpp"
+
+namespace traygauge {
+namespace {
+
+using Json = nlohmann::json;
+
+std::size_t count_lines(const std::string& text) {
+  return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
+}
+
+// One capture with two pairs; item 2 holds 100 ml, item 3 holds 50 ml.
+class EvaluateCommand : public testing::Test {
+ protected:
+  EvaluateCommand() {
+    fake_estimator() = {};
+    write_truth(R"({"items": [{"label": 2, "name": "rice", "volume_ml": 100.0},
+                              {"label": 3, "name": "peas", "volume_ml": 50.0}], "poses": []})");
+    items_ = std::vector<ItemResult>(2);
+    items_[0].label = 2;
+    items_[0].volume_ml = 104.0;
+    items_[1].label = 3;
+    items_[1].volume_ml = 50.0;
+    answer(StatusCode::ok);
+  }
+
+  void write_truth(const std::string& text) const { write_text(files_.file("truth.json"), text); }
+
+  void answer(StatusCode status) {
+    Measurement& measurement = fake_estimator().measurement;
+    measurement.status = status;
+    measurement.items = items_;
+    measurement.relative_angle_deg = 17.0;
+  }
+
+  CommandResult evaluate(std::vector<std::string> options) const {
+    options.insert(options.begin(), {"evaluate", files_.folder().string(), "--runs", "3"});
+    return run(options);
+  }
+
+  Json evaluate_json() const {
+    const CommandResult result = evaluate({"--json"});
+    EXPECT_EQ(result.error, "");
+    return Json::parse(result.out);
+  }
+
+  TemporaryCapture files_;
+  TemporaryFolder out_;
+  std::vector<ItemResult> items_;
+};
+
+TEST_F(EvaluateCommand, MeasuresEveryPairWithEverySeed) {
+  const CommandResult result = evaluate({});
+  EXPECT_EQ(result.status, 0) << result.error;
+  EXPECT_EQ(result.error, "");
+  EXPECT_EQ(fake_estimator().estimates, 6);
+  EXPECT_EQ(fake_estimator().seed, 3U);
+  EXPECT_NE(result.out.find("1 captures (0 skipped), 2 pairs, 3 seeds each, 6 measurements"),
+            std::string::npos)
+      << result.out;
+}
+
+TEST_F(EvaluateCommand, AnItemWithoutVolumeIsARefusal) {
+  items_[1].status = StatusCode::item_hidden;
+  answer(StatusCode::partial);
+  const Json document = evaluate_json();
+  const Json& foods = document["groups"]["foods"];
+  EXPECT_EQ(foods["items"], 1);
+  EXPECT_EQ(foods["items_tried"], 2);
+  EXPECT_EQ(foods["estimates"], 6);
+  EXPECT_EQ(foods["refused"], 6);
+  EXPECT_NEAR(foods["mape_percent"], 4.0, 1e-12);
+  EXPECT_NEAR(foods["mape_refusals_as_100_percent"], 52.0, 1e-12);
+  ASSERT_EQ(document["refusals"].size(), 1U);
+  EXPECT_EQ(document["refusals"].begin().value(), 6);
+  EXPECT_NE(document["refusals"].begin().key().find(": item 3 item_hidden"), std::string::npos);
+}
+
+TEST_F(EvaluateCommand, AnItemThatIsNotReportedIsARefusal) {
+  items_.pop_back();
+  answer(StatusCode::ok);
+  const Json document = evaluate_json();
+  EXPECT_EQ(document["groups"]["foods"]["refused"], 6);
+  EXPECT_NE(document["refusals"].begin().key().find(": item 3 not_reported"), std::string::npos);
+}
+
+TEST_F(EvaluateCommand, AFailedMeasurementRefusesAllItems) {
+  items_.clear();
+  answer(StatusCode::card_not_found);
+  const CommandResult result = evaluate({"--json"});
+  EXPECT_EQ(result.status, 1);
+  const Json document = Json::parse(result.out);
+  EXPECT_EQ(document["groups"]["foods"]["refused"], 12);
+  EXPECT_EQ(document["groups"]["foods"]["mape_refusals_as_100_percent"], 100.0);
+  EXPECT_TRUE(document["groups"]["foods"]["mape_percent"].is_null());
+  EXPECT_EQ(document["refusals"].begin().value(), 6) << "measurements";
+}
+
+TEST_F(EvaluateCommand, SigmaReachesTheFigures) {
+  items_[0].sigma_ml = 2.0;  // the error is 4 ml
+  items_[1].sigma_ml = 1.0;
+  answer(StatusCode::ok);
+  const Json sigma = evaluate_json()["groups"]["foods"]["sigma"];
+  EXPECT_EQ(sigma["within_two_sigma_percent"], 100.0);
+  items_[0].sigma_ml = 1.9;
+  EXPECT_EQ(evaluate_json()["groups"]["foods"]["sigma"]["within_two_sigma_percent"], 50.0);
+}
+
+TEST_F(EvaluateCommand, WritesFilesThatParse) {
+  const auto folder = out_.path() / "new" / "folder";
+  const CommandResult result = evaluate({"--out", folder.string()});
+  ASSERT_EQ(result.status, 0) << result.error;
+  EXPECT_EQ(count_lines(read_text(folder / "estimates.csv")), 13U);
+  EXPECT_EQ(count_lines(read_text(folder / "runs.csv")), 7U);
+  EXPECT_EQ(count_lines(read_text(folder / "items.csv")), 3U);
+  EXPECT_EQ(count_lines(read_text(folder / "captures.csv")), 3U);
+  EXPECT_EQ(Json::parse(read_text(folder / "summary.json"))["profile"], "paper");
+  for (const char* plot : {"signed_errors.svg", "variation.svg", "error_by_angle.svg", "volumes.svg"})
+    EXPECT_EQ(find_xml_fault(read_text(folder / plot)), "") << plot;
+}
+
+TEST_F(EvaluateCommand, ATrayIsSkippedByAProfileThatMeasuresOneDish) {
+  Json dish = files_.document["dish"];
+  files_.document.erase("dish");
+  dish["label"] = 1;
+  Json other = dish;
+  other["label"] = 201;
+  files_.document["dishes"] = {dish, other};
+  files_.store();
+  const CommandResult result = evaluate({});
+  EXPECT_EQ(result.status, 1);
+  EXPECT_EQ(fake_estimator().estimates, 0);
+  EXPECT_NE(result.out.find("0 captures (1 skipped)"), std::string::npos) << result.out;
+  EXPECT_NE(result.out.find("several dishes; profile paper measures one"), std::string::npos) << result.out;
+}
+
+TEST_F(EvaluateCommand, ACaptureWithoutTruthIsSkipped) {
+  std::filesystem::remove(files_.file("truth.json"));
+  const CommandResult result = evaluate({});
+  EXPECT_EQ(result.status, 1);
+  EXPECT_NE(result.out.find("no truth.json"), std::string::npos) << result.out;
+}
+
+TEST_F(EvaluateCommand, WrongUseIsNamed) {
+  write_text(out_.path() / "file", "");
+  for (const auto& [options, text] : std::vector<std::pair<std::vector<std::string>, std::string>>{
+           {{"--profile", "worst"}, "--profile"},
+           {{"--labels", "none"}, "--labels"},
+           {{"--jobs", "0"}, "--jobs"},
+           {{"--out", (out_.path() / "file").string()}, "file"},
+           {{"--out", (out_.path() / "file" / "below").string()}, "below"}}) {
+    const CommandResult result = evaluate(options);
+    EXPECT_EQ(result.status, 2);
+    EXPECT_EQ(result.out, "");
+    EXPECT_EQ(count_lines(result.error), 1U) << result.error;
+    EXPECT_NE(result.error.find(text), std::string::npos) << result.error;
+  }
+  EXPECT_EQ(fake_estimator().estimates, 0);
+  EXPECT_EQ(run({"evaluate", out_.path().string()}).status, 2) << "no captures there";
+}
+
+}  // namespace
+}  // namespace traygauge

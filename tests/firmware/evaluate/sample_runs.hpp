@@ -1,0 +1,24 @@
+// Runs made by hand, for figures that can be worked out on paper.
+#pragma once
+
+#include <initializer_list>
+#include <string>
+#include <vector>
+
+#include "firmware/evaluate/item_series.hpp"
+
+namespace traygauge {
+
+Attempt measured(int pair, double volume_ml, double sigma_ml = 0.0);
+Attempt refused(int pair);
+
+ItemSeries series(const std::string& capture, double truth_ml, std::vector<Attempt> attempts);
+
+// A pair of a capture with items labelled 2, 3, …; poses unknown.
+PairRuns pair_runs(const std::string& capture, std::vector<TruthItem> truth);
+
+// A run that gave these items.
+Run measured_run(std::uint64_t seed, double angle_deg, std::vector<ItemEstimate> items);
+Run refused_run(std::uint64_t seed, StatusCode code);
+
+}  // namespace traygauge
