@@ -49,8 +49,15 @@ HeightCell fuse_surfaces(const HeightCell& a, const HeightCell& b, float disagre
 }
 
 HeightCell fuse(const HeightCell& a, const HeightCell& b, float disagreement_mm) {
-  if (a.kind == CellKind::surface && b.kind == CellKind::surface) return fuse_surfaces(a, b, disagreement_mm);
-  if (a.kind != b.kind) return a.kind > b.kind ? a : b;
+  if (a.kind == CellKind::unseen) return b;
+  if (b.kind == CellKind::unseen) return a;
+  if (a.kind != b.kind) {
+    // Half a sample beyond its last sample a surface is as likely there as not; always the one view's word
+    // keeps outlines without bias, where the surface's or the bound's would widen or narrow them.
+    const HeightCell& surface = a.kind == CellKind::surface ? a : b;
+    return surface.weight <= kExtrapolatedWeight ? a : surface;
+  }
+  if (a.kind == CellKind::surface) return fuse_surfaces(a, b, disagreement_mm);
   return a.z_mm <= b.z_mm ? a : b;  // both are bounds
 }
 

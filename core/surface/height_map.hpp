@@ -32,6 +32,9 @@ struct HeightCell {
   std::uint8_t weight = 0;  // squared cosine between surface normal and line of sight, of 255
 };
 
+// The weight of a surface beyond its last sample; seen ones weigh more.
+inline constexpr std::uint8_t kExtrapolatedWeight = 1;
+
 struct HeightMap {
   ImageView<HeightCell> cells;
   double cell_mm = 0.0;
@@ -51,8 +54,10 @@ struct HeightMapParams {
   double disagreement_mm = 3.0;
   // So far below another surface a sample lies under an overhang, not on a wall's blurred foot.
   double undercut_mm = 4.0;
-  // Hidden flanks fall like the item's seen ones that are steeper than the steepest line of sight, or than
-  // this where the views look straight down. Larger than a heap's slope, or heaps would count as walls.
+  // Hidden flanks fall like the item's seen ones that are too steep to be seen from behind. Where the views
+  // look straight down these are walls alone: with a larger greatest threshold none are found, with a smaller
+  // one heaps count as walls. Below the least, noise does.
+  double min_flank_threshold = 1.5;
   double max_flank_threshold = 4.0;
   // Twice the line of sight's slope counts as so much seen flank (its area from above).
   double prior_flank_mm2 = 5.0;

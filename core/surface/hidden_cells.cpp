@@ -59,6 +59,15 @@ class SourceMap {
   Offer offer_;
 };
 
+// Flanks steeper than this are not seen from behind: tan(β − γ), where tan β is the line of sight's slope and
+// sin γ the cosine below which a patch counts as an occlusion.
+float grazing_slope(double sight_slope, const HeightMapParams& params) {
+  const double sine = std::clamp(params.jump_cosine, 0.0, 0.9);
+  const double tangent = sine / std::sqrt(1.0 - sine * sine);
+  const double slope = (sight_slope - tangent) / (1.0 + sight_slope * tangent);
+  return static_cast<float>(std::clamp(slope, params.min_flank_threshold, params.max_flank_threshold));
+}
+
 class HiddenFill {
  public:
   HiddenFill(const InnerSurface& dish, const HeightMapParams& params, double steepest_sight,
@@ -68,7 +77,7 @@ class HiddenFill {
         sources_(sources.data(), map.cells.width, map.cells.height),
         map_(map),
         cell_mm_(static_cast<float>(map.cell_mm)),
-        flank_threshold_(static_cast<float>(std::min(steepest_sight, params.max_flank_threshold))) {}
+        flank_threshold_(grazing_slope(steepest_sight, params)) {}
 
   void fill_holes() {
     if (!has_holes()) return;
@@ -91,6 +100,8 @@ class HiddenFill {
   void measure_flanks() {
     std::array<double, 256> run{};
     std::array<double, 256> drop{};
+    std::array<double, 256> height{};
+    std::array<double, 256> count{};
     const float threshold = flank_threshold_ * cell_mm_;
     for (int y = 0; y + 1 < map_.cells.height; ++y) {
       for (int x = 0; x + 1 < map_.cells.width; ++x) {
@@ -101,6 +112,8 @@ class HiddenFill {
             below.kind != CellKind::surface) {
           continue;
         }
+        height[cell.label] += static_cast<double>(cell.z_mm);
+        count[cell.label] += 1.0;
         const float dx = right.z_mm - cell.z_mm;
         const float dy = below.z_mm - cell.z_mm;
         const float squared = dx * dx + dy * dy;
@@ -115,8 +128,13 @@ class HiddenFill {
     const double cell_mm = map_.cell_mm;
     const double prior_slope = 2.0 * static_cast<double>(flank_threshold_);
     for (std::size_t label = 0; label < slopes_.size(); ++label) {
-      slopes_[label] = static_cast<float>((drop[label] * cell_mm + prior_slope * params_.prior_flank_mm2) /
-                                          (run[label] * cell_mm * cell_mm + params_.prior_flank_mm2));
+      // Between cell centres even a wall takes a cell's width to fall by the item's height.
+      const double mean_height =
+          height[label] / std::max(count[label], 1.0) - dish_.profile.bottom_height_mm();
+      const double walls = drop[label] / std::max(mean_height, cell_mm);
+      const double run_mm = std::max(run[label] - walls, 0.0) * cell_mm;
+      slopes_[label] = static_cast<float>((drop[label] + prior_slope * params_.prior_flank_mm2 / cell_mm) /
+                                          (run_mm + params_.prior_flank_mm2 / cell_mm));
     }
   }
 

@@ -19,7 +19,6 @@ struct Corner {
 };
 
 constexpr float kEdgeTolerance = 1e-4F;  // barycentric; neighbours share their edges' cells
-constexpr std::uint8_t kExtrapolatedWeight = 1;
 
 class ViewSplatter {
  public:
@@ -78,7 +77,7 @@ class ViewSplatter {
     if (cosine_squared < jump_squared_) {
       add_occlusion({a, b, c});
     } else {
-      const auto weight = static_cast<std::uint8_t>(std::min(255.0F, 1.0F + 254.0F * cosine_squared));
+      const auto weight = static_cast<std::uint8_t>(std::min(255.0F, 2.0F + 253.0F * cosine_squared));
       add_surface(a, b, c, weight);
     }
   }

@@ -1,0 +1,144 @@
+#include "core/volume/level_liquid.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/segmentation/label_regions.hpp"
+
+namespace traygauge {
+namespace {
+
+constexpr int kDirections = 64;
+constexpr double kBinMm = 0.125;
+constexpr double kLowestMm = -16.0;
+
+bool is_seen(const HeightCell& cell, std::uint8_t label) {
+  return cell.kind == CellKind::surface && cell.label == label;
+}
+
+std::uint8_t largest_item(const HeightMap& map) {
+  std::array<std::uint32_t, 256> count{};
+  for (int y = 0; y < map.cells.height; ++y) {
+    for (int x = 0; x < map.cells.width; ++x) ++count[map.cells.at(x, y).label];
+  }
+  const auto largest = std::max_element(count.begin() + kFirstItemLabel, count.begin() + kLastItemLabel + 1);
+  return *largest > 0 ? static_cast<std::uint8_t>(largest - count.begin()) : std::uint8_t{0};
+}
+
+// The window of twice the tolerance that holds most heights, then the mean of those within it, once more
+// centred: solids and the near wall stay out.
+double find_level(const HeightMap& map, std::uint8_t label, double tolerance_mm,
+                  std::span<std::uint32_t> histogram, double& share) {
+  std::fill(histogram.begin(), histogram.end(), 0U);
+  const auto bins = static_cast<double>(histogram.size());
+  double seen = 0.0;
+  const auto for_seen = [&](auto action) {
+    for (int y = 0; y < map.cells.height; ++y) {
+      for (int x = 0; x < map.cells.width; ++x) {
+        const HeightCell& cell = map.cells.at(x, y);
+        if (is_seen(cell, label)) action(static_cast<double>(cell.z_mm));
+      }
+    }
+  };
+  for_seen([&](double z) {
+    ++histogram[static_cast<std::size_t>(std::clamp((z - kLowestMm) / kBinMm, 0.0, bins - 1.0))];
+    seen += 1.0;
+  });
+  const auto window = static_cast<std::size_t>(std::clamp(2.0 * tolerance_mm / kBinMm, 1.0, 0.5 * bins));
+  std::uint32_t inside = 0;
+  std::uint32_t most = 0;
+  std::size_t best = 0;
+  for (std::size_t end = 0; end < histogram.size(); ++end) {
+    inside += histogram[end];
+    if (end >= window) inside -= histogram[end - window];
+    if (inside > most) {
+      most = inside;
+      best = end;
+    }
+  }
+  double level = kLowestMm + kBinMm * (static_cast<double>(best) + 1.0) - tolerance_mm;
+  double within = 0.0;
+  for (int step = 0; step < 3; ++step) {
+    double sum = 0.0;
+    within = 0.0;
+    for_seen([&](double z) {
+      if (std::abs(z - level) > tolerance_mm) return;
+      sum += z - level;
+      within += 1.0;
+    });
+    if (within > 0.0) level += sum / within;
+  }
+  share = seen > 0.0 ? within / seen : 0.0;
+  return level;
+}
+
+// Whether the item lies at the wall's inside all round, at its level.
+bool reaches_wall(const HeightMap& map, const PlacedDish& dish, std::uint8_t label, double level_mm,
+                  const LevelLiquidParams& params) {
+  int reached = 0;
+  for (int k = 0; k < kDirections; ++k) {
+    const double angle = 2.0 * M_PI * k / kDirections;
+    const Vec2& axis = dish.place.axis;
+    const Vec2 along = std::cos(angle) * axis + std::sin(angle) * Vec2(-axis.y(), axis.x());
+    // From the outside inward, past the crest, to where the wall comes down to the level.
+    double radius = dish.profile.semi_axes_mm().maxCoeff();
+    bool inside_crest = false;
+    for (; radius > 0.0; radius -= 0.5 * map.cell_mm) {
+      const Vec2 at = dish.place.centre_mm + radius * along;
+      const double inset = dish.profile.inset_mm(dish.to_dish(at));
+      const double wall = dish.height_mm(at);
+      inside_crest = inside_crest || (inset > 0.0 && wall > dish.profile.crest_height_mm() - 1.0);
+      if (inside_crest && wall <= level_mm) break;
+    }
+    bool found = false;
+    for (double gap = 0.0; gap <= params.max_gap_mm && !found; gap += map.cell_mm) {
+      const Vec2 cell = (dish.place.centre_mm + (radius - gap) * along - map.origin_mm) / map.cell_mm;
+      const int x = static_cast<int>(std::floor(cell.x() + 0.5));
+      const int y = static_cast<int>(std::floor(cell.y() + 0.5));
+      found = map.cells.contains(x, y) && map.cells.at(x, y).label == label;
+    }
+    reached += found ? 1 : 0;
+  }
+  return reached >= params.min_wall_share * kDirections;
+}
+
+void make_level(const PlacedDish& dish, const LevelLiquid& liquid, double tolerance_mm, HeightMap& map) {
+  const auto level = static_cast<float>(liquid.level_mm);
+  const auto solid = static_cast<float>(liquid.level_mm + tolerance_mm);
+  for (int y = 0; y < map.cells.height; ++y) {
+    for (int x = 0; x < map.cells.width; ++x) {
+      HeightCell& cell = map.cells.at(x, y);
+      if (is_item(cell.label) && cell.label != liquid.label) continue;
+      const Vec2 at = dish.to_dish(map.centre_mm(x, y));
+      const double inset = dish.profile.inset_mm(at);
+      const bool in_dish = inset > 0.0 && dish.profile.height_mm(at) < liquid.level_mm;
+      if (!in_dish) {
+        if (cell.label == liquid.label && cell.z_mm < solid) cell.label = kDishLabel;
+        continue;
+      }
+      if (cell.label == liquid.label && cell.kind == CellKind::surface && cell.z_mm > solid) continue;
+      cell.label = liquid.label;
+      cell.z_mm = level;
+    }
+  }
+}
+
+}  // namespace
+
+LevelLiquid level_liquid(const PlacedDish& dish, const LevelLiquidParams& params,
+                         LevelLiquidWorkspace& workspace, HeightMap& map) {
+  LevelLiquid liquid;
+  const std::uint8_t label = largest_item(map);
+  if (label == 0 || workspace.histogram.empty()) return liquid;
+  double share = 0.0;
+  const double level = find_level(map, label, params.tolerance_mm, workspace.histogram, share);
+  if (share < params.min_level_share || level < dish.profile.bottom_height_mm() + params.min_depth_mm ||
+      !reaches_wall(map, dish, label, level, params)) {
+    return liquid;
+  }
+  liquid = {label, level};
+  make_level(dish, liquid, params.tolerance_mm, map);
+  return liquid;
+}
+
+}  // namespace traygauge

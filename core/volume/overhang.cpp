@@ -1,0 +1,79 @@
+#include "core/volume/overhang.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "core/segmentation/label_regions.hpp"
+
+namespace traygauge {
+namespace {
+
+constexpr double kMm3PerMl = 1000.0;
+
+double steepest_tilt_tangent(std::span<const SurfaceGrid> views, const PlacedDish& dish) {
+  double tangent = 0.0;
+  for (const SurfaceGrid& view : views) {
+    const double run = (view.camera_mm.head<2>() - dish.place.centre_mm).norm();
+    const double rise = view.camera_mm.z() - dish.profile.bottom_height_mm();
+    if (rise > 0.0) tangent = std::max(tangent, run / rise);
+  }
+  return tangent;
+}
+
+bool is_undercut(const HeightMap& map, int x, int y) {
+  const HeightCell& cell = map.cells.at(x, y);
+  return cell.kind == CellKind::surface && cell.below_label != 0;
+}
+
+// Undercut area without the item's outermost cells, where a wall's foot may lie on either side.
+std::array<double, 256> undercut_areas(const HeightMap& map) {
+  std::array<double, 256> areas{};
+  const double cell_mm2 = map.cell_mm * map.cell_mm;
+  for (int y = 1; y + 1 < map.cells.height; ++y) {
+    for (int x = 1; x + 1 < map.cells.width; ++x) {
+      const std::uint8_t label = map.cells.at(x, y).label;
+      if (!is_item(label) || !is_undercut(map, x, y)) continue;
+      if (map.cells.at(x - 1, y).label != label || map.cells.at(x + 1, y).label != label ||
+          map.cells.at(x, y - 1).label != label || map.cells.at(x, y + 1).label != label) {
+        continue;
+      }
+      areas[label] += cell_mm2;
+    }
+  }
+  return areas;
+}
+
+}  // namespace
+
+void close_overhangs(std::span<const SurfaceGrid> views, const HeightMap& map, const PlacedDish& dish,
+                     const OverhangParams& params, std::span<HeightVolume> items) {
+  const double tangent = steepest_tilt_tangent(views, dish);
+  const std::array<double, 256> undercut = undercut_areas(map);
+  std::array<bool, 256> overhangs{};
+  bool any = false;
+  for (std::size_t label = kFirstItemLabel; label <= kLastItemLabel; ++label) {
+    HeightVolume& item = items[label];
+    item.undercut_mm2 = undercut[label];
+    const double of_ball = std::sqrt(item.area_mm2) * 0.5 * item.max_height_mm * tangent;
+    overhangs[label] = item.area_mm2 > 0.0 && undercut[label] > params.min_undercut_mm2 &&
+                       undercut[label] > params.min_undercut_share * of_ball;
+    if (!overhangs[label]) continue;
+    any = true;
+    item.volume_ml = 0.0;
+  }
+  if (!any) return;
+  const double cell_ml = map.cell_mm * map.cell_mm / kMm3PerMl;
+  for (int y = 0; y < map.cells.height; ++y) {
+    for (int x = 0; x < map.cells.width; ++x) {
+      const HeightCell& cell = map.cells.at(x, y);
+      if (!overhangs[cell.label]) continue;
+      HeightVolume& item = items[cell.label];
+      const double upper = static_cast<double>(cell.z_mm) - dish.height_mm(map.centre_mm(x, y));
+      const double lower = std::max(item.max_height_mm - upper, 0.0);
+      item.volume_ml += std::max(upper - lower, 0.0) * cell_ml;
+    }
+  }
+}
+
+}  // namespace traygauge

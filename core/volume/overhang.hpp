@@ -1,0 +1,26 @@
+// The closed volume of round items that overhang: whole fruit, not heaps or cuts.
+#pragma once
+
+#include <span>
+
+#include "core/surface/height_map.hpp"
+#include "core/surface/surface_grid.hpp"
+#include "core/volume/height_volume.hpp"
+
+namespace traygauge {
+
+struct OverhangParams {
+  // A view tilted by t sees the dish under a ball's near side over about 0.8 r tan t of depth, under a wall
+  // over none. The undercut's area must reach this share of what a ball of the item's size and height shows;
+  // long items along the line of sight show a third. Smaller takes walls with noise for fruit.
+  double min_undercut_share = 0.2;
+  double min_undercut_mm2 = 30.0;  // what a few wrong samples make; nearly vertical views never show more
+};
+
+// Sets `volume_ml` of items that overhang: the lower side mirrors the upper at half the item's height, as a
+// round body's that rests on the dish, and ends at the dish. Others keep their column volume. After
+// integrate_height_map.
+void close_overhangs(std::span<const SurfaceGrid> views, const HeightMap& map, const PlacedDish& dish,
+                     const OverhangParams& params, std::span<HeightVolume> items);
+
+}  // namespace traygauge
