@@ -7,7 +7,6 @@
 
 #include "firmware/base/exit_status.hpp"
 #include "firmware/base/text.hpp"
-#include "firmware/config/dish_library.hpp"
 #include "firmware/config/parameters.hpp"
 #include "firmware/config/profile.hpp"
 #include "firmware/evaluate/evaluation.hpp"
@@ -83,7 +82,7 @@ int run_evaluate(const EvaluateOptions& options, std::ostream& out, std::ostream
     return kExitMeasured;
   }
   if (options.set.empty()) throw UsageError("evaluate: name a capture or a folder of captures");
-  protocol.config_folder = find_config_folder(options.config);
+  protocol.config = options.config;
   if (!options.out.empty()) std::filesystem::create_directories(options.out);
   std::vector<std::string> skipped;
   ProgressLine progress(error);

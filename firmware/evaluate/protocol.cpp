@@ -6,7 +6,7 @@
 #include <mutex>
 #include <thread>
 
-#include "firmware/config/dish_library.hpp"
+#include "firmware/config/dish_choice.hpp"
 #include "firmware/measure/capture_session.hpp"
 #include "simulator/capture/capture.hpp"
 
@@ -29,14 +29,16 @@ Pose pose_of(const WorldToCamera& matrix) {
   return pose;
 }
 
-std::optional<PairTruth> truth_of(const Truth& truth, const Task& task, const DishDescription& dish) {
+// Without the bottom, which depends on the dish.
+std::optional<PairTruth> truth_of(const Truth& truth, const Task& task) {
   const auto first = static_cast<std::size_t>(task.pair[0]);
   const auto second = static_cast<std::size_t>(task.pair[1]);
   if (std::max(first, second) >= truth.poses.size()) return {};
-  return PairTruth{pose_of(truth.poses[first]), pose_of(truth.poses[second]), dish.bottom_height_mm};
+  return PairTruth{pose_of(truth.poses[first]), pose_of(truth.poses[second]), 0.0};
 }
 
-Run record(const Measurement& measurement, std::uint64_t seed, const std::optional<PairTruth>& truth) {
+Run record(const Measurement& measurement, std::uint64_t seed, std::optional<PairTruth> truth,
+           const std::vector<DishDescription>& dishes) {
   Run run;
   run.seed = seed;
   run.status = measurement.status.code();
@@ -45,23 +47,25 @@ Run record(const Measurement& measurement, std::uint64_t seed, const std::option
   run.report = measurement.report;
   for (const ItemResult& item : measurement.items)
     run.items.push_back({item.label, item.status, item.volume_ml});
-  if (truth && !measurement.items.empty()) run.errors = stage_errors(measurement, *truth);
+  if (truth && !measurement.items.empty()) {
+    truth->bottom_height_mm = dishes.at(static_cast<std::size_t>(run.report.dish_index)).bottom_height_mm;
+    run.errors = stage_errors(measurement, *truth);
+  }
   return run;
 }
 
 PairRuns run_pair(const std::filesystem::path& set, const Task& task, const ProtocolOptions& options) {
   const Capture capture = read_capture(task.folder);
-  const std::vector<DishDescription> dishes =
-      capture.dishes.empty() ? read_dish_library(options.config_folder) : capture.dishes;
   PairRuns result;
   result.capture = task.folder.lexically_relative(set).string();
   result.pair = task.pair;
   result.truth = read_truth(task.folder).value();
-  const auto truth = truth_of(result.truth, task, dishes.front());
+  const auto truth = truth_of(result.truth, task);
+  const std::vector<DishDescription> dishes = choose_dishes(capture, options.config);
   CaptureSession session(capture, task.pair, dishes, options.parameters);
   for (int run = 1; run <= options.runs; ++run) {
     const auto seed = static_cast<std::uint64_t>(run);
-    result.runs.push_back(record(session.measure(seed), seed, truth));
+    result.runs.push_back(record(session.measure(seed), seed, truth, dishes));
   }
   return result;
 }
@@ -71,8 +75,8 @@ std::vector<Task> plan_tasks(const std::filesystem::path& set, std::vector<std::
   for (const std::filesystem::path& folder : find_captures(set)) {
     const Capture capture = read_capture(folder);
     const std::string name = folder.lexically_relative(set).string();
-    if (capture.dishes.size() > 1) {
-      skipped.push_back(name + ": several dishes; profile paper measures one");
+    if (!has_one_dish(capture)) {
+      skipped.push_back(name + ": profile paper measures one dish, of label 1");
     } else if (!read_truth(folder)) {
       skipped.push_back(name + ": no truth.json");
     } else {

@@ -20,7 +20,7 @@ struct ProtocolOptions {
   int runs = 8;              // seeds 1 … runs (paper: 8)
   int jobs = 1;              // captures' pairs measured at the same time
   Configuration parameters;  // of the stages; camera, card and dish come from the captures
-  std::filesystem::path config_folder;
+  std::string config;        // folder with dishes/, for captures that name none; empty: the usual one
 };
 
 struct ItemEstimate {
