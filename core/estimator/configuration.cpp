@@ -1,6 +1,6 @@
 #include "core/estimator/configuration.hpp"
 
-#include <cmath>
+#include <algorithm>
 
 #include "core/estimator/feature_preparation.hpp"
 
@@ -22,16 +22,6 @@ bool is_plausible(const ReferenceCard& card) {
          card.pattern.width >= kMinPatternPx && card.pattern.height >= kMinPatternPx;
 }
 
-bool is_plausible(const DishModel& dish) {
-  constexpr double kMinSizeMm = 20.0;
-  constexpr double kMaxSizeMm = 1000.0;
-  constexpr double kMaxHeightMm = 200.0;
-  return is_within(dish.outer_size_mm[0], kMinSizeMm, kMaxSizeMm) &&
-         is_within(dish.outer_size_mm[1], kMinSizeMm, kMaxSizeMm) &&
-         is_within(dish.bottom_height_mm, 0.0, kMaxHeightMm) &&
-         is_within(dish.rim_height_mm, dish.bottom_height_mm, kMaxHeightMm);
-}
-
 bool is_plausible(const EstimatorLimits& limits) {
   constexpr int kMaxSide = 8192;
   constexpr int kMaxCount = 1 << 16;
@@ -42,6 +32,11 @@ bool is_plausible(const EstimatorLimits& limits) {
          is_within(limits.max_feature_px, 1, kMaxSide * kMaxSide) &&
          is_within(limits.max_working_px, 1, kMaxSide * kMaxSide) &&
          is_within(limits.max_working_side_px, 1, kMaxSide);
+}
+
+// Profile paper measures trays with one dish.
+bool is_only_dish(const DishModel& dish) {
+  return dish.label == kDishLabel;
 }
 
 }  // namespace
@@ -60,10 +55,10 @@ Status validate(const Configuration& configuration) {
                               validate(configuration.rectification), validate(configuration.stereo)}) {
     if (!status.ok()) return status;
   }
-  for (const DishModel& dish : configuration.dishes) {
-    if (!is_plausible(dish)) return StatusCode::invalid_configuration;
-  }
-  return StatusCode::ok;
+  if (const Status status = validate(configuration.dishes); !status.ok()) return status;
+  return std::all_of(configuration.dishes.begin(), configuration.dishes.end(), is_only_dish)
+             ? StatusCode::ok
+             : StatusCode::invalid_configuration;
 }
 
 }  // namespace traygauge

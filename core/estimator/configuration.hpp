@@ -106,7 +106,9 @@ struct Configuration {
   Profile profile = Profile::paper;
   LensModel lens;
   ReferenceCard card;
-  std::span<const DishModel> dishes;  // the nearest by rim size and height; none near: dish_unknown
+  // Candidates for the only dish: the nearest by rim size and height; none near: dish_unknown. A tray with
+  // several dishes has one for each label; profile paper refuses it.
+  std::span<const DishModel> dishes;
   EstimatorLimits limits;
   ViewParams view;
   ExposureParams exposure;

@@ -13,12 +13,17 @@ inline constexpr std::uint8_t kBackgroundLabel = 0;
 inline constexpr std::uint8_t kDishLabel = 1;
 inline constexpr std::uint8_t kFirstItemLabel = 2;
 inline constexpr std::uint8_t kLastItemLabel = 199;
+inline constexpr std::uint8_t kFirstFurtherDishLabel = 201;
+inline constexpr std::uint8_t kLastFurtherDishLabel = 249;
 inline constexpr std::uint8_t kCardLabel = 255;
 
 constexpr bool is_item(std::uint8_t label) {
   return label >= kFirstItemLabel && label <= kLastItemLabel;
 }
-// The dish with everything on it.
+constexpr bool is_dish(std::uint8_t label) {
+  return label == kDishLabel || (label >= kFirstFurtherDishLabel && label <= kLastFurtherDishLabel);
+}
+// The dish of a single-dish tray with everything on it.
 constexpr bool is_on_dish(std::uint8_t label) {
   return label == kDishLabel || is_item(label);
 }

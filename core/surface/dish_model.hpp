@@ -3,7 +3,11 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <span>
+
+#include "core/base/status.hpp"
+#include "core/segmentation/label_regions.hpp"
 
 namespace traygauge {
 
@@ -23,10 +27,19 @@ struct DishModel {
   // From the edge inward down to the flat bottom, monotone cubic between; none: a flat bottom.
   std::array<DishProfilePoint, kMaxDishProfilePoints> profile_points{};
   std::size_t profile_size = 0;
+  std::uint8_t label = kDishLabel;  // in the label pictures
 
   constexpr std::span<const DishProfilePoint> profile() const {
     return std::span(profile_points).first(profile_size);
   }
 };
+
+// invalid_configuration when a size, a height, the label or the profile lies outside its range: insets grow,
+// up to half the smaller axis.
+Status validate(const DishModel& dish);
+
+// Labels 1 and 201 … 249, each for one dish; or label 1 for all: candidates for the only dish.
+// invalid_configuration otherwise, and when a dish itself is.
+Status validate(std::span<const DishModel> dishes);
 
 }  // namespace traygauge

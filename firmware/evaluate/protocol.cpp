@@ -6,7 +6,7 @@
 #include <mutex>
 #include <thread>
 
-#include "firmware/config/dish_library.hpp"
+#include "firmware/config/dish_choice.hpp"
 #include "firmware/measure/capture_session.hpp"
 #include "simulator/capture/capture.hpp"
 
@@ -15,7 +15,6 @@ namespace {
 
 struct Task {
   std::filesystem::path folder;
-  std::vector<DishDescription> dishes;  // of the capture, or those to choose from
   std::array<int, 2> pair{};
 };
 
@@ -38,15 +37,16 @@ Pose pose_of(const WorldToCamera& matrix) {
   return pose;
 }
 
+// Without the bottom, which depends on the dish.
 std::optional<PairTruth> truth_of(const Truth& truth, const Task& task) {
   const auto first = static_cast<std::size_t>(task.pair[0]);
   const auto second = static_cast<std::size_t>(task.pair[1]);
   if (std::max(first, second) >= truth.poses.size()) return {};
-  return PairTruth{pose_of(truth.poses[first]), pose_of(truth.poses[second]),
-                   task.dishes.front().bottom_height_mm};
+  return PairTruth{pose_of(truth.poses[first]), pose_of(truth.poses[second]), 0.0};
 }
 
-Run record(const Measurement& measurement, std::uint64_t seed, const std::optional<PairTruth>& truth) {
+Run record(const Measurement& measurement, std::uint64_t seed, std::optional<PairTruth> truth,
+           const std::vector<DishDescription>& dishes) {
   Run run;
   run.seed = seed;
   run.status = measurement.status.code();
@@ -56,7 +56,10 @@ Run record(const Measurement& measurement, std::uint64_t seed, const std::option
   run.report = measurement.report;
   for (const ItemResult& item : measurement.items)
     run.items.push_back({item.label, item.status, item.volume_ml, item.column_volume_ml, item.sigma_ml});
-  if (truth && !measurement.items.empty()) run.errors = stage_errors(measurement, *truth);
+  if (truth && !measurement.items.empty() && run.report.dish_index >= 0) {
+    truth->bottom_height_mm = dishes.at(static_cast<std::size_t>(run.report.dish_index)).bottom_height_mm;
+    run.errors = stage_errors(measurement, *truth);
+  }
   return run;
 }
 
@@ -69,10 +72,11 @@ PairRuns run_pair(const std::filesystem::path& set, const Task& task, const Prot
   result.truth = read_truth(task.folder).value();
   const auto truth = truth_of(result.truth, task);
   if (truth) result.true_angle_deg = truth->relative_angle_deg();
-  CaptureSession session(capture, task.pair, task.dishes, options.parameters);
+  const std::vector<DishDescription> dishes = choose_dishes(capture, options.config);
+  CaptureSession session(capture, task.pair, dishes, options.parameters);
   for (int run = 1; run <= options.runs; ++run) {
     const auto seed = static_cast<std::uint64_t>(run);
-    result.runs.push_back(record(session.measure(seed), seed, truth));
+    result.runs.push_back(record(session.measure(seed), seed, truth, dishes));
     measured();
   }
   return result;
@@ -96,10 +100,8 @@ std::vector<Task> plan_tasks(const std::filesystem::path& set, const ProtocolOpt
       skipped.push_back(name_below(set, folder) + ": " + *reason);
       continue;
     }
-    const auto dishes =
-        capture.dishes.empty() ? read_dish_library(find_config_folder(options.config)) : capture.dishes;
     const auto pairs = capture.pairs.empty() ? std::vector<std::array<int, 2>>{{0, 1}} : capture.pairs;
-    for (const auto& pair : pairs) tasks.push_back({folder, dishes, pair});
+    for (const auto& pair : pairs) tasks.push_back({folder, pair});
   }
   return tasks;
 }

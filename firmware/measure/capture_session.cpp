@@ -14,13 +14,6 @@ const ViewDescription* view_of(const Capture& capture, int index) {
   return &capture.views[static_cast<std::size_t>(index)];
 }
 
-std::vector<DishModel> models_of(const std::vector<DishDescription>& dishes) {
-  std::vector<DishModel> models;
-  models.reserve(dishes.size());
-  for (const DishDescription& dish : dishes) models.push_back(dish_of(dish));
-  return models;
-}
-
 // Labels that the format gives no meaning to: 200 and 250 to 254.
 std::string list_unknown_labels(const Picture& labels) {
   std::bitset<256> present;
@@ -41,43 +34,12 @@ bool same_lens(const LensModel& a, const LensModel& b) {
 
 }  // namespace
 
-LensModel lens_of(const CameraDescription& camera) {
-  const auto& [k1, k2, p1, p2, k3] = camera.distortion;
-  return {camera.size.width,
-          camera.size.height,
-          {camera.fx_px, camera.fy_px, camera.cx_px, camera.cy_px},
-          k1,
-          k2,
-          p1,
-          p2,
-          k3};
-}
-
-DishModel dish_of(const DishDescription& dish) {
-  DishModel model{dish.outer_size_mm, dish.rim_height_mm, dish.bottom_height_mm};
-  for (const ProfilePoint& point : dish.profile) {
-    if (model.profile_size == model.profile_points.size()) break;
-    model.profile_points[model.profile_size++] = {point.inset_mm, point.height_mm};
-  }
-  return model;
-}
-
-EstimatorLimits limits_for(PictureSize first, PictureSize second) {
-  EstimatorLimits limits;
-  limits.max_frame_width = std::max(first.width, second.width);
-  limits.max_frame_height = std::max(first.height, second.height);
-  return limits;
-}
-
 CaptureSession::CaptureSession(const Capture& capture, std::array<int, 2> pair,
                                const std::vector<DishDescription>& dishes, const Configuration& parameters)
     : descriptions_{view_of(capture, pair[0]), view_of(capture, pair[1])},
-      lenses_{lens_of(descriptions_[0]->camera), lens_of(descriptions_[1]->camera)},
       views_{load_view(*descriptions_[0]), load_view(*descriptions_[1])},
-      pattern_(load_pattern(capture.card)),
-      card_(capture.card),
-      dishes_(models_of(dishes)),
-      configuration_(configure(parameters)),
+      setup_(set_up_pair(capture, pair, dishes)),
+      configuration_(configure(setup_, parameters)),
       block_(required_bytes(configuration_)),
       estimator_(block_.bytes(), configuration_) {
   check_inputs(capture);
@@ -85,7 +47,7 @@ CaptureSession::CaptureSession(const Capture& capture, std::array<int, 2> pair,
 
 void CaptureSession::check_inputs(const Capture& capture) {
   for (std::size_t i = 0; i < 2; ++i) {
-    if (!validate(lenses_[i]).ok()) {
+    if (!validate(setup_.lenses[i]).ok()) {
       throw InputError({capture.file, descriptions_[i]->camera_key + ".distortion"},
                        "coefficients that hold up to the corners of the picture", "a lens that folds it over",
                        "calibrate the camera again, with corners near the edge of the picture");
@@ -100,29 +62,20 @@ void CaptureSession::check_inputs(const Capture& capture) {
     throw InputError({capture.file, ""}, "a plausible camera, card and dish",
                      "values that contradict each other", sentence(estimator_.status().code()));
   }
-  const double stretch = card_.width_mm * pattern_.size.height / (card_.height_mm * pattern_.size.width);
+  const CardDescription& card = setup_.card;
+  const PictureSize pattern = setup_.pattern.size;
+  const double stretch = card.width_mm * pattern.height / (card.height_mm * pattern.width);
   if (std::max(stretch, 1.0 / stretch) > kMaxCardStretch) {
-    warnings_.push_back(printable(card_.pattern.path.string()) +
+    warnings_.push_back(printable(card.pattern.path.string()) +
                         ": the proportions of the pattern differ from card.width_mm and card.height_mm.");
   }
-}
-
-Configuration CaptureSession::configure(const Configuration& parameters) const {
-  Configuration configuration = parameters;
-  configuration.lens = lenses_[0];
-  configuration.card = {card_.width_mm, card_.height_mm, card_.thickness_mm, pattern_.gray()};
-  configuration.dishes = dishes_;
-  const EstimatorLimits frames = limits_for(descriptions_[0]->camera.size, descriptions_[1]->camera.size);
-  configuration.limits.max_frame_width = frames.max_frame_width;
-  configuration.limits.max_frame_height = frames.max_frame_height;
-  return configuration;
 }
 
 ViewInput CaptureSession::input(std::size_t i) const {
   ViewInput input;
   input.frame = views_[i].picture.frame();
   input.labels = views_[i].labels.gray();
-  if (!same_lens(lenses_[i], lenses_[0])) input.lens = lenses_[i];
+  if (!same_lens(setup_.lenses[i], setup_.lenses[0])) input.lens = setup_.lenses[i];
   input.arm_angle_deg = descriptions_[i]->arm_angle_deg;
   return input;
 }

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "firmware/base/exit_status.hpp"
-#include "firmware/config/dish_library.hpp"
+#include "firmware/config/dish_choice.hpp"
 #include "firmware/config/profile.hpp"
 #include "firmware/measure/capture_session.hpp"
 #include "firmware/measure/measure_report.hpp"
@@ -103,16 +103,6 @@ void check_label_source(const std::string& source) {
   throw UsageError("--labels: expected given, found " + printable(source));
 }
 
-std::vector<DishDescription> choose_dishes(const Capture& capture, const std::string& config) {
-  if (capture.dishes.empty()) return read_dish_library(find_config_folder(config));
-  const DishDescription& dish = capture.dishes.front();
-  if (capture.dishes.size() == 1 && dish.label == 1) return capture.dishes;
-  throw InputError({capture.file, "dishes"}, "one dish, of label 1",
-                   capture.dishes.size() == 1 ? "label " + std::to_string(dish.label)
-                                              : std::to_string(capture.dishes.size()) + " dishes",
-                   "profile paper measures one dish");
-}
-
 std::array<int, 2> choose_pair(const std::string& typed, const Capture& capture) {
   std::array<int, 2> pair{0, 1};
   const int count = static_cast<int>(capture.views.size());
@@ -146,6 +136,7 @@ int run_measure(const MeasureOptions& options, std::ostream& out, std::ostream& 
   const Capture capture = read_capture(options.capture);
   const std::array<int, 2> pair = choose_pair(options.pair, capture);
   require_labels(capture, pair);
+  require_one_dish(capture);
   CaptureSession session(capture, pair, choose_dishes(capture, options.config));
   const Measurement& measurement = session.measure(seed);
   const MeasureReport report = compose_report(options, session, pair, seed, measurement);

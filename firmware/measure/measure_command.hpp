@@ -37,10 +37,6 @@ std::array<int, 2> choose_pair(const std::string& typed, const Capture& capture)
 // UsageError unless this version has the source of labels; empty: the default.
 void check_label_source(const std::string& source);
 
-// The capture's dish, or those of the library in the folder `config` (empty: the usual one) to choose from.
-// Throws InputError when the capture has several dishes, because profile paper measures one.
-std::vector<DishDescription> choose_dishes(const Capture& capture, const std::string& config);
-
 // A whole number from 0 to 2^64 - 1.
 std::uint64_t parse_seed(const std::string& typed);
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "firmware/measure/capture_session.hpp"
+#include "firmware/config/dish_choice.hpp"
 #include "firmware/measure/measure_command.hpp"
 
 namespace traygauge {
@@ -18,18 +18,12 @@ void RecordedCaptures::add(const std::filesystem::path& folder) {
   const std::array<int, 2> pair = choose_pair("", capture);
   for (std::size_t i = 0; i < 2; ++i) {
     recording->views[i] = capture.views[static_cast<std::size_t>(pair[i])];
-    recording->lenses[i] = lens_of(recording->views[i].camera);
     largest_.width = std::max(largest_.width, recording->views[i].camera.size.width);
     largest_.height = std::max(largest_.height, recording->views[i].camera.size.height);
   }
-  recording->pattern = load_pattern(capture.card);
-  for (const DishDescription& dish : choose_dishes(capture, "")) recording->dishes.push_back(dish_of(dish));
-
-  Configuration& configuration = recording->configuration;
-  configuration.lens = recording->lenses[0];
-  configuration.card = {capture.card.width_mm, capture.card.height_mm, capture.card.thickness_mm,
-                        recording->pattern.gray()};
-  configuration.dishes = recording->dishes;
+  require_one_dish(capture);
+  recording->setup = set_up_pair(capture, pair, choose_dishes(capture, ""));
+  recording->configuration = configure(recording->setup);
   recordings_.push_back(std::move(recording));
 }
 

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "firmware/measure/pair_setup.hpp"
 #include "firmware/station/played_scene.hpp"
 #include "simulator/capture/capture.hpp"
 
@@ -14,8 +15,8 @@ namespace traygauge {
 
 class RecordedCaptures final : public MeasurableCaptures {
  public:
-  // Reads every capture.json and card pattern; throws InputError. `config_folder` is for captures without a
-  // dish, empty: the usual one.
+  // Reads every capture.json and card pattern; throws InputError. Captures without a dish take those of the
+  // usual config folder.
   explicit RecordedCaptures(const std::vector<std::filesystem::path>& folders);
 
   std::size_t capture_count() const override { return recordings_.size(); }
@@ -27,7 +28,7 @@ class RecordedCaptures final : public MeasurableCaptures {
 
   const Configuration& configuration() const override { return open_->configuration; }
   std::optional<LensModel> lens(int view) const override {
-    return open_->lenses[static_cast<std::size_t>(view)];
+    return open_->setup.lenses[static_cast<std::size_t>(view)];
   }
   EstimatorLimits limits() const override;
 
@@ -35,10 +36,8 @@ class RecordedCaptures final : public MeasurableCaptures {
   struct Recording {
     std::string name;
     std::array<ViewDescription, 2> views;
-    std::array<LensModel, 2> lenses;
-    Picture pattern;
-    std::vector<DishModel> dishes;
-    Configuration configuration;  // views pattern and dishes
+    PairSetup setup;
+    Configuration configuration;  // refers to the setup
   };
   void add(const std::filesystem::path& folder);
 

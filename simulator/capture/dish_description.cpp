@@ -1,24 +1,32 @@
 #include "simulator/capture/dish_description.hpp"
 
 #include <algorithm>
-#include <cstddef>
 
 namespace traygauge {
 namespace {
 
 constexpr NumberRange kOuterSizeMm{20.0, 1000.0};
 constexpr NumberRange kHeightMm{0.0, 200.0};
-constexpr std::size_t kMaxProfilePoints = 1000;
+constexpr double kProfileToleranceMm = 1.0;  // between a profile's heights and those of rim and bottom
+const char* const kProfileHint = "list points from the outer edge inward, down to the flat bottom";
 
-std::vector<ProfilePoint> read_profile(const JsonNode& node, double max_inset_mm) {
+// `dish` has its sizes already.
+std::vector<ProfilePoint> read_profile(const JsonNode& node, const DishDescription& dish) {
+  const NumberRange insets_mm{0.0, 0.5 * std::min(dish.outer_size_mm[0], dish.outer_size_mm[1])};
+  const NumberRange heights_mm{std::max(kHeightMm.min, dish.bottom_height_mm - kProfileToleranceMm),
+                               std::min(kHeightMm.max, dish.rim_height_mm + kProfileToleranceMm)};
   std::vector<ProfilePoint> profile;
   for (const JsonNode& element : node.elements(2, kMaxProfilePoints)) {
     const std::vector<JsonNode> pair = element.elements(2, 2);
-    const ProfilePoint point{pair[0].number({0.0, max_inset_mm}), pair[1].number(kHeightMm)};
+    const ProfilePoint point{pair[0].number(insets_mm), pair[1].number(heights_mm)};
+    if (profile.empty() && point.inset_mm != 0.0) pair[0].fail("0, the outer edge", kProfileHint);
     if (!profile.empty() && point.inset_mm <= profile.back().inset_mm) {
-      pair[0].fail("an inset larger than the one before", "list the points from the outer edge inward");
+      pair[0].fail("an inset larger than the one before", kProfileHint);
     }
     profile.push_back(point);
+  }
+  if (profile.back().height_mm > dish.bottom_height_mm + kProfileToleranceMm) {
+    node.fail("a last height within 1 mm of bottom_height_mm", kProfileHint);
   }
   return profile;
 }
@@ -36,7 +44,7 @@ DishDescription read_dish(const JsonNode& node) {
     node.member("bottom_height_mm").fail("a height below the rim's", "both count from the table");
   }
   if (const auto profile = node.find("profile")) {
-    dish.profile = read_profile(*profile, 0.5 * std::min(size[0], size[1]));
+    dish.profile = read_profile(*profile, dish);
   }
   return dish;
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,8 @@ struct ProfilePoint {
   double height_mm = 0.0;
 };
 
+inline constexpr std::size_t kMaxProfilePoints = 32;
+
 // Heights above the table.
 struct DishDescription {
   int label = 1;
@@ -22,7 +25,8 @@ struct DishDescription {
   std::array<double, 2> outer_size_mm{};
   double rim_height_mm = 0.0;
   double bottom_height_mm = 0.0;
-  std::vector<ProfilePoint> profile;  // empty: a flat bottom
+  // From the outer edge (inset 0) inward to the flat bottom, 2 to kMaxProfilePoints; empty: a flat bottom.
+  std::vector<ProfilePoint> profile;
 };
 
 // Throws InputError. `label` is the caller's to read.

@@ -7,7 +7,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "core/segmentation/label_regions.hpp"
-#include "firmware/measure/capture_session.hpp"
+#include "firmware/measure/pair_setup.hpp"
 #include "simulator/capture/capture.hpp"
 #include "simulator/capture/truth.hpp"
 #include "tests/support/synthetic_scene.hpp"

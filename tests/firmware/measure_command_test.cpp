@@ -8,6 +8,8 @@
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
 
+#include "firmware/config/dish_choice.hpp"
+#include "firmware/measure/pair_setup.hpp"
 #include "tests/firmware/command_runner.hpp"
 #include "tests/firmware/fake/fake_estimator.hpp"
 #include "tests/firmware/fake/synthetic_scene.hpp"
@@ -61,6 +63,9 @@ TEST_F(MeasureCommand, GivesTheCaptureToTheEstimator) {
   EXPECT_EQ(fake.card.pattern.width, 160);
   ASSERT_EQ(fake.dishes.size(), 1U);
   EXPECT_EQ(fake.dishes[0].rim_height_mm, 22.0);
+  ASSERT_EQ(fake.dishes[0].profile().size(), 3U);
+  EXPECT_EQ(fake.dishes[0].profile()[2].inset_mm, 49.0);
+  EXPECT_EQ(fake.dishes[0].profile()[1].height_mm, 22.0);
   ASSERT_EQ(fake.views.size(), 2U);
   EXPECT_EQ(fake.views[0].arm_angle_deg, 18.0);
   EXPECT_FALSE(fake.views[1].arm_angle_deg.has_value());
@@ -170,6 +175,34 @@ TEST_F(MeasureCommand, SeveralDishesAreForAnotherVersion) {
   files_.document["dishes"].push_back(dish);
   files_.store();
   expect_wrong_use({}, "profile paper measures one dish");
+}
+
+TEST_F(MeasureCommand, EveryDishOfATrayReachesTheConfigurationWithItsLabel) {
+  Json dish = files_.document["dish"];
+  files_.document.erase("dish");
+  for (const int label : {201, 1, 249}) {
+    dish["label"] = label;
+    dish.erase("profile");
+    dish["rim_height_mm"] = 20.0 + label / 10.0;
+    files_.document["dishes"].push_back(dish);
+  }
+  files_.store();
+  const Capture capture = read_capture(files_.folder());
+  const PairSetup setup = set_up_pair(capture, {0, 1}, choose_dishes(capture, ""));
+  const Configuration configuration = configure(setup);
+  ASSERT_EQ(configuration.dishes.size(), 3U);
+  EXPECT_EQ(configuration.dishes[0].label, 201);
+  EXPECT_EQ(configuration.dishes[1].label, 1);
+  EXPECT_EQ(configuration.dishes[2].label, 249);
+  EXPECT_EQ(configuration.dishes[2].rim_height_mm, 44.9);
+}
+
+TEST_F(MeasureCommand, ProfilesThatDoNotFitAreRefusedNotCut) {
+  Json& profile = files_.document["dish"]["profile"];
+  profile = Json::array();
+  for (int i = 0; i < 33; ++i) profile.push_back({1.5 * i, 22.0 - 17.5 * i / 32.0});
+  files_.store();
+  expect_wrong_use({}, "dish.profile: expected an array of 2 to 32");
 }
 
 TEST_F(MeasureCommand, BadPicturesAreNamed) {

@@ -103,6 +103,13 @@ TEST(ConfigurationCheck, EveryDishIsChecked) {
     configuration.dishes = dishes;
     EXPECT_EQ(validate(configuration).code(), StatusCode::invalid_configuration) << i;
   }
+  DishModel further = good;
+  further.label = 201;
+  Configuration several = default_tray().configuration();
+  for (const std::vector<DishModel>& dishes : {std::vector{further}, std::vector{good, further}}) {
+    several.dishes = dishes;
+    EXPECT_EQ(validate(several).code(), StatusCode::invalid_configuration) << "profile paper measures one";
+  }
   const std::vector<DishModel> many(kMaxDishCandidates + 1, good);
   Configuration configuration = default_tray().configuration();
   configuration.dishes = many;

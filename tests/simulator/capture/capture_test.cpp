@@ -133,17 +133,47 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"/dish/rim_height_mm", 201, "dish.rim_height_mm"},
         Mistake{"/dish/bottom_height_mm", 23, "dish.bottom_height_mm"},
         Mistake{"/dish/profile", Json::array(), "dish.profile"},
-        Mistake{"/dish/profile/1", Json::array({0.0, 3.0}), "dish.profile[1][0]"},
+        Mistake{"/dish/profile/1", Json::array({0.0, 10.0}), "dish.profile[1][0]"},
         Mistake{"/dish/profile/0", Json::array({0.0}), "dish.profile[0]"},
-        Mistake{"/dish/profile/2/0", 131, "dish.profile[2][0]"}, Mistake{"/dish/style", 1, "dish.style"},
-        Mistake{"/dishes", Json::array(), "dishes"}, Mistake{"/views", Json::array(), "views"},
-        Mistake{"/views", Json::object(), "views"}, Mistake{"/views/0", "view_0.jpg", "views[0]"},
+        Mistake{"/dish/profile/2/0", 131, "dish.profile[2][0]"},
+        Mistake{"/dish/profile/0/0", 0.5, "dish.profile[0][0]"},
+        Mistake{"/dish/profile/1/0", 49, "dish.profile[2][0]"},
+        Mistake{"/dish/profile/1/1", 23.1, "dish.profile[1][1]"},  // above the rim
+        Mistake{"/dish/profile/1/1", 3.4, "dish.profile[1][1]"},   // below the bottom
+        Mistake{"/dish/profile/1/1", nullptr, "dish.profile[1][1]"},
+        Mistake{"/dish/profile/2/1", 5.6, "dish.profile"},  // ends on the wall
+        Mistake{"/dish/style", 1, "dish.style"}, Mistake{"/dishes", Json::array(), "dishes"},
+        Mistake{"/views", Json::array(), "views"}, Mistake{"/views", Json::object(), "views"},
+        Mistake{"/views/0", "view_0.jpg", "views[0]"},
         Mistake{"/views/1/image", "a/../../b.jpg", "views[1].image"},
         Mistake{"/views/1/labels", Json::array(), "views[1].labels"},
         Mistake{"/views/1/arm_angle_deg", 361, "views[1].arm_angle_deg"},
         Mistake{"/views/1/camera", Json::object(), "views[1].camera.width"},
         Mistake{"/pairs/0/1", 3, "pairs[0][1]"}, Mistake{"/pairs/0/1", -1, "pairs[0][1]"},
         Mistake{"/pairs/1", Json::array({0, 1, 2}), "pairs[1]"}, Mistake{"/pairs", "0,1", "pairs"}));
+
+TEST(Capture, AProfileHoldsUpTo32Points) {
+  TemporaryCapture files;
+  Json& profile = files.document["dish"]["profile"];
+  profile = Json::array();
+  for (int i = 0; i < 32; ++i) profile.push_back({1.5 * i, 22.0 - 17.5 * i / 31.0});
+  files.store();
+  EXPECT_EQ(read_capture(files.folder()).dishes[0].profile.size(), 32U);
+  profile.push_back({60.0, 4.5});
+  const InputProblem problem = problem_of(files);
+  EXPECT_EQ(problem.key, "dish.profile");
+  EXPECT_NE(problem.expected.find("32"), std::string::npos) << problem.expected;
+}
+
+TEST(Capture, AProfileEndsWithinAMillimetreOfTheBottomAndTurnsWithinOneOfTheRim) {
+  TemporaryCapture files;
+  files.document["dish"]["profile"] = {{0, 22.9}, {1.6, 23.0}, {130.0, 5.5}};
+  files.store();
+  EXPECT_EQ(read_capture(files.folder()).dishes[0].profile.back().inset_mm, 130.0);
+  files.document["dish"]["profile"] = {{0, 3.5}, {2.0, 3.5}};
+  files.store();
+  EXPECT_EQ(read_capture(files.folder()).dishes[0].profile.size(), 2U);
+}
 
 TEST(Capture, EveryAbsentKeyIsNamed) {
   for (const char* pointer :

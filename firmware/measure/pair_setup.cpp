@@ -1,0 +1,62 @@
+#include "firmware/measure/pair_setup.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+
+namespace traygauge {
+
+static_assert(kMaxProfilePoints <= kMaxDishProfilePoints, "what is read must fit into the measurement");
+
+LensModel lens_of(const CameraDescription& camera) {
+  const auto& [k1, k2, p1, p2, k3] = camera.distortion;
+  return {camera.size.width,
+          camera.size.height,
+          {camera.fx_px, camera.fy_px, camera.cx_px, camera.cy_px},
+          k1,
+          k2,
+          p1,
+          p2,
+          k3};
+}
+
+DishModel dish_of(const DishDescription& dish) {
+  DishModel model{dish.outer_size_mm, dish.rim_height_mm, dish.bottom_height_mm};
+  for (const ProfilePoint& point : dish.profile) {
+    model.profile_points.at(model.profile_size++) = {point.inset_mm, point.height_mm};
+  }
+  model.label = static_cast<std::uint8_t>(dish.label);
+  return model;
+}
+
+EstimatorLimits limits_for(PictureSize first, PictureSize second) {
+  EstimatorLimits limits;
+  limits.max_frame_width = std::max(first.width, second.width);
+  limits.max_frame_height = std::max(first.height, second.height);
+  return limits;
+}
+
+PairSetup set_up_pair(const Capture& capture, std::array<int, 2> pair,
+                      const std::vector<DishDescription>& dishes) {
+  PairSetup setup;
+  for (std::size_t i = 0; i < 2; ++i) {
+    setup.lenses[i] = lens_of(capture.views[static_cast<std::size_t>(pair[i])].camera);
+  }
+  setup.card = capture.card;
+  setup.pattern = load_pattern(capture.card);
+  for (const DishDescription& dish : dishes) setup.dishes.push_back(dish_of(dish));
+  return setup;
+}
+
+Configuration configure(const PairSetup& setup, const Configuration& parameters) {
+  Configuration configuration = parameters;
+  configuration.lens = setup.lenses[0];
+  configuration.card = {setup.card.width_mm, setup.card.height_mm, setup.card.thickness_mm,
+                        setup.pattern.gray()};
+  configuration.dishes = setup.dishes;
+  configuration.limits.max_frame_width = std::max(setup.lenses[0].width, setup.lenses[1].width);
+  configuration.limits.max_frame_height = std::max(setup.lenses[0].height, setup.lenses[1].height);
+  return configuration;
+}
+
+}  // namespace traygauge
