@@ -88,6 +88,11 @@ Status prepare_picture(const FrameView& frame, const Configuration& configuratio
   convert_to_gray(frame, workspace.frame_gray);
   if (const Status status = check_exposure(workspace.frame_gray, configuration.exposure); !status.ok())
     return status;
+  const CheckedView checked{frame, workspace.frame_gray, view.labels, &view.regions, &view.lens};
+  assess_view(checked, {configuration.card.width_mm, configuration.card.height_mm}, configuration.view_checks,
+              workspace.card_outline, view.quality_storage.front());
+  if (const Status status = judge_view(view.quality(), configuration.view_checks); !status.ok())
+    return status;
 
   if (const Status status = choose_cutout(configuration, view); !status.ok()) return status;
   view.gray = {view.gray_storage.data(), view.cutout.width, view.cutout.height};
