@@ -32,6 +32,14 @@ constexpr auto kTexts = std::to_array<Text>({
     {"no_food_label", "No food item is labelled in both views; outline at least one item."},
     {"too_many_dishes", "More than eight dishes are labelled; measure the tray in parts."},
     {"dish_cut_off", "The dish is cut off by the edge of the picture; move it into the middle."},
+    {"too_blurred", "The picture is blurred; focus the camera and hold it still."},
+    {"card_hidden",
+     "Part of the reference card is covered or cut off; lay it beside the dish, fully visible in both "
+     "pictures."},
+    {"exposure_differs",
+     "One picture is far brighter than the other; take both in the same light with the same exposure."},
+    {"white_balance_differs",
+     "The colours of the two pictures differ; take both in the same light with the same white balance."},
     {"too_few_features",
      "The picture has too little texture to find corresponding points; check focus and light."},
     {"too_few_matches",
@@ -73,9 +81,12 @@ constexpr auto kTexts = std::to_array<Text>({
     {"item_hidden", "The item is not visible in both pictures."},
     {"item_below_dish",
      "The item came out below the bottom of the dish; check the dish's height in the configuration."},
+    {"item_clipped",
+     "Most of the item is burnt out or black in a picture; change the exposure or remove the glare."},
+    {"item_textureless", "The item shows too little texture to be matched; check focus, light and noise."},
 });
 
-static_assert(kTexts.size() == static_cast<std::size_t>(StatusCode::item_below_dish) + 1);
+static_assert(kTexts.size() == static_cast<std::size_t>(StatusCode::item_textureless) + 1);
 
 }  // namespace
 

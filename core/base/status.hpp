@@ -20,6 +20,10 @@ enum class StatusCode : std::uint8_t {
   no_food_label,
   too_many_dishes,
   dish_cut_off,
+  too_blurred,
+  card_hidden,
+  exposure_differs,
+  white_balance_differs,
   too_few_features,
   too_few_matches,
   views_identical,
@@ -39,6 +43,8 @@ enum class StatusCode : std::uint8_t {
   item_too_small,
   item_hidden,
   item_below_dish,
+  item_clipped,
+  item_textureless,
 };
 
 // The code as the JSON contract spells it, e.g. "card_not_found".

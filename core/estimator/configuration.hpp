@@ -8,6 +8,7 @@
 #include "core/base/status.hpp"
 #include "core/estimator/best/best_params.hpp"
 #include "core/estimator/label_agreement.hpp"
+#include "core/estimator/view_checks.hpp"
 #include "core/features/surf.hpp"
 #include "core/image/camera.hpp"
 #include "core/image/exposure.hpp"
@@ -112,6 +113,7 @@ struct Configuration {
   EstimatorLimits limits;
   ViewParams view;
   ExposureParams exposure;
+  ViewCheckParams view_checks;
   SurfParams surf;
   MatcherParams matcher;
   RelativePoseParams pose;

@@ -23,6 +23,14 @@ constexpr std::array<WarningText, kWarningCount> kWarnings = {{
     {"dish_guessed", "The dish was not given; it was chosen by its rim from the known dishes."},
     {"arm_angle_disagrees", "The angle between the views differs from the arm's; check arm and mount."},
     {"pose_from_card", "The camera motion was taken from the card because the scene alone was ambiguous."},
+    {"blurred", "A picture is blurred; focus the camera and hold it still."},
+    {"underexposed", "A picture is dark; add light or expose longer."},
+    {"card_partly_hidden", "The outline of the reference card is not that of a whole card; uncover it."},
+    {"food_clipped", "Part of an item is burnt out or black; change the exposure or remove the glare."},
+    {"little_texture", "Part of an item has too little texture to be matched, or too much noise over it."},
+    {"exposure_differs", "One picture is much brighter than the other; keep light and exposure the same."},
+    {"white_balance_differs",
+     "The colours of the two pictures differ; keep light and white balance the same."},
 }};
 
 }  // namespace

@@ -42,8 +42,15 @@ enum class Warning : std::uint8_t {
   dish_guessed,         // the dish was chosen from several candidates
   arm_angle_disagrees,  // measured and commanded relative angle differ
   pose_from_card,       // the scene's motion was replaced by the card's
+  blurred,
+  underexposed,
+  card_partly_hidden,
+  food_clipped,
+  little_texture,
+  exposure_differs,
+  white_balance_differs,
 };
-inline constexpr std::size_t kWarningCount = static_cast<std::size_t>(Warning::pose_from_card) + 1;
+inline constexpr std::size_t kWarningCount = static_cast<std::size_t>(Warning::white_balance_differs) + 1;
 const char* name(Warning warning);
 const char* sentence(Warning warning);
 
@@ -62,6 +69,17 @@ struct ItemResult {
 
 inline constexpr std::size_t kMaxItems = 198;  // labels 2…199
 
+// What the pictures are like; see core/estimator/view_checks.hpp.
+struct PictureReport {
+  std::array<double, 2> blur_px{};
+  std::array<double, 2> visible_card_share{};
+  std::array<int, 2> card_white{};
+  double exposure_ratio = 1.0;
+  double white_balance_ratio = 1.0;
+  double most_clipped_share = 0.0;    // of an item
+  double least_textured_share = 1.0;  // of an item
+};
+
 // How far the measurement came; the numbers of stages that were not reached are zero.
 struct MeasurementReport {
   std::array<int, 2> keypoints_found{};
@@ -79,7 +97,8 @@ struct MeasurementReport {
   int rectified_rows = 0;
   int rectified_columns = 0;
   DisparityRange disparity_range;
-  double matched_share = 0.0;    // of the dish's pixels that got a depth
+  double matched_share = 0.0;  // of the dish's pixels that got a depth
+  PictureReport pictures;
   double label_agreement = 0.0;  // share of food pixels with the same label in both views
 };
 

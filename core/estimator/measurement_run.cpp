@@ -64,7 +64,7 @@ ReferencePair choose_reference(EstimatorState& state, const LinesOfSight& lines,
           extrinsics.inliers.items()};
 }
 
-void report_pictures(EstimatorState& state, MeasurementViews& views) {
+void show_pictures(EstimatorState& state, MeasurementViews& views) {
   for (int i = 0; i < 2; ++i) {
     const auto k = static_cast<std::size_t>(i);
     views.cameras[k] = state.view(i).cutout.camera;
@@ -117,7 +117,18 @@ Status calibrate(EstimatorState& state, Random& random, StageClock& clock, Measu
   return StatusCode::ok;
 }
 
+Status compare_pictures(const EstimatorState& state, Measurement& measurement) {
+  const ViewCheckParams& params = state.configuration.view_checks;
+  const ViewQuality& first = state.memory.views[0].quality();
+  const ViewQuality& second = state.memory.views[1].quality();
+  const ColourDifference difference = compare_colours(first.colours, second.colours, params.colours);
+  report_pictures(first, second, difference, params, measurement.report.pictures);
+  warn_about_pictures(first, second, difference, params, measurement.warnings);
+  return judge_pair(difference, params);
+}
+
 Status measure_views(EstimatorState& state, std::uint64_t seed, StageClock& clock, Measurement& measurement) {
+  if (const Status status = compare_pictures(state, measurement); !status.ok()) return status;
   Random random(seed);
   if (const Status status = calibrate(state, random, clock, measurement); !status.ok()) return status;
   const LinesOfSight lines = look_from_dish(state.worked_view(0), state.worked_view(1), state.extrinsics);
@@ -171,7 +182,7 @@ void run_measurement(EstimatorState& state, std::uint64_t seed, StageClock& cloc
   } else if (state.views != 2) {
     measurement.status = StatusCode::frame_missing;
   } else {
-    report_pictures(state, measurement.views);
+    show_pictures(state, measurement.views);
     measurement.status = measure_views(state, seed, clock, measurement);
   }
   measurement.items = state.memory.extraction.items.items();

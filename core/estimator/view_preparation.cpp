@@ -73,6 +73,11 @@ Status prepare_picture(const FrameView& frame, const Configuration& configuratio
   convert_to_gray(frame, workspace.frame_gray);
   status = check_exposure(workspace.frame_gray, configuration.exposure);
   if (!status.ok()) return status;
+  const CheckedView checked{frame, workspace.frame_gray, view.labels, &view.regions, &view.lens};
+  assess_view(checked, {configuration.card.width_mm, configuration.card.height_mm}, configuration.view_checks,
+              workspace.card_silhouette, view.quality_storage.front());
+  status = judge_view(view.quality(), configuration.view_checks);
+  if (!status.ok()) return status;
 
   status = choose_cutout(configuration, view);
   if (!status.ok()) return status;

@@ -11,6 +11,7 @@
 #include "core/base/bounded_list.hpp"
 #include "core/base/status.hpp"
 #include "core/estimator/configuration.hpp"
+#include "core/estimator/view_checks.hpp"
 #include "core/features/keypoint.hpp"
 #include "core/features/surf.hpp"
 #include "core/image/camera.hpp"
@@ -35,7 +36,8 @@ struct PreparedView {
   std::span<std::uint8_t> label_storage;
   ImageView<std::uint8_t> gray;
   ImageView<std::uint8_t> working_labels;
-  std::size_t keypoints_found = 0;  // of which the strongest were kept
+  std::span<ViewQuality> quality_storage;  // one
+  std::size_t keypoints_found = 0;         // of which the strongest were kept
 
   template <class Allocator>
   constexpr void allocate(Allocator& arena, const EstimatorLimits& limits) {
@@ -47,11 +49,13 @@ struct PreparedView {
     const auto pixels = static_cast<std::size_t>(limits.max_working_px);
     gray_storage = arena.template take<std::uint8_t>(pixels);
     label_storage = arena.template take<std::uint8_t>(pixels);
+    quality_storage = arena.template take<ViewQuality>(1);
   }
 
   FeatureSet features() const {
     return {keypoints.items(), std::span<const Descriptor>(descriptor_storage).first(keypoints.size())};
   }
+  const ViewQuality& quality() const { return quality_storage.front(); }
   std::span<const Vec2> rays() const { return ray_storage.first(keypoints.size()); }
 };
 
@@ -62,6 +66,7 @@ struct PreparationWorkspace {
   std::span<std::uint8_t> feature_picture;  // reduced frame, or enlarged card
   std::span<std::uint32_t> integral;
   SurfWorkspace surf;
+  CardSilhouetteWorkspace card_silhouette;
 
   template <class Allocator>
   constexpr void allocate(Allocator& arena, const Configuration& configuration) {
@@ -72,11 +77,12 @@ struct PreparationWorkspace {
     // One more row and column than the picture; sides are at most the frame's.
     integral = arena.template take<std::uint32_t>(
         pixels + static_cast<std::size_t>(limits.max_frame_width + limits.max_frame_height + 1));
+    card_silhouette.allocate(arena, limits.max_frame_height);
     surf.allocate(arena, limits.max_frame_width, limits.max_frame_height, configuration.surf);
   }
 };
 
-// Checks sizes, labels and exposure, and cuts the dish out.
+// Checks sizes, labels, exposure and the quality of the picture, and cuts the dish out.
 Status prepare_picture(const FrameView& frame, const Configuration& configuration,
                        PreparationWorkspace& workspace, PreparedView& view);
 

@@ -47,12 +47,16 @@ bool is_level(const Plane& rim, const Plane& table, const RimCheckParams& params
 
 // Why this item has no volume, or ok.
 StatusCode judge_item(std::uint8_t label, const ReferencePair& pair, const FoodMesh& mesh,
-                      const ItemVolume& volume, const VolumeExtractionParams& params) {
+                      const ItemVolume& volume, const Configuration& configuration) {
+  const VolumeExtractionParams& params = configuration.extraction;
   const auto min_px = static_cast<std::uint32_t>(params.min_item_px);
   const std::uint32_t in_reference = mesh.coverage[label].label_px;
   const std::uint32_t in_other = pair.other->regions.pixels[label];
   if (in_reference == 0 || in_other == 0) return StatusCode::item_hidden;
   if (in_reference < min_px) return StatusCode::item_too_small;
+  const StatusCode pixels =
+      judge_item_pixels(label, pair.reference->quality(), pair.other->quality(), configuration.view_checks);
+  if (pixels != StatusCode::ok) return pixels;
   if (mesh.coverage[label].share() < params.min_covered_share) return StatusCode::too_little_depth;
   return volume.volume_ml > 0.0 ? StatusCode::ok : StatusCode::item_below_dish;
 }
@@ -110,7 +114,7 @@ Status extract_volumes(const ReferencePair& pair, const Configuration& configura
     const ItemVolume& volume = workspace.volume.items[label];
     ItemResult item;
     item.label = label;
-    item.status = judge_item(label, pair, views.mesh, volume, configuration.extraction);
+    item.status = judge_item(label, pair, views.mesh, volume, configuration);
     item.volume_ml = item.column_volume_ml = volume.volume_ml;
     item.area_mm2 = volume.area_mm2;
     item.mean_height_mm = volume.mean_height_mm;

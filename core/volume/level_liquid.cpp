@@ -73,7 +73,7 @@ double find_level(const HeightMap& map, std::uint8_t label, double tolerance_mm,
 }
 
 // Whether the item lies at the wall's inside all round, at its level.
-bool reaches_wall(const HeightMap& map, const PlacedDish& dish, std::uint8_t label, double level_mm,
+bool reaches_wall(const HeightMap& map, const InnerSurface& dish, std::uint8_t label, double level_mm,
                   const LevelLiquidParams& params) {
   int reached = 0;
   for (int k = 0; k < kDirections; ++k) {
@@ -102,7 +102,7 @@ bool reaches_wall(const HeightMap& map, const PlacedDish& dish, std::uint8_t lab
   return reached >= params.min_wall_share * kDirections;
 }
 
-void make_level(const PlacedDish& dish, const LevelLiquid& liquid, double tolerance_mm, HeightMap& map) {
+void make_level(const InnerSurface& dish, const LevelLiquid& liquid, double tolerance_mm, HeightMap& map) {
   const auto level = static_cast<float>(liquid.level_mm);
   const auto solid = static_cast<float>(liquid.level_mm + tolerance_mm);
   for (int y = 0; y < map.cells.height; ++y) {
@@ -125,7 +125,7 @@ void make_level(const PlacedDish& dish, const LevelLiquid& liquid, double tolera
 
 }  // namespace
 
-LevelLiquid level_liquid(const PlacedDish& dish, const LevelLiquidParams& params,
+LevelLiquid level_liquid(const InnerSurface& dish, const LevelLiquidParams& params,
                          LevelLiquidWorkspace& workspace, HeightMap& map) {
   LevelLiquid liquid;
   const std::uint8_t label = largest_item(map);

@@ -40,7 +40,7 @@ struct LevelLiquidWorkspace {
 // Finds the dish's liquid and makes it level in `map`: cells over the wall's inside below the level get its
 // label and height unless another item covers them; what stands out of it further than the tolerance keeps
 // its height. Cells of the label beyond the wall become the dish. Leaves maps without a liquid as they are.
-LevelLiquid level_liquid(const PlacedDish& dish, const LevelLiquidParams& params,
+LevelLiquid level_liquid(const InnerSurface& dish, const LevelLiquidParams& params,
                          LevelLiquidWorkspace& workspace, HeightMap& map);
 
 }  // namespace traygauge

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kMm3PerMl = 1000.0;
 
-double steepest_tilt_tangent(std::span<const SurfaceGrid> views, const PlacedDish& dish) {
+double steepest_tilt_tangent(std::span<const SurfaceGrid> views, const InnerSurface& dish) {
   double tangent = 0.0;
   for (const SurfaceGrid& view : views) {
     const double run = (view.camera_mm.head<2>() - dish.place.centre_mm).norm();
@@ -46,7 +46,7 @@ std::array<double, 256> undercut_areas(const HeightMap& map) {
 
 }  // namespace
 
-void close_overhangs(std::span<const SurfaceGrid> views, const HeightMap& map, const PlacedDish& dish,
+void close_overhangs(std::span<const SurfaceGrid> views, const HeightMap& map, const InnerSurface& dish,
                      const OverhangParams& params, std::span<HeightVolume> items) {
   const double tangent = steepest_tilt_tangent(views, dish);
   const std::array<double, 256> undercut = undercut_areas(map);

@@ -20,7 +20,7 @@ struct OverhangParams {
 // Sets `volume_ml` of items that overhang: the lower side mirrors the upper at half the item's height, as a
 // round body's that rests on the dish, and ends at the dish. Others keep their column volume. After
 // integrate_height_map.
-void close_overhangs(std::span<const SurfaceGrid> views, const HeightMap& map, const PlacedDish& dish,
+void close_overhangs(std::span<const SurfaceGrid> views, const HeightMap& map, const InnerSurface& dish,
                      const OverhangParams& params, std::span<HeightVolume> items);
 
 }  // namespace traygauge

@@ -245,7 +245,7 @@ Solid ellipsoid(int label, const Vec3& centre, const Vec3& semi_axes, double tur
   return solid;
 }
 
-Solid liquid(int label, const PlacedDish& dish, double level_mm) {
+Solid liquid(int label, const InnerSurface& dish, double level_mm) {
   Solid solid = height_field(label, "liquid", [dish, level_mm](const Vec2& at) {
     return dish.profile.inset_mm(dish.to_dish(at)) > 3.0 ? level_mm : kNothingMm;
   });
@@ -255,14 +255,14 @@ Solid liquid(int label, const PlacedDish& dish, double level_mm) {
 
 namespace {
 
-PlacedDish dish(std::array<double, 2> size, std::initializer_list<DishProfilePoint> profile, Vec2 centre,
+InnerSurface dish(std::array<double, 2> size, std::initializer_list<DishProfilePoint> profile, Vec2 centre,
                 double turn_rad) {
   DishModel model;
   model.outer_size_mm = size;
   for (const DishProfilePoint& point : profile) model.profile_points[model.profile_size++] = point;
   model.bottom_height_mm = model.profile_points[model.profile_size - 1].height_mm;
   model.rim_height_mm = model.profile_points[1].height_mm;
-  PlacedDish placed;
+  InnerSurface placed;
   (void)placed.profile.set(model).ok();
   placed.place = {centre, {std::cos(turn_rad), std::sin(turn_rad)}};
   return placed;
@@ -270,13 +270,13 @@ PlacedDish dish(std::array<double, 2> size, std::initializer_list<DishProfilePoi
 
 }  // namespace
 
-PlacedDish dinner_plate() {
+InnerSurface dinner_plate() {
   return dish({260.0, 260.0},
               {{0, 21.4}, {1.6, 22.0}, {4.5, 21.4}, {28, 15.5}, {36, 11.0}, {43, 6.6}, {49, 4.5}},
               {180.0, -90.0}, 0.0);
 }
 
-PlacedDish soup_bowl() {
+InnerSurface soup_bowl() {
   return dish({152.0, 152.0},
               {{0, 54.2},
                {1.5, 55.0},
@@ -292,7 +292,7 @@ PlacedDish soup_bowl() {
               {-120.0, 60.0}, 0.0);
 }
 
-PlacedDish oval_plate() {
+InnerSurface oval_plate() {
   return dish({300.0, 210.0},
               {{0, 23.4}, {1.6, 24.0}, {4.5, 23.5}, {19, 18.6}, {26, 12.4}, {32, 7.0}, {38, 4.0}},
               {150.0, 110.0}, 0.5);

@@ -25,7 +25,7 @@ struct Solid {
 };
 
 struct SolidScene {
-  PlacedDish dish;
+  InnerSurface dish;
   std::vector<Solid> solids;
   double max_height_mm = 80.0;  // of everything
 
@@ -71,10 +71,10 @@ Solid ball_columns(int label, const std::vector<Vec2>& centres, double radius, d
 Solid heap(int label, const Vec2& centre, const Vec2& radius, double base_mm, double height, double bump_mm,
            double wavelength_mm, std::uint32_t seed);
 Solid ellipsoid(int label, const Vec3& centre, const Vec3& semi_axes, double turn_rad);
-Solid liquid(int label, const PlacedDish& dish, double level_mm);
+Solid liquid(int label, const InnerSurface& dish, double level_mm);
 
-PlacedDish dinner_plate();
-PlacedDish soup_bowl();
-PlacedDish oval_plate();
+InnerSurface dinner_plate();
+InnerSurface soup_bowl();
+InnerSurface oval_plate();
 
 }  // namespace traygauge::testing

@@ -1,0 +1,130 @@
+#include "core/estimator/view_checks.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+namespace traygauge {
+namespace {
+
+// Edges that reach out of the card are not its print's, but their profiles may.
+ImageView<const std::uint8_t> around(ImageView<const std::uint8_t> picture, const PixelBox& box) {
+  constexpr int kMargin_px = 10;
+  const int left = std::max(box.left - kMargin_px, 0);
+  const int top = std::max(box.top - kMargin_px, 0);
+  const int right = std::min(box.right + kMargin_px, picture.width);
+  const int bottom = std::min(box.bottom + kMargin_px, picture.height);
+  return picture.sub(left, top, right - left, bottom - top);
+}
+
+bool is_blurred(const ViewQuality& quality, double limit_px, double limit_mm) {
+  return quality.has_card && quality.card_edges.is_measured && quality.card_edges.sigma_px > limit_px &&
+         quality.blur_mm() > limit_mm;
+}
+
+bool is_darker(const ViewQuality& quality, int white) {
+  return quality.has_card && quality.card_edges.bright < white;
+}
+
+bool is_covered(const ViewQuality& quality, double limit) {
+  return quality.has_card && quality.visible_card_share < limit;
+}
+
+double clipped_share(std::uint8_t label, const ViewQuality& first, const ViewQuality& second) {
+  return std::max(first.items[label].clipped_share(), second.items[label].clipped_share());
+}
+
+double textured_share(std::uint8_t label, const ViewQuality& first, const ViewQuality& second,
+                      int min_blocks) {
+  double share = 1.0;
+  for (const ViewQuality* view : {&first, &second}) {
+    const ItemPixels& item = view->items[label];
+    if (item.blocks >= static_cast<std::uint32_t>(std::max(min_blocks, 1))) {
+      share = std::min(share, item.textured_share());
+    }
+  }
+  return share;
+}
+
+}  // namespace
+
+void assess_view(const CheckedView& view, const CardSize& card, const ViewCheckParams& params,
+                 CardSilhouetteWorkspace& workspace, ViewQuality& quality) {
+  const PixelBox& box = view.regions->card;
+  quality.has_card = !box.empty();
+  quality.card_edges = {};
+  quality.card_silhouette = {};
+  quality.card_px_per_mm = quality.visible_card_share = 0.0;
+  if (quality.has_card) {
+    quality.card_edges =
+        measure_edge_blur(around(view.gray, box), around(view.labels, box), kCardLabel, params.edges);
+    quality.card_px_per_mm = std::sqrt(view.regions->pixels[kCardLabel] / (card.width_mm * card.height_mm));
+    quality.card_silhouette = measure_card_silhouette(view.labels, box, *view.lens, workspace);
+    quality.visible_card_share = quality.card_silhouette.visible_share(card.width_mm / card.height_mm);
+  }
+  measure_item_pixels(view.gray, view.labels, view.regions->dish, params.item_pixels, quality.items);
+  measure_region_colours(view.frame, view.labels, params.colours, quality.colours);
+}
+
+Status judge_view(const ViewQuality& quality, const ViewCheckParams& params) {
+  if (is_darker(quality, params.min_white)) return StatusCode::frame_too_dark;
+  if (is_covered(quality, params.min_visible_card)) return StatusCode::card_hidden;
+  if (is_blurred(quality, params.max_blur_px, params.max_blur_mm)) return StatusCode::too_blurred;
+  return StatusCode::ok;
+}
+
+Status judge_pair(const ColourDifference& difference, const ViewCheckParams& params) {
+  if (difference.exposure_ratio > params.max_exposure_ratio) return StatusCode::exposure_differs;
+  if (difference.white_balance_ratio > params.max_white_balance_ratio) {
+    return StatusCode::white_balance_differs;
+  }
+  return StatusCode::ok;
+}
+
+StatusCode judge_item_pixels(std::uint8_t label, const ViewQuality& first, const ViewQuality& second,
+                             const ViewCheckParams& params) {
+  if (clipped_share(label, first, second) > params.max_clipped) return StatusCode::item_clipped;
+  if (textured_share(label, first, second, params.min_texture_blocks) < params.min_textured) {
+    return StatusCode::item_textureless;
+  }
+  return StatusCode::ok;
+}
+
+void warn_about_pictures(const ViewQuality& first, const ViewQuality& second,
+                         const ColourDifference& difference, const ViewCheckParams& params,
+                         std::array<bool, kWarningCount>& warnings) {
+  PictureReport report;
+  report_pictures(first, second, difference, params, report);
+  const auto warn = [&](Warning warning, bool on) { warnings[static_cast<std::size_t>(warning)] = on; };
+  const auto either = [&](auto is_doubtful) { return is_doubtful(first) || is_doubtful(second); };
+  warn(Warning::blurred, either([&](const ViewQuality& view) {
+         return is_blurred(view, params.blur_warning_px, params.blur_warning_mm);
+       }));
+  warn(Warning::underexposed,
+       either([&](const ViewQuality& view) { return is_darker(view, params.underexposed_white); }));
+  warn(Warning::card_partly_hidden,
+       either([&](const ViewQuality& view) { return is_covered(view, params.visible_card_warning); }));
+  warn(Warning::food_clipped, report.most_clipped_share > params.clipped_warning);
+  warn(Warning::little_texture, report.least_textured_share < params.textured_warning);
+  warn(Warning::exposure_differs, difference.exposure_ratio > params.exposure_ratio_warning);
+  warn(Warning::white_balance_differs, difference.white_balance_ratio > params.white_balance_ratio_warning);
+}
+
+void report_pictures(const ViewQuality& first, const ViewQuality& second, const ColourDifference& difference,
+                     const ViewCheckParams& params, PictureReport& report) {
+  report.blur_px = {first.card_edges.sigma_px, second.card_edges.sigma_px};
+  report.visible_card_share = {first.visible_card_share, second.visible_card_share};
+  report.card_white = {first.card_edges.bright, second.card_edges.bright};
+  report.exposure_ratio = difference.exposure_ratio;
+  report.white_balance_ratio = difference.white_balance_ratio;
+  report.most_clipped_share = 0.0;
+  report.least_textured_share = 1.0;
+  for (int value = kFirstItemLabel; value <= kLastItemLabel; ++value) {
+    const auto label = static_cast<std::uint8_t>(value);
+    report.most_clipped_share = std::max(report.most_clipped_share, clipped_share(label, first, second));
+    report.least_textured_share = std::min(report.least_textured_share,
+                                           textured_share(label, first, second, params.min_texture_blocks));
+  }
+}
+
+}  // namespace traygauge

@@ -1,0 +1,117 @@
+// Are the pictures good enough to be measured? What each one shows by itself (blur, light, the card's
+// outline, the food's pixels) and how the two differ, as numbers, and what follows from them: ok, a warning,
+// a refusal.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "core/base/status.hpp"
+#include "core/estimator/measurement.hpp"
+#include "core/image/camera.hpp"
+#include "core/image/edge_blur.hpp"
+#include "core/image_view/image_view.hpp"
+#include "core/segmentation/card_silhouette.hpp"
+#include "core/segmentation/item_pixels.hpp"
+#include "core/segmentation/label_regions.hpp"
+#include "core/segmentation/region_colours.hpp"
+
+namespace traygauge {
+
+// Limits come from the rendered captures, spoilt step by step, and what the volumes of profile paper did
+// then; "good" is what 50 of their views have.
+struct ViewCheckParams {
+  EdgeBlurParams edges;
+  ItemPixelParams item_pixels;
+  RegionColourParams colours;
+
+  // Blur counts only where it exceeds a length in the picture and one on the table: a fine sensor may spread
+  // an edge over more pixels without losing what is measured. Good: 0.8 to 0.96 px, with 0.7 px of defocus
+  // 1.14; 0.27 to 0.64 mm. From 1.5 px in one view on volumes drift by 8 points; from 3 px on nothing was
+  // measured any more, or the card was not found.
+  double blur_warning_px = 1.5;
+  double blur_warning_mm = 0.45;
+  double max_blur_px = 3.0;  // more: too_blurred
+  double max_blur_mm = 0.9;
+
+  // The white of the card's print. Good: 130 to 220. At 60 the food spans 30 grey values, and volumes were
+  // off by 24 % where 110 gave 10 %.
+  int underexposed_white = 60;
+  int min_white = 25;  // less: frame_too_dark
+
+  // Of the card, by its outline. Good: 0.92 to 0.99. A half that is covered leaves 0.50 to 0.81, a fifth
+  // 0.82.
+  double visible_card_warning = 0.90;
+  double min_visible_card = 0.82;  // less: card_hidden
+
+  // Of an item's pixels, at either end of the grey values. Good: below 0.003.
+  double clipped_warning = 0.05;
+  double max_clipped = 0.50;  // more: item_clipped; the surface is then drawn from its edges
+
+  // Of an item's area. Good: 0.85 (a banana) to 1. Items painted in one colour have 0, and came out between
+  // −31 and −100 %; noise of 20 grey values leaves 0.65, where volumes drift by 7 points.
+  double textured_warning = 0.70;
+  double min_textured = 0.30;  // less: item_textureless
+  int min_texture_blocks = 4;  // 10 mm × 10 mm; smaller items are not judged
+
+  // Light of one view over the other. Good: up to 1.35. Up to 20 times volumes hold unless something clips;
+  // 8 times leaves the darker view 3 of 8 bits.
+  double exposure_ratio_warning = 2.0;
+  double max_exposure_ratio = 8.0;  // more: exposure_differs
+
+  // Red or blue over green, of one view over the other. Good: up to 1.09. Volumes hold up to 2.5, the most
+  // that was tried: beyond, the lamp was another.
+  double white_balance_ratio_warning = 1.3;
+  double max_white_balance_ratio = 2.5;  // more: white_balance_differs
+};
+
+// What one view shows. Numbers about the card hold where it is labelled.
+struct ViewQuality {
+  bool has_card = false;
+  EdgeBlur card_edges;
+  double card_px_per_mm = 0.0;
+  CardSilhouette card_silhouette;
+  double visible_card_share = 0.0;
+  ItemPixelTable items{};
+  RegionColours colours{};
+
+  double blur_mm() const { return card_px_per_mm > 0.0 ? card_edges.sigma_px / card_px_per_mm : 0.0; }
+};
+
+// The labels' picture, in every form in which the checks look at it.
+struct CheckedView {
+  FrameView frame;
+  ImageView<const std::uint8_t> gray;
+  ImageView<const std::uint8_t> labels;
+  const LabelRegions* regions = nullptr;
+  const LensModel* lens = nullptr;
+};
+
+struct CardSize {
+  double width_mm = 85.60;
+  double height_mm = 53.98;
+};
+
+void assess_view(const CheckedView& view, const CardSize& card, const ViewCheckParams& params,
+                 CardSilhouetteWorkspace& workspace, ViewQuality& quality);
+
+// too_blurred, card_hidden, frame_too_dark, or ok.
+Status judge_view(const ViewQuality& quality, const ViewCheckParams& params);
+
+// exposure_differs, white_balance_differs, or ok.
+Status judge_pair(const ColourDifference& difference, const ViewCheckParams& params);
+
+// item_clipped or item_textureless in either view, or ok.
+StatusCode judge_item_pixels(std::uint8_t label, const ViewQuality& first, const ViewQuality& second,
+                             const ViewCheckParams& params);
+
+// The doubts that these numbers raise; leaves the other warnings alone.
+void warn_about_pictures(const ViewQuality& first, const ViewQuality& second,
+                         const ColourDifference& difference, const ViewCheckParams& params,
+                         std::array<bool, kWarningCount>& warnings);
+
+// The figures of both views into the report.
+void report_pictures(const ViewQuality& first, const ViewQuality& second, const ColourDifference& difference,
+                     const ViewCheckParams& params, PictureReport& report);
+
+}  // namespace traygauge

@@ -1,0 +1,38 @@
+// What the pixels of every food item are good for: which carry texture that can be matched, and which are
+// clipped.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "core/image_view/image_view.hpp"
+#include "core/segmentation/label_regions.hpp"
+
+namespace traygauge {
+
+struct ItemPixelParams {
+  std::uint8_t crushed_level = 2;    // grey value up to which a pixel holds no information; sensor black
+  std::uint8_t clipped_level = 252;  // grey value from which all channels are at their end
+  // Standard deviation of means over 4 × 4 px, a linear shade apart: below, compression and quantisation
+  // alone make as much. Yoghurt has 1.1 to 1.8, a banana's skin 0.9 to 2, other food 4 to 15.
+  double min_texture = 1.0;
+  double min_texture_over_noise = 2.0;  // the same over what white noise of the block's level gives
+};
+
+struct ItemPixels {
+  std::uint32_t pixels = 0;
+  std::uint32_t clipped = 0;   // of those, at either end of the grey values
+  std::uint32_t blocks = 0;    // of 16 × 16 px wholly on the item
+  std::uint32_t textured = 0;  // of those
+
+  double clipped_share() const { return pixels == 0 ? 0.0 : static_cast<double>(clipped) / pixels; }
+  double textured_share() const { return blocks == 0 ? 1.0 : static_cast<double>(textured) / blocks; }
+};
+
+using ItemPixelTable = std::array<ItemPixels, kLastItemLabel + 1>;  // by label
+
+// Over the dish's box.
+void measure_item_pixels(ImageView<const std::uint8_t> gray, ImageView<const std::uint8_t> labels,
+                         const PixelBox& dish, const ItemPixelParams& params, ItemPixelTable& items);
+
+}  // namespace traygauge
