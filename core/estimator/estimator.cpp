@@ -23,7 +23,7 @@ Status start_view(EstimatorState& state, const ViewInput& input) {
     view.lens = lens;
     view.arm_angle_deg = input.arm_angle_deg;
     view.labels = input.labels;
-    return prepare_best_view(input.frame, state.configuration, state.best.pattern, state.best.card,
+    return prepare_best_view(input.frame, state.configuration, state.best.pattern, state.best.preparation,
                              state.preparation_clock, view);
   }
   PreparedView& view = state.view(state.views);
@@ -61,8 +61,9 @@ std::size_t required_bytes(const Configuration& configuration) {
   return estimator_state_bytes() + planned_bytes(configuration);
 }
 
-std::size_t required_bytes(const EstimatorLimits& limits) {
+std::size_t required_bytes(const EstimatorLimits& limits, Profile profile) {
   Configuration configuration;
+  configuration.profile = profile;
   configuration.limits = limits;
   return required_bytes(configuration);
 }

@@ -16,7 +16,7 @@ struct EstimatorState;
 // Bytes that an Estimator with this configuration takes from its block.
 std::size_t required_bytes(const Configuration& configuration);
 // The same with the default parameters of every stage.
-std::size_t required_bytes(const EstimatorLimits& limits);
+std::size_t required_bytes(const EstimatorLimits& limits, Profile profile);
 
 // One picture to measure. Pixels and labels belong to the caller and stay valid until estimate() returns.
 struct ViewInput {

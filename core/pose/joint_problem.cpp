@@ -47,7 +47,7 @@ double JointProblem::add_cards(const JointState& state, Equations& equations) co
       terms_.lie_raised_information * state.card.raised_mm;
   for (std::size_t view = 0; view < 2; ++view) {
     const Pose& camera = state.camera_from_table[view];
-    const CardAlignment& card = terms_.cards[view];
+    const CardPrior& card = terms_.cards[view];
     const Vec6 deviation = card_deviation(card, camera * table_from_card);
     Eigen::Matrix<double, 6, 9> jacobian;
     jacobian << deviation_by_camera(camera, table_from_card),

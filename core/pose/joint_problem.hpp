@@ -57,7 +57,7 @@ struct PlaceElimination {
 };
 
 struct JointTerms {
-  std::array<CardAlignment, 2> cards;
+  std::array<CardPrior, 2> cards;
   Vec3 card_pivot_mm = Vec3::Zero();
   double lie_tilt_information = 0.0;
   double lie_raised_information = 0.0;

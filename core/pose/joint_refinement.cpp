@@ -325,7 +325,7 @@ class JointRefinement {
   bool are_dishes_placed_ = false;
 };
 
-bool is_usable(const CardAlignment& card) {
+bool is_usable(const CardPrior& card) {
   return card.camera_from_table.rotation.allFinite() && card.camera_from_table.translation.allFinite() &&
          card.information.allFinite() && card.information.diagonal().minCoeff() > 0.0;
 }

@@ -6,22 +6,19 @@
 #include "simulator/capture/input_error.hpp"
 
 namespace traygauge {
-namespace {
+const char* name(Profile profile) {
+  return profile == Profile::paper ? "paper" : "best";
+}
 
-constexpr const char* kPaper = "paper";
-
-}  // namespace
-
-std::string choose_profile(const std::string& typed) {
-  if (typed == "best") {
-    throw UsageError("--profile best is not part of this version; use --profile paper, which is the default");
+Profile choose_profile(const std::string& typed) {
+  if (typed.empty() || typed == name(Profile::best)) return Profile::best;
+  if (typed != name(Profile::paper)) {
+    throw UsageError("--profile: expected best or paper, found " + printable(typed));
   }
-  if (!typed.empty() && typed != kPaper)
-    throw UsageError("--profile: expected paper, found " + printable(typed));
   if (!has_surf()) {
     throw UsageError(std::string("--profile paper: ") + sentence(StatusCode::surf_not_built));
   }
-  return kPaper;
+  return Profile::paper;
 }
 
 }  // namespace traygauge

@@ -3,9 +3,13 @@
 
 #include <string>
 
+#include "core/estimator/configuration.hpp"
+
 namespace traygauge {
 
-// The profile that is meant; `typed` may be empty: the default. UsageError unless this program has it.
-std::string choose_profile(const std::string& typed);
+const char* name(Profile profile);
+
+// The profile that is meant; `typed` may be empty: best. UsageError unless this program has it.
+Profile choose_profile(const std::string& typed);
 
 }  // namespace traygauge

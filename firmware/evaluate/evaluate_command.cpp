@@ -74,7 +74,7 @@ void add_evaluate_command(CLI::App& app, EvaluateOptions& options) {
   command->add_option("--runs", options.runs, "Seeds a pair, default 8")->check(CLI::Range(1, kMaxRuns));
   command->add_option("--jobs", options.jobs, "Pairs measured at the same time, default 1")
       ->check(CLI::Range(1, kMaxJobs));
-  command->add_option("--profile", options.profile, "paper (default)");
+  command->add_option("--profile", options.profile, "best (default) or paper");
   command->add_option("--labels", options.labels, "given (default)");
   command->add_option("--out", options.out, "Folder for CSV files, plots (SVG) and summary.json");
   command->add_flag("--json", options.json, "Print summary.json instead of tables");
@@ -85,12 +85,12 @@ void add_evaluate_command(CLI::App& app, EvaluateOptions& options) {
 }
 
 int run_evaluate(const EvaluateOptions& options, std::ostream& out, std::ostream& error) {
-  choose_profile(options.profile);
   check_label_source(options.labels);
   ProtocolOptions protocol;
   protocol.runs = options.runs;
   protocol.jobs = options.jobs;
-  protocol.profile = abilities_of(options.profile);
+  protocol.parameters.profile = choose_profile(options.profile);
+  protocol.profile = abilities_of(protocol.parameters.profile);
   for (const std::string& setting : options.settings) set_parameter(protocol.parameters, setting);
   if (options.list_parameters) {
     for (const std::string& line : list_parameters(protocol.parameters)) out << line << "\n";

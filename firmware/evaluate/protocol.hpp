@@ -21,7 +21,7 @@ struct ProtocolOptions {
   int runs = 8;              // seeds 1 … runs (paper: 8)
   int jobs = 1;              // captures' pairs measured at the same time
   Configuration parameters;  // of the stages; camera, card and dish come from the captures
-  ProfileAbilities profile = kProfileAbilities.front();
+  ProfileAbilities profile = abilities_of(Profile::best);
   std::string config;  // folder with dishes/, for captures that name no dish; empty: the usual one
 };
 

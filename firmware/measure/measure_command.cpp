@@ -52,7 +52,7 @@ MeasureReport compose_report(const MeasureOptions& options, const CaptureSession
   MeasureReport report;
   report.capture = options.capture;
   report.pair = pair;
-  report.profile = choose_profile(options.profile);
+  report.profile = name(choose_profile(options.profile));
   report.seed = seed;
   report.message = compose_message(measurement);
   report.measurement = &measurement;
@@ -84,7 +84,7 @@ void add_measure_command(CLI::App& app, MeasureOptions& options) {
   command->add_option("capture", options.capture, "Folder with capture.json")->required();
   command->add_option("--pair", options.pair, "The two views A,B; default: the first of the capture's pairs");
   command->add_option("--labels", options.labels, "Where dish and food are outlined: given (label pictures)");
-  command->add_option("--profile", options.profile, "paper (default): every stage as the paper describes it");
+  command->add_option("--profile", options.profile, "best (default), or paper: every stage as the paper describes it");
   command->add_option("--seed", options.seed, "Seed of all randomness, default 0");
   command->add_option("--config", options.config, "Folder with dishes/, for captures that name no dish")
       ->envname("TRAYGAUGE_CONFIG");
@@ -128,7 +128,8 @@ std::uint64_t parse_seed(const std::string& typed) {
 }
 
 int run_measure(const MeasureOptions& options, std::ostream& out, std::ostream& error) {
-  choose_profile(options.profile);
+  Configuration parameters;
+  parameters.profile = choose_profile(options.profile);
   check_label_source(options.labels);
   const std::uint64_t seed = parse_seed(options.seed);
   check_output(options.picture);
@@ -136,8 +137,8 @@ int run_measure(const MeasureOptions& options, std::ostream& out, std::ostream& 
   const Capture capture = read_capture(options.capture);
   const std::array<int, 2> pair = choose_pair(options.pair, capture);
   require_labels(capture, pair);
-  require_one_dish(capture);
-  CaptureSession session(capture, pair, choose_dishes(capture, options.config));
+  if (parameters.profile == Profile::paper) require_one_dish(capture);
+  CaptureSession session(capture, pair, choose_dishes(capture, options.config), parameters);
   const Measurement& measurement = session.measure(seed);
   const MeasureReport report = compose_report(options, session, pair, seed, measurement);
   write_files(options, session, report, error);

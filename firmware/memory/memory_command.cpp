@@ -8,6 +8,7 @@
 #include "core/estimator/memory_report.hpp"
 #include "firmware/base/exit_status.hpp"
 #include "firmware/base/text.hpp"
+#include "firmware/config/profile.hpp"
 #include "simulator/capture/picture.hpp"
 
 namespace traygauge {
@@ -30,6 +31,7 @@ void add_memory_command(CLI::App& app, MemoryOptions& options) {
   command->add_option("--width", options.width, "Width of the frames in pixels, default 1600")->check(side);
   command->add_option("--height", options.height, "Height of the frames in pixels, default 1200")
       ->check(side);
+  command->add_option("--profile", options.profile, "best (default) or paper");
 }
 
 int run_memory(const MemoryOptions& options, std::ostream& out) {
@@ -37,6 +39,7 @@ int run_memory(const MemoryOptions& options, std::ostream& out) {
   limits.max_frame_width = options.width;
   limits.max_frame_height = options.height;
   Configuration configuration;
+  configuration.profile = choose_profile(options.profile);
   configuration.limits = limits;
   out << "Frames of " << options.width << " x " << options.height << " pixels\n\n";
   out << pad_right("part", kNameWidth) << pad_left("bytes", 12) << pad_left("MiB", 10) << "\n";

@@ -3,12 +3,14 @@
 
 #include <CLI/CLI.hpp>
 #include <iosfwd>
+#include <string>
 
 namespace traygauge {
 
 struct MemoryOptions {
   int width = 1600;
   int height = 1200;
+  std::string profile;  // empty: the default
 };
 
 void add_memory_command(CLI::App& app, MemoryOptions& options);

@@ -2,8 +2,13 @@
 
 namespace traygauge {
 
-EstimatorMeasurer::EstimatorMeasurer(Scene& scene, const EstimatorLimits& limits, std::uint64_t seed)
-    : scene_(scene), limits_(limits), seed_(seed), block_(required_bytes(limits)) {}
+EstimatorMeasurer::EstimatorMeasurer(Scene& scene, const EstimatorLimits& limits, Profile profile,
+                                     std::uint64_t seed)
+    : scene_(scene),
+      limits_(limits),
+      profile_(profile),
+      seed_(seed),
+      block_(required_bytes(limits, profile)) {}
 
 // The card's pattern is learned again only when the configuration is another one.
 void EstimatorMeasurer::begin_scan() {
@@ -21,6 +26,7 @@ void EstimatorMeasurer::begin_scan() {
 void EstimatorMeasurer::configure(const Configuration& configuration) {
   Configuration own = configuration;
   own.limits = limits_;
+  own.profile = profile_;
   estimator_.emplace(block_.bytes(), own);
 }
 

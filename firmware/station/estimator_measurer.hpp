@@ -27,10 +27,10 @@ class Scene {
   virtual std::string_view tray_name() const = 0;
 };
 
-// Takes its memory once, for `limits`; nothing is allocated during a scan.
+// Takes its memory once, for `limits` and `profile`; nothing is allocated during a scan.
 class EstimatorMeasurer final : public Measurer {
  public:
-  EstimatorMeasurer(Scene& scene, const EstimatorLimits& limits, std::uint64_t seed);
+  EstimatorMeasurer(Scene& scene, const EstimatorLimits& limits, Profile profile, std::uint64_t seed);
 
   void begin_scan() override;
   Status add_view(const StationView& view) override;
@@ -43,6 +43,7 @@ class EstimatorMeasurer final : public Measurer {
 
   Scene& scene_;
   EstimatorLimits limits_;
+  Profile profile_;
   std::uint64_t seed_;
   AlignedBlock block_;
   const Configuration* configured_with_ = nullptr;

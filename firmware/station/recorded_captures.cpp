@@ -7,11 +7,11 @@
 
 namespace traygauge {
 
-RecordedCaptures::RecordedCaptures(const std::vector<std::filesystem::path>& folders) {
-  for (const auto& folder : folders) add(folder);
+RecordedCaptures::RecordedCaptures(const std::vector<std::filesystem::path>& folders, Profile profile) {
+  for (const auto& folder : folders) add(folder, profile);
 }
 
-void RecordedCaptures::add(const std::filesystem::path& folder) {
+void RecordedCaptures::add(const std::filesystem::path& folder, Profile profile) {
   const Capture capture = read_capture(folder);
   auto recording = std::make_unique<Recording>();
   recording->name = capture.file.parent_path().filename().string();
@@ -21,9 +21,11 @@ void RecordedCaptures::add(const std::filesystem::path& folder) {
     largest_.width = std::max(largest_.width, recording->views[i].camera.size.width);
     largest_.height = std::max(largest_.height, recording->views[i].camera.size.height);
   }
-  require_one_dish(capture);
+  if (profile == Profile::paper) require_one_dish(capture);
   recording->setup = set_up_pair(capture, pair, choose_dishes(capture, ""));
-  recording->configuration = configure(recording->setup);
+  Configuration parameters;
+  parameters.profile = profile;
+  recording->configuration = configure(recording->setup, parameters);
   recordings_.push_back(std::move(recording));
 }
 
@@ -49,8 +51,8 @@ EstimatorLimits RecordedCaptures::limits() const {
 }
 
 std::unique_ptr<MeasurableCaptures> open_recorded_captures(
-    const std::vector<std::filesystem::path>& folders) {
-  return std::make_unique<RecordedCaptures>(folders);
+    const std::vector<std::filesystem::path>& folders, Profile profile) {
+  return std::make_unique<RecordedCaptures>(folders, profile);
 }
 
 }  // namespace traygauge

@@ -17,7 +17,7 @@ class RecordedCaptures final : public MeasurableCaptures {
  public:
   // Reads every capture.json and card pattern; throws InputError. Captures without a dish take those of the
   // usual config folder.
-  explicit RecordedCaptures(const std::vector<std::filesystem::path>& folders);
+  RecordedCaptures(const std::vector<std::filesystem::path>& folders, Profile profile);
 
   std::size_t capture_count() const override { return recordings_.size(); }
   CameraFormat largest_frame() const override { return largest_; }
@@ -39,7 +39,7 @@ class RecordedCaptures final : public MeasurableCaptures {
     PairSetup setup;
     Configuration configuration;  // refers to the setup
   };
-  void add(const std::filesystem::path& folder);
+  void add(const std::filesystem::path& folder, Profile profile);
 
   std::vector<std::unique_ptr<Recording>> recordings_;
   CameraFormat largest_{0, 0, PixelFormat::bgr8};
@@ -50,6 +50,7 @@ class RecordedCaptures final : public MeasurableCaptures {
 };
 
 // A RecordedCaptures, for run_station.
-std::unique_ptr<MeasurableCaptures> open_recorded_captures(const std::vector<std::filesystem::path>& folders);
+std::unique_ptr<MeasurableCaptures> open_recorded_captures(const std::vector<std::filesystem::path>& folders,
+                                                           Profile profile);
 
 }  // namespace traygauge

@@ -26,7 +26,7 @@ std::uint64_t press_count(const StationCommand& command, const CaptureSource& ca
   return command.by_hand ? 2 * scans : scans;
 }
 
-int play(const StationCommand& command, MeasurableCaptures& captures, const std::atomic<bool>& stop,
+int play(const StationCommand& command, Profile profile, MeasurableCaptures& captures, const std::atomic<bool>& stop,
          std::ostream& out, std::ostream& log) {
   SimulatedClock clock;
   TrayPlayer player(captures, command.by_hand ? CameraMover::hand : CameraMover::arm);
@@ -37,7 +37,7 @@ int play(const StationCommand& command, MeasurableCaptures& captures, const std:
   trigger.before_press([&player] { player.handle_press(); });
 
   PlayedScene scene(captures, player);
-  EstimatorMeasurer measurer(scene, captures.limits(), command.seed);
+  EstimatorMeasurer measurer(scene, captures.limits(), profile, command.seed);
   ScanPrinter printer(out, log, command.json ? ScanPrinter::Format::json : ScanPrinter::Format::text);
   StationParams params;
   params.second_view_deg = command.second_view_deg;
@@ -70,14 +70,14 @@ CLI::App* add_station_command(CLI::App& app, StationCommand& command) {
                     "Without an arm: move the camera and press again for the second view");
   station->add_option("--second-view", command.second_view_deg, "Where the arm goes, degrees from home")
       ->capture_default_str();
-  station->add_option("--profile", command.profile, "paper (default): every stage as the paper describes it");
+  station->add_option("--profile", command.profile, "best (default), or paper: every stage as the paper describes it");
   station->add_option("--seed", command.seed, "Seed of the random samples")->capture_default_str();
   return station;
 }
 
 int run_station(const StationCommand& command, const OpenCaptures& open_captures,
                 const std::atomic<bool>& stop, std::ostream& out, std::ostream& log) {
-  choose_profile(command.profile);
+  const Profile profile = choose_profile(command.profile);
   if (!command.devices.starts_with(kSimulatorPrefix)) {
     throw UsageError("--devices: expected simulator:FOLDER, found " + printable(command.devices));
   }
@@ -87,8 +87,8 @@ int run_station(const StationCommand& command, const OpenCaptures& open_captures
     throw InputError({folder, ""}, "capture.json here, or captures in the folders below", "neither",
                      "name a capture, or a folder of captures");
   }
-  const auto captures = open_captures(folders);
-  return play(command, *captures, stop, out, log);
+  const auto captures = open_captures(folders, profile);
+  return play(command, profile, *captures, stop, out, log);
 }
 
 }  // namespace traygauge

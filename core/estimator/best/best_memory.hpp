@@ -16,7 +16,7 @@ namespace traygauge {
 struct BestMemory {
   CardPattern pattern;
   std::array<BestView, 2> views;
-  CardAlignmentWorkspace card;
+  BestViewWorkspace preparation;
   SceneGeometryWorkspace geometry;
   SceneGeometry scene;
   DishMeasurementWorkspace dish;
@@ -27,7 +27,7 @@ struct BestMemory {
     for (BestView& view : views) view.allocate(arena, configuration.limits);
     dish.allocate_kept(arena, configuration);
     const std::size_t shared = arena.mark();
-    card.allocate(arena, configuration.best.card);
+    preparation.allocate(arena, configuration);
     arena.rewind(shared);
     // The tracks are still read while dishes are measured.
     geometry.allocate(arena, configuration);

@@ -9,6 +9,8 @@
 #include "core/surface/height_map.hpp"
 #include "core/surface/two_view_surface.hpp"
 #include "core/volume/height_volume.hpp"
+#include "core/volume/level_liquid.hpp"
+#include "core/volume/overhang.hpp"
 
 namespace traygauge {
 
@@ -31,7 +33,9 @@ struct BestParams {
   JointParams joint;
   TwoViewSurfaceParams surface;
   HeightMapParams height_map;
+  LevelLiquidParams liquid;
   HeightVolumeParams volume;
+  OverhangParams overhang;
   UncertaintyParams uncertainty;
   BestPipelineParams pipeline;
 };

@@ -7,7 +7,7 @@
 namespace traygauge {
 
 Status prepare_best_view(const FrameView& frame, const Configuration& configuration,
-                         const CardPattern& pattern, CardAlignmentWorkspace& workspace, StageClock& clock,
+                         const CardPattern& pattern, BestViewWorkspace& workspace, StageClock& clock,
                          BestView& view) {
   clock.enter(Stage::image);
   if (const Status status = check_sizes(frame, view.labels, view.lens, configuration.limits); !status.ok()) {
@@ -19,11 +19,15 @@ Status prepare_best_view(const FrameView& frame, const Configuration& configurat
   const ImageView<std::uint8_t> gray{view.gray_storage.data, frame.width, frame.height};
   convert_to_gray(frame, gray);
   if (const Status status = check_exposure(gray, configuration.exposure); !status.ok()) return status;
+  const CheckedView checked{frame, gray, view.labels, &view.regions, &view.lens};
+  assess_view(checked, {configuration.card.width_mm, configuration.card.height_mm}, configuration.view_checks,
+              workspace.silhouette, view.quality_storage.front());
+  if (const Status status = judge_view(view.quality(), configuration.view_checks); !status.ok()) return status;
   view.gray = build_pyramid(gray, view.pyramid);
 
   clock.enter(Stage::scale);
   return align_card(gray, view.labels, view.regions.card, view.lens, pattern, configuration.best.card,
-                    workspace, view.card);
+                    workspace.card, view.card);
 }
 
 }  // namespace traygauge

@@ -10,6 +10,7 @@
 #include "core/base/status.hpp"
 #include "core/estimator/configuration.hpp"
 #include "core/estimator/stage_clock.hpp"
+#include "core/estimator/view_checks.hpp"
 #include "core/image/camera.hpp"
 #include "core/image/gray_pyramid.hpp"
 #include "core/image_view/image_view.hpp"
@@ -27,19 +28,35 @@ struct BestView {
   GrayPyramid gray;
   ImageView<std::uint8_t> gray_storage;  // memory for the largest frame
   PyramidWorkspace pyramid;
+  std::span<ViewQuality> quality_storage;  // one
+
+  const ViewQuality& quality() const { return quality_storage.front(); }
 
   template <class Allocator>
   constexpr void allocate(Allocator& arena, const EstimatorLimits& limits) {
     gray_storage = arena.template take_image<std::uint8_t>(limits.max_frame_width, limits.max_frame_height);
     pyramid.allocate(arena, limits.max_frame_width, limits.max_frame_height);
+    quality_storage = arena.template take<ViewQuality>(1);
   }
 };
 
 using ViewPair = std::array<const BestView*, 2>;
 
+// Scratch that is free again once the view is prepared.
+struct BestViewWorkspace {
+  CardSilhouetteWorkspace silhouette;
+  CardAlignmentWorkspace card;
+
+  template <class Allocator>
+  constexpr void allocate(Allocator& arena, const Configuration& configuration) {
+    silhouette.allocate(arena, configuration.limits.max_frame_height);
+    card.allocate(arena, configuration.best.card);
+  }
+};
+
 // Checks sizes, labels and exposure, makes the grey pyramid, and finds the card. `view` has its lens and labels.
 Status prepare_best_view(const FrameView& frame, const Configuration& configuration,
-                         const CardPattern& pattern, CardAlignmentWorkspace& workspace, StageClock& clock,
+                         const CardPattern& pattern, BestViewWorkspace& workspace, StageClock& clock,
                          BestView& view);
 
 }  // namespace traygauge

@@ -74,13 +74,17 @@ double height_per_sample_mm(const SceneGeometry& geometry, const DishPlace& plac
 
 // Status of one item, once its dish was measured.
 StatusCode judge_item(const ViewPair& views, std::uint8_t label, const HeightVolume& volume,
-                      const VolumeExtractionParams& params) {
+                      const Configuration& configuration) {
+  const VolumeExtractionParams& params = configuration.extraction;
   const std::uint32_t first_px = views[0]->regions.pixels[label];
   const std::uint32_t second_px = views[1]->regions.pixels[label];
   if (first_px == 0 || second_px == 0) return StatusCode::item_hidden;
   if (std::min(first_px, second_px) < static_cast<std::uint32_t>(params.min_item_px)) {
     return StatusCode::item_too_small;
   }
+  const StatusCode pixels =
+      judge_item_pixels(label, views[0]->quality(), views[1]->quality(), configuration.view_checks);
+  if (pixels != StatusCode::ok) return pixels;
   if (!(volume.area_mm2 > 0.0)) return StatusCode::too_little_depth;
   return volume.volume_ml > 0.0 ? StatusCode::ok : StatusCode::item_below_dish;
 }
@@ -159,8 +163,10 @@ void measure_dish(const ViewPair& views, const SceneGeometry& geometry, std::siz
   workspace.surfaces.push_back({dish.label, map, inner});
 
   clock.enter(Stage::volume);
+  level_liquid(inner, best.liquid, workspace.liquid, map);
   status = integrate_height_map(map, inner, best.volume, workspace.volume);
   if (!status.ok()) return refuse(status);
+  close_overhangs(grids, map, inner, best.overhang, workspace.volume.items);
   const double height_per_px_mm =
       height_per_sample_mm(geometry, placed.placed.place, bottom_mm, dense.column_step_mm);
   for_each_item(views, dish, [&](std::uint8_t label) {
@@ -168,7 +174,7 @@ void measure_dish(const ViewPair& views, const SceneGeometry& geometry, std::siz
     ItemResult item;
     item.label = label;
     item.dish = dish.label;
-    item.status = judge_item(views, label, volume, configuration.extraction);
+    item.status = judge_item(views, label, volume, configuration);
     item.volume_ml = volume.volume_ml;
     item.column_volume_ml = volume.column_volume_ml;
     item.area_mm2 = volume.area_mm2;

@@ -17,6 +17,7 @@ namespace traygauge {
 struct DishMeasurementWorkspace {
   TwoViewSurfaceWorkspace surface;
   HeightMapWorkspace height_map;
+  LevelLiquidWorkspace liquid;
   HeightVolumeWorkspace volume;
   std::span<HeightCell> cells;  // of the height maps of all dishes
   BoundedList<MeasuredSurface> surfaces;
@@ -32,6 +33,7 @@ struct DishMeasurementWorkspace {
   constexpr void allocate(Allocator& arena, const Configuration& configuration) {
     surface.allocate(arena, configuration.best.surface);
     height_map.allocate(arena, configuration.best.pipeline.max_height_cells);
+    liquid.allocate(arena);
     volume.allocate(arena);
   }
 };
