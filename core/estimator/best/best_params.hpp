@@ -5,6 +5,7 @@
 #include "core/matching/point_tracking.hpp"
 #include "core/pose/joint_refinement.hpp"
 #include "core/scale/card_alignment.hpp"
+#include "core/segmentation/dish_membership.hpp"
 #include "core/surface/dish_outline.hpp"
 #include "core/surface/height_map.hpp"
 #include "core/surface/two_view_surface.hpp"
@@ -29,6 +30,7 @@ struct BestPipelineParams {
 struct BestParams {
   CardAlignmentParams card;
   PointTrackingParams tracking;
+  DishMembershipParams membership;
   DishOutlineParams outline;
   JointParams joint;
   TwoViewSurfaceParams surface;

@@ -90,7 +90,7 @@ void run_best(BestMemory& memory, const Configuration& configuration, std::uint6
   geometry = {};
   measurement.status = compare_pictures(memory, configuration, measurement);
   if (!measurement.status.ok()) return;
-  measurement.status = list_dishes(views, configuration, geometry);
+  measurement.status = list_dishes(views, configuration, memory.geometry, geometry);
   if (!measurement.status.ok()) return;
   measurement.status =
       find_geometry(views, configuration, random, memory.geometry, clock, measurement.report, geometry);

@@ -51,7 +51,7 @@ JointInput join(const ViewPair& views, const ReferenceCard& card,
 }  // namespace
 
 Status list_dishes(const ViewPair& views, const Configuration& configuration,
-                   SceneGeometry& geometry) {
+                   SceneGeometryWorkspace& workspace, SceneGeometry& geometry) {
   geometry.dish_count = 0;
   for (int value = kDishLabel; value <= kLastFurtherDishLabel; ++value) {
     const auto label = static_cast<std::uint8_t>(value);
@@ -63,9 +63,18 @@ Status list_dishes(const ViewPair& views, const Configuration& configuration,
     if (dish.candidates.empty()) return StatusCode::dish_unknown;
   }
   if (geometry.dish_count == 0) return StatusCode::no_dish_label;
+  const std::array<ImageView<const std::uint8_t>, 2> labels = {views[0]->labels, views[1]->labels};
+  const DishOfItem owners =
+      geometry.dish_count > 1
+          ? find_dishes_of_items(labels, configuration.best.membership, workspace.membership)
+          : DishOfItem{};
   for (int value = kFirstItemLabel; value <= kLastItemLabel; ++value) {
     const auto label = static_cast<std::uint8_t>(value);
-    if (is_seen(views, label)) geometry.dishes[0].labels.add(label);
+    if (!is_seen(views, label)) continue;
+    for (std::size_t d = 0; d < geometry.dish_count; ++d) {
+      DishOnTray& dish = geometry.dishes[d];
+      if (dish.label == owners[label] || geometry.dish_count == 1) dish.labels.add(label);
+    }
   }
   return StatusCode::ok;
 }

@@ -30,6 +30,7 @@ struct SceneGeometry {
 
 struct SceneGeometryWorkspace {
   PointTrackingWorkspace tracking;
+  DishMembershipWorkspace membership;
   DishOutlineWorkspace outline;
   std::array<std::array<BoundedList<Vec2>, 2>, kMaxPlacedDishes> outlines;  // of every dish in both views
   JointWorkspace joint;
@@ -39,6 +40,7 @@ struct SceneGeometryWorkspace {
     const BestParams& best = configuration.best;
     const EstimatorLimits& limits = configuration.limits;
     tracking.allocate(arena, limits.max_frame_width, limits.max_frame_height, best.tracking);
+    membership.allocate(arena);
     outline.allocate(arena, best.pipeline.max_contour_sides);
     for (auto& views : outlines) {
       for (BoundedList<Vec2>& rays : views) {
@@ -53,7 +55,7 @@ struct SceneGeometryWorkspace {
 // Lists the dishes that either view shows, with what lies on them. no_dish_label without any; dish_unknown when
 // one of them has no description.
 Status list_dishes(const ViewPair& views, const Configuration& configuration,
-                   SceneGeometry& geometry);
+                   SceneGeometryWorkspace& workspace, SceneGeometry& geometry);
 
 // Fills the rest of `geometry` and the sparse part of the report.
 Status find_geometry(const ViewPair& views, const Configuration& configuration, Random& random,
