@@ -29,6 +29,33 @@ bool is_taken(const CardTile& tile, CardSampling sampling) {
   return sampling != CardSampling::sixteenth || ((tile.x + 2 * tile.y) / kCardTileSide) % 4 == 0;
 }
 
+// The tile's pixels that lie inside the label by `inset` pixels along rows and columns.
+std::uint64_t inner_pixels(ImageView<const std::uint8_t> labels, int left, int top, int inset) {
+  const auto is_card = [&](int x, int y) { return labels.contains(x, y) && labels.at(x, y) == kCardLabel; };
+  std::uint64_t bits = 0;
+  for (int bit = 0; bit < kCardTileSide * kCardTileSide; ++bit) {
+    const int x = left + bit % kCardTileSide;
+    const int y = top + bit / kCardTileSide;
+    const bool is_inner = is_card(x, y) && is_card(x - inset, y) && is_card(x + inset, y) &&
+                          is_card(x, y - inset) && is_card(x, y + inset);
+    if (is_inner) bits |= std::uint64_t{1} << bit;
+  }
+  return bits;
+}
+
+bool undistort_tile(const LensModel& lens, CardTile& tile) {
+  constexpr double kHalf = 0.5 * (kCardTileSide - 1);
+  const Vec2 centre(tile.x + kHalf, tile.y + kHalf);
+  Vec2 along_x;
+  Vec2 along_y;
+  if (!lens.undistort_pixel(centre, tile.ray) || !lens.undistort_pixel(centre + Vec2::UnitX(), along_x) ||
+      !lens.undistort_pixel(centre + Vec2::UnitY(), along_y)) {
+    return false;
+  }
+  tile.ray_by_pixel << along_x - tile.ray, along_y - tile.ray;
+  return true;
+}
+
 // Calls use(tile, place, bits) for every tile with samples.
 template <class Use>
 void for_each_tile(std::span<const CardTile> tiles, const PrintPlane& plane, CardSampling sampling, Use use) {
@@ -140,43 +167,28 @@ Status CardPicture::load(ImageView<const std::uint8_t> gray, ImageView<const std
                          const PixelBox& box, const LensModel& lens, const CardPictureParams& params) {
   gray_ = gray;
   tiles_ = {};
-  labelled_ = used_ = 0;
-  const int e = params.erosion_px;
-  const int left = std::max(box.left, e);
-  const int top = std::max(box.top, e);
-  const int right = std::min(box.right, labels.width - e);
-  const int bottom = std::min(box.bottom, labels.height - e);
-  const int columns = std::max(0, (right - left) / kCardTileSide);
-  const int rows = std::max(0, (bottom - top) / kCardTileSide);
-  const auto is_card = [&](int x, int y) { return labels.at(x, y) == kCardLabel; };
-  // Half a box is card at the least when it lies askew, so this keeps all tiles of usual cards.
+  used_ = 0;
+  labelled_ = 0;
+  for (int y = box.top; y < box.bottom; ++y) {
+    const std::uint8_t* row = labels.row(y);
+    labelled_ += static_cast<int>(std::count(row + box.left, row + box.right, kCardLabel));
+  }
+  const int columns = (box.width() + kCardTileSide - 1) / kCardTileSide;
+  const int rows = (box.height() + kCardTileSide - 1) / kCardTileSide;
+  // A card that lies askew fills half its box at the least.
   const int every = 1 + columns * rows / (2 * std::max(1, static_cast<int>(storage_.size())));
   std::size_t count = 0;
   for (int i = 0; i < columns * rows && count < storage_.size(); i += every) {
-    CardTile tile;
-    tile.x = left + i % columns * kCardTileSide;
-    tile.y = top + i / columns * kCardTileSide;
-    for (int bit = 0; bit < 64; ++bit) {
-      const int x = tile.x + bit % 8;
-      const int y = tile.y + bit / 8;
-      if (is_card(x, y) && is_card(x - e, y) && is_card(x + e, y) && is_card(x, y - e) && is_card(x, y + e)) {
-        tile.labelled |= std::uint64_t{1} << bit;
-      }
-    }
-    const Vec2 centre(tile.x + 0.5 * (kCardTileSide - 1), tile.y + 0.5 * (kCardTileSide - 1));
-    Vec2 along_x;
-    Vec2 along_y;
-    if (tile.labelled == 0 || !lens.undistort_pixel(centre, tile.ray) ||
-        !lens.undistort_pixel(centre + Vec2::UnitX(), along_x) ||
-        !lens.undistort_pixel(centre + Vec2::UnitY(), along_y)) {
-      continue;
-    }
-    tile.ray_by_pixel << along_x - tile.ray, along_y - tile.ray;
-    labelled_ += std::popcount(tile.labelled);
-    storage_[count++] = tile;
+    CardTile& tile = storage_[count];
+    tile.x = box.left + i % columns * kCardTileSide;
+    tile.y = box.top + i / columns * kCardTileSide;
+    const bool is_whole = tile.x + kCardTileSide <= labels.width && tile.y + kCardTileSide <= labels.height;
+    if (!is_whole) continue;
+    tile.labelled = inner_pixels(labels, tile.x, tile.y, params.erosion_px);
+    if (tile.labelled != 0 && undistort_tile(lens, tile)) ++count;
   }
   tiles_ = storage_.first(count);
-  return labelled_ > 0 ? StatusCode::ok : StatusCode::card_not_found;
+  return count > 0 ? StatusCode::ok : StatusCode::card_not_found;
 }
 
 void CardPicture::select(const Pose& camera_from_table, const CardModelSize& size, double margin_mm) {

@@ -87,6 +87,7 @@ class CardPicture {
                               const CardPatternLevel& level, const CardTone& tone, double cutoff_gray,
                               CardSampling sampling) const;
 
+  // All pixels with the label, in the box.
   int labelled_pixels() const { return labelled_; }
   int used_pixels() const { return used_; }
 
