@@ -66,7 +66,8 @@ class Search {
     const CardPatternLevel& level = refinement_.level_for(pose, blur_px);
     refinement_.select(pose, level);
     const bool is_kept = refinement_.refine(level, sampling, iterations, candidate.state);
-    candidate.correlation = is_kept ? refinement_.correlate(pose, level, sampling).correlation : -1.0;
+    candidate.correlation =
+        is_kept ? refinement_.correlate_inliers(candidate.state, level, sampling).correlation : -1.0;
   }
 
   // Which of the finer blurs the picture has.
@@ -148,7 +149,10 @@ Status align_card(ImageView<const std::uint8_t> gray, ImageView<const std::uint8
     return StatusCode::card_not_found;
   }
   alignment.camera_from_table = pose;
-  alignment.correlation = refinement.correlate(pose, level, CardSampling::quarter).correlation;
+  const CardCorrelation correlation =
+      refinement.correlate_inliers(candidate.state, level, CardSampling::quarter);
+  alignment.correlation = correlation.correlation;
+  alignment.inlier_share = static_cast<double>(correlation.inliers) / std::max(1, correlation.samples);
   alignment.visible_share = picture.labelled_pixels() / refinement.projected_px2(pose);
   alignment.rms_gray = candidate.state.spread_gray;
   alignment.gain = candidate.state.tone[0];

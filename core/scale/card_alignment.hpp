@@ -42,7 +42,8 @@ struct CardAlignmentParams {
 struct CardAlignment {
   Pose camera_from_table;                                 // mm
   PoseInformation information = PoseInformation::Zero();  // of a step as in `moved`, 1 / (rad, mm)²
-  double correlation = 0.0;    // of print and picture, over the card's visible pixels
+  double correlation = 0.0;                               // of print and picture, over the inliers
+  double inlier_share = 0.0;                              // of the visible card: what no fork or glare hides
   double visible_share = 0.0;  // of the card: labelled pixels over those of the whole
   double rms_gray = 0.0;       // robust standard deviation of the residuals
   double gain = 0.0;           // of the picture's grey values over the print's

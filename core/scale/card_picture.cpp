@@ -78,6 +78,27 @@ void for_each_lanes(std::uint64_t bits, Use use) {
   }
 }
 
+// The tone at a tile, taken as constant there.
+class TileTone {
+ public:
+  TileTone(const CardTone& tone, const Vec2& normalised) : linear_(1.0, normalised.x(), normalised.y()) {
+    gain_ = tone.head<3>().dot(linear_);
+    gain_lane_ = static_cast<float>(gain_);
+    offset_lane_ = static_cast<float>(tone.tail<3>().dot(linear_));
+  }
+  double gain() const { return gain_; }
+  const Vec3& linear() const { return linear_; }  // derivative of gain, and of offset, by their parameters
+  FloatLanes residual(FloatLanes picture, FloatLanes print) const {
+    return picture - gain_lane_ * print - offset_lane_;
+  }
+
+ private:
+  Vec3 linear_;
+  double gain_ = 0.0;
+  float gain_lane_ = 0.0F;
+  float offset_lane_ = 0.0F;
+};
+
 // Weighted sums over a tile's samples of the products of (by_x, by_y, gray, 1) among themselves and with the
 // residual.
 struct TileSums {
@@ -219,29 +240,36 @@ void CardPicture::select(const Pose& camera_from_table, const CardModelSize& siz
 }
 
 CardCorrelation CardPicture::correlate(const Pose& camera_from_table, const CardModelSize& size,
-                                       const CardPatternLevel& level, CardSampling sampling) const {
+                                       const CardPatternLevel& level, CardSampling sampling,
+                                       const CardInliers& inliers) const {
   const PrintPlane plane(camera_from_table, size);
+  const auto cutoff = static_cast<float>(inliers.cutoff_gray);
   CardCorrelation result;
-  std::array<double, 5> sums{};  // of print, picture, and their products
+  std::array<double, 6> sums{};  // of print, picture, their products, and 1
   for_each_tile(
       tiles_, plane, sampling, [&](const CardTile& tile, const PrintPlace& place, std::uint64_t bits) {
+        const TileTone tone(inliers.tone, plane.normalised(place.centre));
         const PrintSampler sampler(level, place.centre, place.by_ray * tile.ray_by_pixel, kCardTileSide);
-        std::array<FloatLanes, 5> lanes{};
+        std::array<FloatLanes, 6> lanes{};
         for_each_lanes(bits, [&](int column, int row, unsigned flags) {
-          const FloatLanes used = flags_of(flags);
-          const FloatLanes print = used * sampler.at(column, row).gray;
-          const FloatLanes picture = used * load_gray(gray_.row(tile.y + row) + tile.x + column);
-          lanes[0] += print;
-          lanes[1] += picture;
-          lanes[2] += print * print;
-          lanes[3] += picture * picture;
-          lanes[4] += print * picture;
+          const FloatLanes print = sampler.at(column, row).gray;
+          const FloatLanes picture = load_gray(gray_.row(tile.y + row) + tile.x + column);
+          const FloatLanes residual = tone.residual(picture, print);
+          const FloatLanes size_of = residual < 0.0F ? -residual : residual;
+          const FloatLanes used = size_of <= cutoff ? flags_of(flags) : FloatLanes{};
+          lanes[0] += used * print;
+          lanes[1] += used * picture;
+          lanes[2] += used * print * print;
+          lanes[3] += used * picture * picture;
+          lanes[4] += used * print * picture;
+          lanes[5] += used;
         });
         for (std::size_t i = 0; i < sums.size(); ++i) sums[i] += sum_of(lanes[i]);
         result.samples += std::popcount(bits);
       });
-  if (result.samples < 2) return result;
-  const double n = result.samples;
+  const double n = sums[5];
+  result.inliers = static_cast<int>(n);
+  if (result.inliers < 2) return result;
   const double print_varies = sums[2] - sums[0] * sums[0] / n;
   const double picture_varies = sums[3] - sums[1] * sums[1] / n;
   const double together = sums[4] - sums[0] * sums[1] / n;
@@ -262,17 +290,13 @@ CardLinearisation CardPicture::linearise(const Pose& camera_from_table, const Ca
   Histogram histogram{};
   for_each_tile(
       tiles_, plane, sampling, [&](const CardTile& tile, const PrintPlace& place, std::uint64_t bits) {
-        const Vec2 at = plane.normalised(place.centre);
-        const Vec3 linear(1.0, at.x(), at.y());
-        const double gain = tone.head<3>().dot(linear);
-        const auto gain_lanes = static_cast<float>(gain);
-        const auto offset_lanes = static_cast<float>(tone.tail<3>().dot(linear));
+        const TileTone tile_tone(tone, plane.normalised(place.centre));
         const PrintSampler sampler(level, place.centre, place.by_ray * tile.ray_by_pixel, kCardTileSide);
         TileSums sums;
         for_each_lanes(bits, [&](int column, int row, unsigned flags) {
           const PrintLanes print = sampler.at(column, row);
           const FloatLanes gray = load_gray(gray_.row(tile.y + row) + tile.x + column);
-          const FloatLanes residual = gray - gain_lanes * print.gray - offset_lanes;
+          const FloatLanes residual = tile_tone.residual(gray, print.gray);
           const FloatLanes ratio = residual * inverse_cutoff;
           const FloatLanes root = 1.0F / (1.0F + ratio * ratio);
           const FloatLanes weight = flags_of(flags) * root * root;
@@ -281,8 +305,8 @@ CardLinearisation CardPicture::linearise(const Pose& camera_from_table, const Ca
           count_sizes(residual, flags, histogram);
         });
         const Eigen::Matrix<double, 2, 6> gray_by_step =
-            gain * level.px_per_mm.asDiagonal() * plane.print_by_step(place, tile.ray);
-        add_tile(sums, gray_by_step, linear, result);
+            tile_tone.gain() * level.px_per_mm.asDiagonal() * plane.print_by_step(place, tile.ray);
+        add_tile(sums, gray_by_step, tile_tone.linear(), result);
         result.weights += sum_of(sums.weights);
         result.slopes += sum_of(sums.slopes);
         result.samples += std::popcount(bits);

@@ -109,8 +109,8 @@ double CardRefinement::corner_motion_px(const Pose& from, const Pose& to) const 
 
 CardLinearisation CardRefinement::linearise(const CardPatternLevel& level, CardSampling sampling,
                                             const CardFitState& state) const {
-  const double cutoff_gray = params_.cutoff_spreads * std::max(state.spread_gray, params_.min_spread_gray);
-  return picture_.linearise(state.camera_from_table, pattern_.size, level, state.tone, cutoff_gray, sampling);
+  return picture_.linearise(state.camera_from_table, pattern_.size, level, state.tone, cutoff_gray(state),
+                            sampling);
 }
 
 // Of the pose by the four corners, each seen with an error of one pixel per axis.

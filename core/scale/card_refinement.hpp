@@ -1,6 +1,8 @@
 // Refines a camera's pose by the card's grey values: Gauss-Newton with iteratively reweighted residuals.
 #pragma once
 
+#include <algorithm>
+
 #include "core/base/geometry.hpp"
 #include "core/image/camera.hpp"
 #include "core/scale/card_pattern.hpp"
@@ -46,9 +48,16 @@ class CardRefinement {
   // Takes the pixels well inside the print: near its edge the blur mixes in the table.
   void select(const Pose& camera_from_table, const CardPatternLevel& level);
 
+  // Over all samples.
   CardCorrelation correlate(const Pose& camera_from_table, const CardPatternLevel& level,
                             CardSampling sampling) const {
-    return picture_.correlate(camera_from_table, pattern_.size, level, sampling);
+    return picture_.correlate(camera_from_table, pattern_.size, level, sampling, {});
+  }
+  // Over those whose residuals lie within the cutoff: a fork or glare on the card does not count.
+  CardCorrelation correlate_inliers(const CardFitState& state, const CardPatternLevel& level,
+                                    CardSampling sampling) const {
+    return picture_.correlate(state.camera_from_table, pattern_.size, level, sampling,
+                              {state.tone, cutoff_gray(state)});
   }
 
   // False when the pose is lost.
@@ -72,6 +81,9 @@ class CardRefinement {
   }
   double px_per_mm(const Pose& camera_from_table) const {
     return focal_px_ / (camera_from_table * centre_mm()).z();
+  }
+  double cutoff_gray(const CardFitState& state) const {
+    return params_.cutoff_spreads * std::max(state.spread_gray, params_.min_spread_gray);
   }
   double corner_motion_px(const Pose& from, const Pose& to) const;
   CardLinearisation linearise(const CardPatternLevel& level, CardSampling sampling,
