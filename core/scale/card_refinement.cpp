@@ -1,10 +1,9 @@
 #include "core/scale/card_refinement.hpp"
 
-#include <Eigen/Cholesky>
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/levenberg_marquardt.hpp"
 #include "core/base/table_frame.hpp"
 #include "core/scale/card_hypotheses.hpp"
 
@@ -15,6 +14,21 @@ constexpr double kDamping = 1e-6;  // of Gauss and Newton's step, relative: keep
 
 using Vector12 = Eigen::Matrix<double, 12, 1>;
 using Matrix12 = Eigen::Matrix<double, 12, 12>;
+
+// The inverse of a positive definite matrix, of which the lower triangle is read, column by column: Eigen's
+// own solvers of this size refer to the heap.
+template <int kSize>
+bool invert(const Eigen::Matrix<double, kSize, kSize>& matrix, Eigen::Matrix<double, kSize, kSize>& inverse) {
+  NormalEquations<kSize> equations;
+  equations.hessian = matrix;
+  for (int i = 0; i < kSize; ++i) {
+    typename NormalEquations<kSize>::Vector column;
+    equations.gradient = -NormalEquations<kSize>::Vector::Unit(i);
+    if (!equations.solve(0.0, column)) return false;
+    inverse.col(i) = column;
+  }
+  return true;
+}
 
 }  // namespace
 
@@ -64,18 +78,19 @@ bool CardRefinement::inform(const CardPatternLevel& level, CardSampling sampling
                             PoseInformation& information) const {
   const CardLinearisation linearised = linearise(level, sampling, state);
   state.spread_gray = linearised.spread_gray;
-  const Eigen::LDLT<Matrix12, Eigen::Lower> factors(linearised.equations.hessian);
-  if (factors.info() != Eigen::Success || !(factors.vectorD().minCoeff() > 0.0)) return false;
-  const Matrix12 inverse = factors.solve(Matrix12::Identity());
-  const Matrix12 scatter = linearised.scatter.selfadjointView<Eigen::Lower>();
+  Matrix12 inverse;
+  PoseInformation by_corners;
   // Falling weights flatten the cost: its curvature is that much below the normal equations.
   const double curvature = linearised.slopes / linearised.weights;
-  if (!(curvature > 0.0)) return false;
-  const Matrix12 by_noise = inverse * scatter * inverse / (curvature * curvature);
-  const PoseInformation by_corners = corner_information(state.camera_from_table).inverse();
+  if (!(curvature > 0.0) || !invert(linearised.equations.hessian, inverse)) return false;
+  if (!invert(corner_information(state.camera_from_table), by_corners)) return false;
+  const Matrix12 scatter = linearised.scatter.selfadjointView<Eigen::Lower>();
+  const Matrix12 by_noise = inverse.lazyProduct(scatter).eval().lazyProduct(inverse);
+  const double systematic_px2 = params_.systematic_px * params_.systematic_px;
   const PoseInformation covariance =
-      by_noise.topLeftCorner<6, 6>() + params_.systematic_px * params_.systematic_px * by_corners;
-  const PoseInformation inverted = covariance.inverse();
+      by_noise.topLeftCorner<6, 6>() / (curvature * curvature) + systematic_px2 * by_corners;
+  PoseInformation inverted;
+  if (!invert(covariance, inverted)) return false;
   information = 0.5 * (inverted + inverted.transpose());
   return information.allFinite() && (information.diagonal().array() > 0.0).all();
 }
