@@ -45,6 +45,7 @@ std::vector<double> signed_errors(const std::vector<ItemSeries>& items) {
 // everything else into the middle. Between `least` and `most`.
 double span_of(const std::vector<double>& values, double least, double most) {
   std::vector<double> sizes;
+  sizes.reserve(values.size());
   for (const double value : values) sizes.push_back(std::abs(value));
   const double largest = quantile(sizes, 1.0);
   return std::clamp(std::min(largest, kOutlierFactor * quantile(sizes, 0.99)), least, most);
@@ -82,6 +83,7 @@ std::vector<PairMean> means_by_pair(const ItemSeries& item) {
     angles[attempt.pair] = attempt.angle_deg;
   }
   std::vector<PairMean> means;
+  means.reserve(volumes.size());
   for (const auto& [pair, own] : volumes) means.push_back({angles[pair], mean(own)});
   return means;
 }
