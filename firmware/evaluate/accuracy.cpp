@@ -107,6 +107,8 @@ ItemFigures item_figures(const ItemSeries& series) {
   if (volumes.empty()) return figures;
   std::vector<double> errors;
   std::vector<double> absolute;
+  errors.reserve(volumes.size());
+  absolute.reserve(volumes.size());
   for (const double volume : volumes) {
     errors.push_back(signed_error_percent(volume, series.truth_ml));
     absolute.push_back(std::abs(errors.back()));

@@ -1,5 +1,6 @@
 #include "firmware/evaluate/bootstrap.hpp"
 
+#include <algorithm>
 #include <map>
 #include <string>
 
@@ -36,6 +37,7 @@ std::optional<ConfidenceInterval> bootstrap_ratio(const std::vector<RatioPart>& 
   if (filled.size() < 2) return {};
   Random random(params.seed);
   std::vector<double> ratios;
+  ratios.reserve(static_cast<std::size_t>(std::max(params.resamples, 0)));
   for (int resample = 0; resample < params.resamples; ++resample) {
     RatioPart sum;
     for (std::size_t i = 0; i < filled.size(); ++i) {

@@ -134,7 +134,9 @@ AngleEvaluation evaluate_angles(const std::string& title, const std::vector<Item
 
 std::vector<AngleEvaluation> evaluate_angle_bins(const std::vector<ItemSeries>& foods) {
   std::vector<AngleEvaluation> bins;
-  for (double middle = 0.0; middle <= kMaxAngleDeg; middle += kAngleBinDeg) {
+  constexpr int last_bin = static_cast<int>(kMaxAngleDeg / kAngleBinDeg);
+  for (int i = 0; i <= last_bin; ++i) {
+    const double middle = i * kAngleBinDeg;
     const double low = middle - 0.5 * kAngleBinDeg;
     const double high = middle + 0.5 * kAngleBinDeg;
     AngleEvaluation bin =

@@ -47,15 +47,16 @@ std::string list_warnings(const Run& run) {
 
 std::string estimate_row(const PairRuns& pair, const Run& run, const TruthItem& item) {
   const ItemEstimate* estimate = estimate_of(run, item.label);
+  const bool is_measured = estimate != nullptr;
   std::ostringstream row;
   row << field(pair.capture) << ',' << pair.pair[0] << ',' << pair.pair[1] << ',' << run.seed << ','
       << fixed(run.relative_angle_deg, 3) << ',' << item.label << ',' << field(item.name) << ','
-      << field(item.kind) << ',' << (estimate ? "ok" : "refused") << ','
-      << (estimate ? fixed(estimate->volume_ml, 3) : "") << ',' << fixed(item.volume_ml, 3) << ','
+      << field(item.kind) << ',' << (is_measured ? "ok" : "refused") << ','
+      << (is_measured ? fixed(estimate->volume_ml, 3) : "") << ',' << fixed(item.volume_ml, 3) << ','
       << number(item.volume_above_bottom_plane_ml, 3) << ','
-      << (estimate && estimate->sigma_ml > 0.0 ? fixed(estimate->sigma_ml, 3) : "") << ','
-      << (estimate ? fixed(estimate->column_volume_ml, 3) : "") << ',' << number(item.column_volume_ml, 3)
-      << ',' << (estimate ? "" : name_of_refusal(run, item.label)) << ',' << number(pair.true_angle_deg, 3)
+      << (is_measured && estimate->sigma_ml > 0.0 ? fixed(estimate->sigma_ml, 3) : "") << ','
+      << (is_measured ? fixed(estimate->column_volume_ml, 3) : "") << ',' << number(item.column_volume_ml, 3)
+      << ',' << (is_measured ? "" : name_of_refusal(run, item.label)) << ',' << number(pair.true_angle_deg, 3)
       << ',' << (is_warned(run) ? 1 : 0) << '\n';
   return row.str();
 }

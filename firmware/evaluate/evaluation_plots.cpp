@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <map>
 #include <vector>
 
@@ -15,12 +16,16 @@ namespace {
 
 constexpr double kMaxErrorShown = 50.0;  // per cent; what lies beyond is drawn at the edge and counted
 constexpr double kMinErrorShown = 5.0;
+constexpr double kOutlierFactor = 1.5;
+constexpr double kMinVariationShown = 2.0;
 constexpr double kMaxVariationShown = 30.0;
+constexpr std::size_t kManyMarks = 500;
 constexpr double kBinsWanted = 40.0;
-constexpr double kMaxFactorShown = 1.25;  // beyond the range of the true volumes
+constexpr double kMaxFactorShown = 1.15;  // beyond the range of the true volumes
 constexpr const char* kNoData = "No data: no volume was measured.";
 constexpr Stroke kZeroLine{kBlack, 1.2, ""};
 constexpr Stroke kMeanLine{kOrange, 2.0, "7 4"};
+constexpr Stroke kLimitLine{kOrange, 1.2, "2 3"};
 
 const std::vector<ItemSeries>& foods(const Evaluation& evaluation) {
   return evaluation.groups.front().items;
@@ -36,11 +41,14 @@ std::vector<double> signed_errors(const std::vector<ItemSeries>& items) {
   return errors;
 }
 
-// The largest absolute value, between `least` and `most`.
+// The largest absolute value, but not far beyond that of 99 % of the values: a few outliers would squeeze
+// everything else into the middle. Between `least` and `most`.
 double span_of(const std::vector<double>& values, double least, double most) {
-  double span = least;
-  for (const double value : values) span = std::max(span, std::abs(value));
-  return std::min(span, most);
+  std::vector<double> sizes;
+  sizes.reserve(values.size());
+  for (const double value : values) sizes.push_back(std::abs(value));
+  const double largest = quantile(sizes, 1.0);
+  return std::clamp(std::min(largest, kOutlierFactor * quantile(sizes, 0.99)), least, most);
 }
 
 std::string signed_text(double value, int decimals) {
@@ -53,8 +61,11 @@ std::string count(std::size_t number, const char* what) {
   return std::to_string(number) + " " + what + (number == 1 ? "" : "s");
 }
 
-std::string beyond(int number, double limit) {
-  return number == 0 ? "" : "; " + std::to_string(number) + " beyond ±" + fixed(limit, 0) + " %, at the edge";
+// Behind the title of the axis that cannot hold them.
+std::string note_beyond(std::int64_t number, const char* what, double limit) {
+  if (number == 0) return "";
+  return "; " + count(static_cast<std::size_t>(number), what) + " beyond " + fixed(limit, 0) +
+         " %, drawn at the edge";
 }
 
 // Mean over the seeds of one pair.
@@ -72,6 +83,7 @@ std::vector<PairMean> means_by_pair(const ItemSeries& item) {
     angles[attempt.pair] = attempt.angle_deg;
   }
   std::vector<PairMean> means;
+  means.reserve(volumes.size());
   for (const auto& [pair, own] : volumes) means.push_back({angles[pair], mean(own)});
   return means;
 }
@@ -112,6 +124,19 @@ Axis symmetric_axis(const std::string& title, double span) {
   return make_axis(title, -half.high, half.high, 10);
 }
 
+// Shares of all values; those beyond the axis are counted again in the bins at its ends.
+Histogram bin_shares(const std::vector<double>& values, const Axis& x) {
+  Histogram histogram = make_histogram(values, x.low, x.high, round_step((x.high - x.low) / kBinsWanted));
+  histogram.counts.front() += histogram.below;
+  histogram.counts.back() += histogram.above;
+  return histogram;
+}
+
+// Many marks show where they lie dense.
+double opacity_of(std::size_t marks) {
+  return marks > kManyMarks ? 0.2 : 0.5;
+}
+
 }  // namespace
 
 std::string plot_signed_errors(const Evaluation& evaluation) {
@@ -119,25 +144,21 @@ std::string plot_signed_errors(const Evaluation& evaluation) {
   const std::vector<double> errors = signed_errors(foods(evaluation));
   if (errors.empty()) return compose_empty_chart(title, kNoData);
   const SetFigures& figures = evaluation.groups.front().figures;
-  const Axis x = symmetric_axis("estimated over true volume, signed error (%)",
-                                span_of(errors, kMinErrorShown, kMaxErrorShown));
-  const Histogram histogram =
-      make_histogram(errors, x.low, x.high, round_step((x.high - x.low) / kBinsWanted));
-  Histogram drawn = histogram;
-  drawn.counts.front() += drawn.below;
-  drawn.counts.back() += drawn.above;
-  Chart chart(
-      title,
-      count(errors.size(), "volume") + " of " + count(static_cast<std::size_t>(figures.items), "item") +
-          ": bias " + signed_text(figures.bias, 2) + " %, MAPE " + fixed(figures.mape, 2) + " %, " +
-          fixed(figures.within_10, 1) + " % within ±10 %" + beyond(histogram.below + histogram.above, x.high),
-      x, make_axis("share of the volumes (%)", 0.0, drawn.largest_share_percent(), 5));
+  Axis x = symmetric_axis("signed error (%)", span_of(errors, kMinErrorShown, kMaxErrorShown));
+  const Histogram histogram = bin_shares(errors, x);
+  x.title += note_beyond(histogram.below + histogram.above, "volume", x.high);
+  Chart chart(title,
+              count(errors.size(), "volume") + " of " +
+                  count(static_cast<std::size_t>(figures.items), "item") + ": bias " +
+                  signed_text(figures.bias, 2) + " %, MAPE " + fixed(figures.mape, 2) + " %, " +
+                  fixed(figures.within_10, 1) + " % within ±10 %",
+              x, make_axis("share of the volumes (%)", 0.0, histogram.largest_share_percent(), 5));
   if (x.high > 10.0) chart.shade_x(-10.0, 10.0, "within ±10 %");
-  chart.bars(drawn, kBlue);
+  chart.bars(histogram, kBlue);
   chart.vertical(0.0, kZeroLine, "");
   chart.vertical(figures.bias, kMeanLine, "bias");
-  chart.vertical(figures.limit_low, {kOrange, 1.2, "2 3"}, "95 % limits of agreement");
-  chart.vertical(figures.limit_high, {kOrange, 1.2, "2 3"}, "");
+  chart.vertical(figures.limit_low, kLimitLine, "95 % limits of agreement");
+  chart.vertical(figures.limit_high, kLimitLine, "");
   return chart.str();
 }
 
@@ -150,20 +171,16 @@ std::string plot_variation(const Evaluation& evaluation) {
   }
   if (variations.empty()) return compose_empty_chart(title, "No data: no item has two volumes to compare.");
   const SetFigures& figures = evaluation.groups.front().figures;
-  const Axis x = make_axis("coefficient of variation over pairs and seeds (%)", 0.0,
-                           span_of(variations, 2.0, kMaxVariationShown), 8);
-  const Histogram histogram =
-      make_histogram(variations, x.low, x.high, round_step((x.high - x.low) / kBinsWanted));
-  Histogram drawn = histogram;
-  drawn.counts.back() += drawn.above;
-  const std::string more =
-      histogram.above == 0 ? "" : "; " + std::to_string(histogram.above) + " above the edge";
+  Axis x = make_axis("coefficient of variation over pairs and seeds (%)", 0.0,
+                     span_of(variations, kMinVariationShown, kMaxVariationShown), 8);
+  const Histogram histogram = bin_shares(variations, x);
+  x.title += note_beyond(histogram.above, "item", x.high);
   Chart chart(title,
               count(variations.size(), "item") + ": mean " + fixed(figures.cv, 2) + " %, " +
                   fixed(figures.cv_below_1_5, 1) + " % below 1.5 %, " + fixed(figures.cv_below_10, 1) +
-                  " % below 10 %" + more,
-              x, make_axis("share of the items (%)", 0.0, drawn.largest_share_percent(), 5));
-  chart.bars(drawn, kBlue);
+                  " % below 10 %",
+              x, make_axis("share of the items (%)", 0.0, histogram.largest_share_percent(), 5));
+  chart.bars(histogram, kBlue);
   chart.vertical(figures.cv, kMeanLine, "mean");
   return chart.str();
 }
@@ -179,15 +196,15 @@ std::string plot_error_by_angle(const Evaluation& evaluation) {
     largest_angle = std::max(largest_angle, point.x);
   }
   const Axis y = symmetric_axis("error (%)", span_of(errors, kMinErrorShown, kMaxErrorShown));
-  const auto outside =
-      std::count_if(errors.begin(), errors.end(), [&](double e) { return std::abs(e) > y.high; });
-  Chart chart(title,
-              count(points.size(), "dot") + ": an item of a pair, mean over seeds; lines: bins of 5°" +
-                  beyond(static_cast<int>(outside), y.high),
-              make_axis("relative angle (degrees)", 0.0, largest_angle + 1.0, 8), y);
+  Axis x = make_axis("relative angle (degrees)", 0.0, largest_angle + 1.0, 8);
+  x.title +=
+      note_beyond(std::count_if(errors.begin(), errors.end(), [&](double e) { return std::abs(e) > y.high; }),
+                  "dot", y.high);
+  Chart chart(title, count(points.size(), "dot") + ": an item of a pair, mean over seeds; lines: bins of 5°",
+              x, y);
   if (y.high > 10.0) chart.shade_y(-10.0, 10.0, "within ±10 %");
   chart.horizontal(0.0, kZeroLine, "");
-  chart.markers(points, {Marker::dot, kBlue, 3.5, 0.45}, "signed error of an item");
+  chart.markers(points, {Marker::dot, kBlue, 3.5, opacity_of(points.size())}, "signed error of an item");
   const std::vector<DataPoint> mape = bin_means(evaluation, &SetFigures::mape);
   const std::vector<DataPoint> bias = bin_means(evaluation, &SetFigures::bias);
   chart.line(mape, {kOrange, 2.2, ""}, "MAPE");
@@ -219,8 +236,9 @@ std::string plot_volumes(const Evaluation& evaluation) {
   chart.line({{axis.low, axis.low}, {axis.high, axis.high}}, kZeroLine, "equal");
   chart.line({{axis.low, 1.1 * axis.low}, {axis.high / 1.1, axis.high}}, ten_percent, "±10 %");
   chart.line({{axis.low / 0.9, axis.low}, {axis.high, 0.9 * axis.high}}, ten_percent, "");
-  chart.markers(items, {Marker::dot, kBlue, 4.0, 0.5}, "foods");
-  chart.markers(fruit, {Marker::square, kOrange, 4.0, 0.6}, "scanned fruit, closed volume");
+  chart.markers(items, {Marker::dot, kBlue, 4.0, opacity_of(items.size())}, "foods");
+  chart.markers(fruit, {Marker::square, kOrange, 4.0, opacity_of(fruit.size())},
+                "scanned fruit, closed volume");
   return chart.str();
 }
 

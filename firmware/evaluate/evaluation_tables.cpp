@@ -37,7 +37,7 @@ std::size_t count_characters(const std::string& text) {
 
 // The end of a name says more than its beginning, which is a folder.
 std::string shorten(const std::string& name, std::size_t width) {
-  const std::string text = printable(name);
+  std::string text = printable(name);
   if (count_characters(text) <= width) return text;
   std::size_t begin = text.size();
   for (std::size_t kept = 0; begin > 0 && kept + 1 < width;) {
@@ -236,6 +236,7 @@ std::string summary_table(const Evaluation& evaluation) {
   bool is_sigma_estimated = false;
   const auto line = [&](const char* title, const FigureCell& value) {
     std::vector<std::string> cells;
+    cells.reserve(evaluation.groups.size());
     for (const GroupEvaluation& group : evaluation.groups) cells.push_back(value(group));
     return row(title, kFigureWidth, cells, kGroupWidth);
   };
@@ -280,6 +281,7 @@ std::string compose_tables(const Evaluation& evaluation) {
             angle_table(evaluation) + summary_table(evaluation) + notes(evaluation);
   }
   std::vector<std::string> refusals;
+  refusals.reserve(evaluation.refusals.size());
   for (const auto& [cause, count] : evaluation.refusals)
     refusals.push_back(cause + " in " + std::to_string(count) + " measurements");
   return text + list("refused", refusals) + list("skipped", evaluation.skipped);

@@ -20,7 +20,7 @@ struct Task {
 
 // A set may be a capture itself: then the folder's own name.
 std::string name_below(const std::filesystem::path& set, const std::filesystem::path& folder) {
-  const std::string name = folder.lexically_relative(set).string();
+  std::string name = folder.lexically_relative(set).string();
   if (name != ".") return name;
   const std::filesystem::path path = std::filesystem::absolute(folder).lexically_normal();
   return (path.has_filename() ? path : path.parent_path()).filename().string();
@@ -165,6 +165,7 @@ std::vector<PairRuns> run_protocol(const std::filesystem::path& set, const Proto
   };
   {
     std::vector<std::jthread> workers;
+    workers.reserve(static_cast<std::size_t>(options.jobs));
     for (int job = 0; job < options.jobs; ++job) workers.emplace_back(work);
   }
   if (failure) std::rethrow_exception(failure);

@@ -26,9 +26,9 @@ Axis make_axis(const std::string& title, double low, double high, int intervals)
   if (!std::isfinite(low) || !std::isfinite(high)) low = high = 0.0;
   if (!(high > low)) high = low + 1.0;
   const double step = round_step((high - low) / std::max(intervals, 1));
-  const double first = std::floor(low / step + 1e-9);
-  const double last = std::ceil(high / step - 1e-9);
-  for (double i = first; i <= last; i += 1.0) axis.ticks.push_back(i * step);
+  const auto first = std::llround(std::floor(low / step + 1e-9));
+  const auto last = std::llround(std::ceil(high / step - 1e-9));
+  for (auto i = first; i <= last; ++i) axis.ticks.push_back(static_cast<double>(i) * step);
   axis.low = axis.ticks.front();
   axis.high = axis.ticks.back();
   axis.decimals = std::max(0, -static_cast<int>(std::floor(std::log10(step) + 1e-9)));

@@ -116,11 +116,13 @@ void Chart::line(const std::vector<DataPoint>& points, const Stroke& stroke, con
 }
 
 void Chart::vertical(double x, const Stroke& stroke, const std::string& legend) {
+  if (!(x >= x_.low && x <= x_.high)) return;
   svg_.line({to_x(x), kTopPx}, {to_x(x), kPlotBottomPx}, stroke);
   add_legend({LegendEntry::Kind::line, legend, {}, stroke});
 }
 
 void Chart::horizontal(double y, const Stroke& stroke, const std::string& legend) {
+  if (!(y >= y_.low && y <= y_.high)) return;
   svg_.line({kLeftPx, to_y(y)}, {kPlotRightPx, to_y(y)}, stroke);
   add_legend({LegendEntry::Kind::line, legend, {}, stroke});
 }

@@ -42,6 +42,7 @@ class Chart {
   // A point outside the axes is drawn at their edge.
   void markers(const std::vector<DataPoint>& points, const MarkerStyle& style, const std::string& legend);
   void line(const std::vector<DataPoint>& points, const Stroke& stroke, const std::string& legend);
+  // Over the whole chart; nothing where the value lies outside the axis or is NaN.
   void vertical(double x, const Stroke& stroke, const std::string& legend);
   void horizontal(double y, const Stroke& stroke, const std::string& legend);
 

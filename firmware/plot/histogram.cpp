@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 namespace traygauge {
 
@@ -15,7 +16,8 @@ Histogram make_histogram(const std::vector<double>& values, double low, double h
   Histogram histogram;
   histogram.low = low;
   histogram.bin_width = bin_width;
-  const auto bins = static_cast<std::size_t>(std::max(1L, std::lround((high - low) / bin_width)));
+  const auto bins =
+      static_cast<std::size_t>(std::max<std::int64_t>(1, std::llround((high - low) / bin_width)));
   histogram.counts.assign(bins, 0);
   for (const double value : values) {
     ++histogram.total;

@@ -30,11 +30,21 @@ rim.source=dense rim.source=both dish.surface=card_alone dish.height=rim_points_
 
 echo "| change | MAPE % | bias % | CV % | MAPE over the dish % | rotation deg | direction deg | scale % | refused |"
 echo "| --- | --- | --- | --- | --- | --- | --- | --- | --- |"
+folder=$(mktemp -d)
+trap 'rm -r "$folder"' EXIT
+# The last row of captures.csv is about all captures; its columns are found by their names.
 measure() {
   title=$1
   shift
-  "$program" evaluate "$set_folder" --runs "$seeds" --jobs "$(nproc)" "$@" 2>/dev/null |
-    awk -v title="$title" '$1 == "all" { printf "| %s | %s | %s | %s | %s | %s | %s | %s | %s |\n", title, $5, $6, $7, $8, $10, $11, $12, $4 }'
+  "$program" evaluate "$set_folder" --runs "$seeds" --jobs "$(nproc)" --out "$folder" "$@" >/dev/null 2>&1 || :
+  awk -F, -v title="$title" '
+    NR == 1 { for (i = 1; i <= NF; ++i) column[$i] = i }
+    $1 == "all" {
+      printf "| %s", title
+      split("mape_above_bottom_plane bias_above_bottom_plane cv mape rotation_deg direction_deg scale_percent refused", names, " ")
+      for (i = 1; i <= 8; ++i) printf " | %s", $column[names[i]]
+      print " |"
+    }' "$folder/captures.csv"
 }
 measure "as it is"
 for change in ${*:-$changes}; do measure "$change" --set "$change"; done

@@ -205,11 +205,24 @@ TEST(EvaluationPlots, AreWellFormedAndShowEveryVolume) {
   EXPECT_EQ(count_of("<circle"), 2 + 1);  // foods of two pairs, and one in the legend
 }
 
+TEST(EvaluationPlots, OneVolumeIsEnough) {
+  PairRuns pair = pair_runs("a", {{2, "food", "heightfield", 100.0, {}, {}}});
+  pair.runs = {measured_run(1, 15.0, {{2, StatusCode::ok, 100.0}})};
+  const Evaluation evaluation = evaluate({pair});
+  for (const std::string& svg :
+       {plot_signed_errors(evaluation), plot_error_by_angle(evaluation), plot_volumes(evaluation)}) {
+    EXPECT_EQ(find_xml_fault(svg), "");
+    EXPECT_EQ(svg.find("nan"), std::string::npos);
+    EXPECT_EQ(svg.find("No data"), std::string::npos);
+  }
+  EXPECT_NE(plot_variation(evaluation).find("No data"), std::string::npos);
+}
+
 TEST(EvaluationPlots, ErrorsBeyondTheAxisAreCounted) {
   PairRuns pair = pair_runs("a", {{2, "food", "heightfield", 100.0, {}, {}}});
   for (const double volume_ml : {400.0, 101.0, 99.0, 0.0})
     pair.runs.push_back(measured_run(1, 15.0, {{2, StatusCode::ok, volume_ml}}));
-  EXPECT_NE(plot_signed_errors(evaluate({pair})).find("2 beyond ±50 %"), std::string::npos);
+  EXPECT_NE(plot_signed_errors(evaluate({pair})).find("2 volumes beyond 50 %"), std::string::npos);
 }
 
 }  // namespace

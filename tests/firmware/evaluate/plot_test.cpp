@@ -80,6 +80,18 @@ TEST(Chart, PointsBeyondStandAtTheEdge) {
   EXPECT_EQ(inside.str(), beyond.str());
 }
 
+TEST(Chart, LinesBeyondAreLeftOut) {
+  const Axis axis = make_axis("x", 0.0, 10.0, 5);
+  const std::string bare = Chart("t", "", axis, axis).str();
+  Chart chart("t", "", axis, axis);
+  chart.vertical(11.0, {}, "limit");
+  chart.vertical(std::nan(""), {}, "limit");
+  chart.horizontal(-1.0, {}, "limit");
+  EXPECT_EQ(chart.str(), bare);
+  chart.vertical(10.0, {}, "limit");
+  EXPECT_NE(chart.str(), bare);
+}
+
 TEST(Chart, AnEmptyOneSaysSo) {
   const std::string svg = compose_empty_chart("Title", "No data.");
   EXPECT_EQ(find_xml_fault(svg), "");
