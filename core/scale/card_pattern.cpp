@@ -147,7 +147,7 @@ Status prepare_card_pattern(ImageView<const std::uint8_t> picture, const CardMod
       return StatusCode::invalid_configuration;
     }
     level.gray = {pattern.storage[i].data(), width, height};
-    level.px_per_mm = {width / size.width_mm, height / size.height_mm};
+    level.px_per_axis_mm = {width / size.width_mm, height / size.height_mm};
     level.blur_mm = blur_px / px_per_mm;
     const double knot_mm = level.blur_mm / kSplineDeviation;
     // A kernel narrower than the picture's own pixels would skip some.

@@ -26,8 +26,10 @@ inline constexpr int kCardPatternLevels = 8;
 
 struct CardPatternLevel {
   ImageView<std::uint8_t> gray;
-  Vec2 px_per_mm = Vec2::Zero();  // pixel = mm · px_per_mm − 0.5
+  std::array<double, 2> px_per_axis_mm{};  // pixel = mm · px_per_mm − 0.5
   double blur_mm = 0.0;           // standard deviation
+
+  Vec2 px_per_mm() const { return {px_per_axis_mm[0], px_per_axis_mm[1]}; }
 };
 
 struct CardPattern {

@@ -305,7 +305,7 @@ CardLinearisation CardPicture::linearise(const Pose& camera_from_table, const Ca
           count_sizes(residual, flags, histogram);
         });
         const Eigen::Matrix<double, 2, 6> gray_by_step =
-            tile_tone.gain() * level.px_per_mm.asDiagonal() * plane.print_by_step(place, tile.ray);
+            tile_tone.gain() * level.px_per_mm().asDiagonal() * plane.print_by_step(place, tile.ray);
         add_tile(sums, gray_by_step, tile_tone.linear(), result);
         result.weights += sum_of(sums.weights);
         result.slopes += sum_of(sums.slopes);

@@ -55,8 +55,8 @@ class PrintSampler {
         stride_(static_cast<std::int32_t>(level.gray.stride)),
         max_x_(static_cast<float>(level.gray.width) - 1.001F),
         max_y_(static_cast<float>(level.gray.height) - 1.001F) {
-    const Eigen::Matrix2d step = level.px_per_mm.asDiagonal() * mm_by_pixel;
-    const Vec2 centre = (level.px_per_mm.cwiseProduct(centre_mm).array() - 0.5).matrix();
+    const Eigen::Matrix2d step = level.px_per_mm().asDiagonal() * mm_by_pixel;
+    const Vec2 centre = (level.px_per_mm().cwiseProduct(centre_mm).array() - 0.5).matrix();
     const Vec2 first = centre - step * Vec2::Constant(0.5 * (side - 1));
     x_by_column_ = static_cast<float>(step(0, 0));
     x_by_row_ = static_cast<float>(step(0, 1));

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstddef>
+#include <span>
 
 #include "core/estimator/best/best_view.hpp"
 #include "core/estimator/best/dish_measurement.hpp"
@@ -18,13 +19,14 @@ struct BestMemory {
   std::array<BestView, 2> views;
   BestViewWorkspace preparation;
   SceneGeometryWorkspace geometry;
-  SceneGeometry scene;
+  std::span<SceneGeometry> scene;  // one
   DishMeasurementWorkspace dish;
 
   template <class Allocator>
   constexpr void allocate(Allocator& arena, const Configuration& configuration) {
     pattern.allocate(arena, configuration.best.card.pattern);
     for (BestView& view : views) view.allocate(arena, configuration.limits);
+    scene = arena.template take<SceneGeometry>(1);
     dish.allocate_kept(arena, configuration);
     const std::size_t shared = arena.mark();
     preparation.allocate(arena, configuration);

@@ -86,7 +86,7 @@ void run_best(BestMemory& memory, const Configuration& configuration, std::uint6
   DishMeasurementWorkspace dish = memory.dish;
   measurement.views.reference_view = reversed ? 1 : 0;
   Random random(seed);
-  SceneGeometry& geometry = memory.scene;
+  SceneGeometry& geometry = memory.scene.front();
   geometry = {};
   measurement.status = compare_pictures(memory, configuration, measurement);
   if (!measurement.status.ok()) return;

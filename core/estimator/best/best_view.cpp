@@ -27,7 +27,7 @@ Status prepare_best_view(const FrameView& frame, const Configuration& configurat
 
   clock.enter(Stage::scale);
   return align_card(gray, view.labels, view.regions.card, view.lens, pattern, configuration.best.card,
-                    workspace.card, view.card);
+                    workspace.card, view.card_storage.front());
 }
 
 }  // namespace traygauge

@@ -24,19 +24,21 @@ struct BestView {
   std::optional<double> arm_angle_deg;
   ImageView<const std::uint8_t> labels;  // of the stored picture, the caller's
   LabelRegions regions;
-  CardAlignment card;
   GrayPyramid gray;
   ImageView<std::uint8_t> gray_storage;  // memory for the largest frame
   PyramidWorkspace pyramid;
   std::span<ViewQuality> quality_storage;  // one
+  std::span<CardAlignment> card_storage;   // one
 
   const ViewQuality& quality() const { return quality_storage.front(); }
+  const CardAlignment& card() const { return card_storage.front(); }
 
   template <class Allocator>
   constexpr void allocate(Allocator& arena, const EstimatorLimits& limits) {
     gray_storage = arena.template take_image<std::uint8_t>(limits.max_frame_width, limits.max_frame_height);
     pyramid.allocate(arena, limits.max_frame_width, limits.max_frame_height);
     quality_storage = arena.template take<ViewQuality>(1);
+    card_storage = arena.template take<CardAlignment>(1);
   }
 };
 
