@@ -20,7 +20,8 @@ Json item_of(const ItemResult& item) {
           {"dish", item.dish},
           {"status", name(item.status)},
           {"volume_ml", number_or_null(item.volume_ml, measured)},
-          {"sigma_ml", nullptr},  // profile `paper` states no uncertainty
+          {"sigma_ml", number_or_null(item.sigma_ml, measured && item.sigma_ml > 0.0)},
+          {"column_volume_ml", number_or_null(item.column_volume_ml, measured)},
           {"area_mm2", number_or_null(item.area_mm2, measured)},
           {"mean_height_mm", number_or_null(item.mean_height_mm, measured)},
           {"max_height_mm", number_or_null(item.max_height_mm, measured)}};

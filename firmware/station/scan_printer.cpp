@@ -54,7 +54,8 @@ Json item_json(const ItemResult& item) {
           {"dish", item.dish},
           {"status", name(item.status)},
           {"volume_ml", number(item.volume_ml)},
-          {"sigma_ml", nullptr},  // profile `paper` states no uncertainty
+          {"sigma_ml", ok && item.sigma_ml > 0.0 ? Json(item.sigma_ml) : Json()},
+          {"column_volume_ml", number(item.column_volume_ml)},
           {"area_mm2", number(item.area_mm2)},
           {"mean_height_mm", number(item.mean_height_mm)},
           {"max_height_mm", number(item.max_height_mm)}};
