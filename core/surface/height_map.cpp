@@ -80,7 +80,10 @@ Status build_height_map(std::span<const SurfaceGrid> views, const InnerSurface& 
         view.labels.height != view.points.height) {
       continue;
     }
-    splat_view(view, params, seen ? other : map);
+    const auto grid_width = static_cast<std::size_t>(view.points.width);
+    if (HeightMapWorkspace::kCornerRows * grid_width > workspace.corners.size())
+      return StatusCode::out_of_memory;
+    splat_view(view, params, workspace.corners, seen ? other : map);
     steepest_sight = std::max(steepest_sight, sight_slope(view.camera_mm, dish));
     for (int y = 0; seen && y < map.cells.height; ++y) {
       HeightCell* row = map.cells.row(y);

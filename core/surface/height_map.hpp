@@ -71,12 +71,24 @@ struct HeightMapWorkspace {
     std::int16_t y = -1;
   };
 
+  // A sample in cells from the map's first cell; all three axes have the same unit.
+  struct Corner {
+    float x = 0.0F;
+    float y = 0.0F;
+    float z = 0.0F;
+    std::uint8_t label = 0;
+    bool known = false;
+  };
+  static constexpr std::size_t kCornerRows = 3;
+
   std::span<HeightCell> first;
   std::span<HeightCell> second;
+  std::span<Corner> corners;  // of the samples' rows at work
   std::span<Source> sources;  // in the memory of `second`, which is fused by then
 
   template <class Allocator>
-  constexpr void allocate(Allocator& arena, std::size_t max_cells) {
+  constexpr void allocate(Allocator& arena, std::size_t max_cells, std::size_t max_grid_width) {
+    corners = arena.template take<Corner>(kCornerRows * max_grid_width);
     static_assert(sizeof(Source) <= sizeof(HeightCell));
     first = arena.template take<HeightCell>(max_cells);
     const std::size_t mark = arena.mark();
@@ -91,8 +103,9 @@ struct HeightMapWorkspace {
 // samples whose line of sight grazes it is no surface, but nothing lies above it (space carving, Kutulakos &
 // Seitz 2000): under it a cell is hidden. A cell hidden from all views continues the item that hides it
 // (hidden_cells.hpp), or else what is seen at the sheet's foot, level. `kind` stays hidden for filled cells.
-// Grids without points count as no view. out_of_memory when the dish has more cells than the workspace;
-// too_little_depth when nothing is seen; invalid_configuration for a cell size that is not positive.
+// Grids without points count as no view. out_of_memory when the dish has more cells or a grid wider rows than
+// the workspace; too_little_depth when nothing is seen; invalid_configuration for a cell size that is not
+// positive.
 Status build_height_map(std::span<const SurfaceGrid> views, const InnerSurface& dish,
                         const HeightMapParams& params, HeightMapWorkspace& workspace, HeightMap& map);
 

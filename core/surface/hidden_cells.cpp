@@ -18,13 +18,16 @@ float distance_cells(const Source& source, int x, int y) {
   return std::sqrt(dx * dx + dy * dy);
 }
 
-// For every cell the source whose offer is the best, by two passes over the rows, each back and forth
+// For every target cell the source whose offer is the best of those that it can be reached from over target
+// cells, by two passes over the rows, each back and forth
 // (P.-E. Danielsson, Euclidean distance mapping, CGIP 14, 1980): now and then a cell gets one that is a
-// fraction of a cell worse. `Offer`: (source x, source y, distance in cells) → value, larger is better.
-template <class Offer>
+// fraction of a cell worse. `IsTarget`: (x, y) → bool; `Offer`: (source, distance in cells) → value, larger
+// is better.
+template <class IsTarget, class Offer>
 class SourceMap {
  public:
-  SourceMap(ImageView<Source> sources, Offer offer) : sources_(sources), offer_(offer) {}
+  SourceMap(ImageView<Source> sources, IsTarget is_target, Offer offer)
+      : sources_(sources), is_target_(is_target), offer_(offer) {}
 
   void propagate() {
     for (int y = 0; y < sources_.height; ++y) scan_row(y, y - 1);
@@ -35,6 +38,7 @@ class SourceMap {
   void scan_row(int y, int neighbour) {
     const bool inside = neighbour >= 0 && neighbour < sources_.height;
     for (int x = 0; x < sources_.width; ++x) {
+      if (!is_target_(x, y)) continue;
       if (inside) {
         if (x > 0) try_source(x, y, sources_.at(x - 1, neighbour));
         try_source(x, y, sources_.at(x, neighbour));
@@ -42,7 +46,9 @@ class SourceMap {
       }
       if (x > 0) try_source(x, y, sources_.at(x - 1, y));
     }
-    for (int x = sources_.width - 2; x >= 0; --x) try_source(x, y, sources_.at(x + 1, y));
+    for (int x = sources_.width - 2; x >= 0; --x) {
+      if (is_target_(x, y)) try_source(x, y, sources_.at(x + 1, y));
+    }
   }
 
   void try_source(int x, int y, const Source& source) {
@@ -56,6 +62,7 @@ class SourceMap {
   }
 
   ImageView<Source> sources_;
+  IsTarget is_target_;
   Offer offer_;
 };
 
@@ -81,8 +88,9 @@ class HiddenFill {
 
   void fill_holes() {
     if (!has_holes()) return;
-    find_sources([](const HeightCell& cell) { return cell.kind != CellKind::unseen; },
-                 [](const Source&, float distance) { return -distance; });
+    find_sources(
+        CellKind::unseen, [](const HeightCell& cell) { return cell.kind != CellKind::unseen; },
+        [](const Source&, float distance) { return -distance; });
     const auto reach = static_cast<float>(params_.max_hole_mm) / cell_mm_;
     for_each_cell([&](int x, int y, HeightCell& cell) {
       const Source& source = sources_.at(x, y);
@@ -139,11 +147,13 @@ class HiddenFill {
   }
 
   void fill_hidden() {
-    find_sources([](const HeightCell& cell) { return cell.kind == CellKind::surface && is_item(cell.label); },
-                 [this](const Source& source, float distance) {
-                   const HeightCell& known = map_.cells.at(source.x, source.y);
-                   return known.z_mm - slopes_[known.label] * cell_mm_ * distance;
-                 });
+    find_sources(
+        CellKind::hidden,
+        [](const HeightCell& cell) { return cell.kind == CellKind::surface && is_item(cell.label); },
+        [this](const Source& source, float distance) {
+          const HeightCell& known = map_.cells.at(source.x, source.y);
+          return known.z_mm - slopes_[known.label] * cell_mm_ * distance;
+        });
     for_each_cell([this](int x, int y, HeightCell& cell) {
       if (cell.kind == CellKind::hidden) fill(x, y, cell);
     });
@@ -167,12 +177,13 @@ class HiddenFill {
   }
 
   template <class IsSource, class Offer>
-  void find_sources(IsSource is_source, Offer offer) {
+  void find_sources(CellKind target, IsSource is_source, Offer offer) {
     for_each_cell([&](int x, int y, const HeightCell& cell) {
       sources_.at(x, y) =
           is_source(cell) ? Source{static_cast<std::int16_t>(x), static_cast<std::int16_t>(y)} : Source{};
     });
-    SourceMap<Offer>(sources_, offer).propagate();
+    const auto is_target = [&](int x, int y) { return map_.cells.at(x, y).kind == target; };
+    SourceMap<decltype(is_target), Offer>(sources_, is_target, offer).propagate();
   }
 
   void fill(int x, int y, HeightCell& cell) {

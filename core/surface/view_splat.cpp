@@ -12,18 +12,24 @@ namespace {
 
 using Point = Eigen::Vector3f;
 
-// A sample in cells from the map's first cell; all three axes have the same unit.
-struct Corner {
-  Point at = Point::Zero();
-  std::uint8_t label = 0;
-};
+using Corner = HeightMapWorkspace::Corner;
+
+Point at(const Corner& corner) {
+  return {corner.x, corner.y, corner.z};
+}
+
+Corner corner_at(const Point& place, std::uint8_t label) {
+  return {place.x(), place.y(), place.z(), label, true};
+}
 
 constexpr float kEdgeTolerance = 1e-4F;  // barycentric; neighbours share their edges' cells
 
 class ViewSplatter {
  public:
-  ViewSplatter(const SurfaceGrid& view, const HeightMapParams& params, HeightMap& map)
+  ViewSplatter(const SurfaceGrid& view, const HeightMapParams& params, std::span<Corner> corners,
+               HeightMap& map)
       : view_(view),
+        corners_(corners),
         cells_(map.cells),
         cell_mm_(static_cast<float>(map.cell_mm)),
         per_mm_(1.0F / cell_mm_),
@@ -33,45 +39,76 @@ class ViewSplatter {
         undercut_mm_(static_cast<float>(params.undercut_mm)) {}
 
   void splat() {
-    for (int y = 0; y + 1 < view_.points.height; ++y) {
-      for (int x = 0; x + 1 < view_.points.width; ++x) add_quad(x, y);
+    load_row(0);
+    for (int y = 0; y + 1 < view_.points.height; y += 2) {
+      load_row(y + 1);
+      if (y + 2 < view_.points.height) load_row(y + 2);
+      for (int x = 0; x + 1 < view_.points.width; x += 2) add_block(x, y);
     }
   }
 
  private:
-  bool corner(int x, int y, Corner& corner) const {
-    corner.label = view_.labels.at(x, y);
-    if (corner.label == kBackgroundLabel || corner.label == kCardLabel) return false;
-    if (view_.evidence.at(x, y) == SurfaceEvidence::none) return false;
-    const SurfacePoint& point = view_.points.at(x, y);
-    corner.at = (Point(point.x_mm, point.y_mm, point.z_mm) - origin_mm_) * per_mm_;
-    return corner.at.allFinite();
+  Corner* row(int y) const {
+    return corners_.data() + static_cast<std::ptrdiff_t>(y % 3) * view_.points.width;
   }
 
-  void add_quad(int x, int y) {
-    std::array<Corner, 4> c;
-    const std::array<bool, 4> known = {corner(x, y, c[0]), corner(x + 1, y, c[1]), corner(x, y + 1, c[2]),
-                                       corner(x + 1, y + 1, c[3])};
-    const int count = known[0] + known[1] + known[2] + known[3];
-    if (count < 3) return;
-    if (count == 3) {
-      const int missing = !known[0] ? 0 : !known[1] ? 1 : !known[2] ? 2 : 3;
-      add_triangle(c[missing == 0 ? 1 : 0], c[missing <= 1 ? 2 : 1], c[missing == 3 ? 2 : 3]);
+  void load_row(int y) {
+    Corner* corners = row(y);
+    const SurfacePoint* points = view_.points.row(y);
+    const SurfaceEvidence* evidence = view_.evidence.row(y);
+    const std::uint8_t* labels = view_.labels.row(y);
+    for (int x = 0; x < view_.points.width; ++x) {
+      const bool on_dish = labels[x] != kBackgroundLabel && labels[x] != kCardLabel;
+      if (!on_dish || evidence[x] == SurfaceEvidence::none) {
+        corners[x].known = false;
+        continue;
+      }
+      const Point place = (Point(points[x].x_mm, points[x].y_mm, points[x].z_mm) - origin_mm_) * per_mm_;
+      corners[x] = corner_at(place, labels[x]);
+      corners[x].known = place.allFinite();
+    }
+  }
+
+  // Two by two quads.
+  void add_block(int x, int y) {
+    const int right = std::min(x + 2, view_.points.width - 1);
+    const int bottom = std::min(y + 2, view_.points.height - 1);
+    bool bare = true;
+    for (int v = y; v <= bottom && bare; ++v) {
+      const Corner* corners = row(v);
+      for (int u = x; u <= right; ++u) bare = bare && corners[u].known && !is_item(corners[u].label);
+    }
+    if (bare) {
+      add_quad(row(y)[x], row(y)[right], row(bottom)[x], row(bottom)[right]);
+      return;
+    }
+    for (int v = y; v < bottom; ++v) {
+      const Corner* upper = row(v);
+      const Corner* lower = row(v + 1);
+      for (int u = x; u < right; ++u) add_quad(upper[u], upper[u + 1], lower[u], lower[u + 1]);
+    }
+  }
+
+  void add_quad(const Corner& a, const Corner& b, const Corner& c, const Corner& d) {
+    const int known = int{a.known} + int{b.known} + int{c.known} + int{d.known};
+    if (known < 3) return;
+    if (known == 3) {
+      add_triangle(a.known ? a : d, b.known ? b : d, c.known ? c : d);
       return;
     }
     // Cut along the shorter diagonal, so that an occlusion's edge keeps the triangles on its sides whole.
-    if ((c[0].at - c[3].at).squaredNorm() <= (c[1].at - c[2].at).squaredNorm()) {
-      add_triangle(c[0], c[1], c[3]);
-      add_triangle(c[0], c[3], c[2]);
+    if ((at(a) - at(d)).squaredNorm() <= (at(b) - at(c)).squaredNorm()) {
+      add_triangle(a, b, d);
+      add_triangle(a, d, c);
     } else {
-      add_triangle(c[0], c[1], c[2]);
-      add_triangle(c[1], c[3], c[2]);
+      add_triangle(a, b, c);
+      add_triangle(b, d, c);
     }
   }
 
   void add_triangle(const Corner& a, const Corner& b, const Corner& c) {
-    const Point normal = (b.at - a.at).cross(c.at - a.at);
-    const Point sight = camera_ - a.at;
+    const Point normal = (at(b) - at(a)).cross(at(c) - at(a));
+    const Point sight = camera_ - at(a);
     const float along = normal.dot(sight);
     const float cosine_squared = along * along / (normal.squaredNorm() * sight.squaredNorm() + 1e-20F);
     if (cosine_squared < jump_squared_) {
@@ -85,7 +122,7 @@ class ViewSplatter {
   // A triangle whose corners lie on two surfaces, or on one that the line of sight grazes.
   void add_occlusion(std::array<Corner, 3> c) {
     std::array<float, 3> range{};
-    for (std::size_t i = 0; i < 3; ++i) range[i] = (c[i].at - camera_).norm();
+    for (std::size_t i = 0; i < 3; ++i) range[i] = (at(c[i]) - camera_).norm();
     const auto order = [&](std::size_t i, std::size_t j) {
       if (range[j] < range[i]) {
         std::swap(range[i], range[j]);
@@ -110,7 +147,7 @@ class ViewSplatter {
 
   // Lines of sight from the edge of what hides to where they end.
   void add_sheet(const Corner& a, const Corner& b, const Corner& c, const Corner& edge, const Corner& foot) {
-    const float below_mm = cell_mm_ * foot.at.z();
+    const float below_mm = cell_mm_ * foot.z;
     rasterise(a, b, c, {0.0F, below_mm, edge.label, foot.label, CellKind::hidden});
   }
 
@@ -120,25 +157,25 @@ class ViewSplatter {
 
   // Both surfaces' ends on the line of sight halfway between two samples.
   std::pair<Corner, Corner> halfway(const Corner& a, const Corner& b) const {
-    const Point to_a = a.at - camera_;
-    const Point to_b = b.at - camera_;
+    const Point to_a = at(a) - camera_;
+    const Point to_b = at(b) - camera_;
     const float range_a = to_a.norm();
     const float range_b = to_b.norm();
     const Point middle = (to_a / range_a + to_b / range_b).normalized();
-    return {{camera_ + range_a * middle, a.label}, {camera_ + range_b * middle, b.label}};
+    return {corner_at(camera_ + range_a * middle, a.label), corner_at(camera_ + range_b * middle, b.label)};
   }
 
   void rasterise(const Corner& a, const Corner& b, const Corner& c, HeightCell patch) {
-    const float left = std::ceil(std::min({a.at.x(), b.at.x(), c.at.x()}) - kEdgeTolerance);
-    const float right = std::floor(std::max({a.at.x(), b.at.x(), c.at.x()}) + kEdgeTolerance);
+    const float left = std::ceil(std::min({a.x, b.x, c.x}) - kEdgeTolerance);
+    const float right = std::floor(std::max({a.x, b.x, c.x}) + kEdgeTolerance);
     if (left > right) return;
-    const float top = std::ceil(std::min({a.at.y(), b.at.y(), c.at.y()}) - kEdgeTolerance);
-    const float bottom = std::floor(std::max({a.at.y(), b.at.y(), c.at.y()}) + kEdgeTolerance);
+    const float top = std::ceil(std::min({a.y, b.y, c.y}) - kEdgeTolerance);
+    const float bottom = std::floor(std::max({a.y, b.y, c.y}) + kEdgeTolerance);
     if (top > bottom) return;
-    const float x1 = b.at.x() - a.at.x();
-    const float y1 = b.at.y() - a.at.y();
-    const float x2 = c.at.x() - a.at.x();
-    const float y2 = c.at.y() - a.at.y();
+    const float x1 = b.x - a.x;
+    const float y1 = b.y - a.y;
+    const float x2 = c.x - a.x;
+    const float y2 = c.y - a.y;
     const float area = x1 * y2 - x2 * y1;
     if (!(std::abs(area) > 1e-9F)) return;
     const float per_area = 1.0F / area;
@@ -148,13 +185,13 @@ class ViewSplatter {
     const int y_end = static_cast<int>(std::min(bottom, static_cast<float>(cells_.height - 1)));
     for (int y = y_begin; y <= y_end; ++y) {
       for (int x = x_begin; x <= x_end; ++x) {
-        const float u = static_cast<float>(x) - a.at.x();
-        const float v = static_cast<float>(y) - a.at.y();
+        const float u = static_cast<float>(x) - a.x;
+        const float v = static_cast<float>(y) - a.y;
         const float wb = (u * y2 - x2 * v) * per_area;
         const float wc = (x1 * v - u * y1) * per_area;
         const float wa = 1.0F - wb - wc;
         if (wa < -kEdgeTolerance || wb < -kEdgeTolerance || wc < -kEdgeTolerance) continue;
-        patch.z_mm = (wa * a.at.z() + wb * b.at.z() + wc * c.at.z()) * cell_mm_;
+        patch.z_mm = (wa * a.z + wb * b.z + wc * c.z) * cell_mm_;
         if (patch.kind == CellKind::surface) {
           patch.label = wa >= wb && wa >= wc ? a.label : wb >= wc ? b.label : c.label;
         }
@@ -180,6 +217,7 @@ class ViewSplatter {
   }
 
   const SurfaceGrid& view_;
+  std::span<Corner> corners_;
   ImageView<HeightCell> cells_;
   float cell_mm_;
   float per_mm_;
@@ -191,11 +229,12 @@ class ViewSplatter {
 
 }  // namespace
 
-void splat_view(const SurfaceGrid& view, const HeightMapParams& params, HeightMap& map) {
+void splat_view(const SurfaceGrid& view, const HeightMapParams& params, std::span<Corner> corners,
+                HeightMap& map) {
   for (int y = 0; y < map.cells.height; ++y) {
     std::fill_n(map.cells.row(y), map.cells.width, HeightCell{});
   }
-  ViewSplatter(view, params, map).splat();
+  ViewSplatter(view, params, corners, map).splat();
 }
 
 }  // namespace traygauge

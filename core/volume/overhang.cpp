@@ -70,7 +70,7 @@ void close_overhangs(std::span<const SurfaceGrid> views, const HeightMap& map, c
       if (!overhangs[cell.label]) continue;
       HeightVolume& item = items[cell.label];
       const double upper = static_cast<double>(cell.z_mm) - dish.height_mm(map.centre_mm(x, y));
-      const double lower = std::max(item.max_height_mm - upper, 0.0);
+      const double lower = std::max(2.0 * params.equator_share * item.max_height_mm - upper, 0.0);
       item.volume_ml += std::max(upper - lower, 0.0) * cell_ml;
     }
   }

@@ -40,7 +40,8 @@ cv::Mat1f lattice_noise(cv::Size size, double sigma, int correlation_px, cv::RNG
   cv::Scalar mean;
   cv::Scalar deviation;
   cv::meanStdDev(noise, mean, deviation);
-  return noise * (sigma / deviation[0]);
+  noise.convertTo(noise, CV_32F, sigma / deviation[0]);
+  return noise;
 }
 
 Solid height_field(int label, const char* name, std::function<double(const Vec2&)> top) {
@@ -166,9 +167,8 @@ TrueGrid cast_grid(const SolidScene& scene, const SceneCamera& camera, const Sce
       grid.evidence[k] = SurfaceEvidence::both;
       grid.labels[k] = static_cast<std::uint8_t>(hit.label);
       if (noise.label_px > 0.0) {
-        const SolidScene::Hit moved =
-            scene.cast(origin, direction(x + static_cast<double>(shift_x(y, x)),
-                                         y + static_cast<double>(shift_y(y, x))));
+        const SolidScene::Hit moved = scene.cast(origin, direction(x + static_cast<double>(shift_x(y, x)),
+                                                                   y + static_cast<double>(shift_y(y, x))));
         if (is_on_dish(moved)) grid.labels[k] = static_cast<std::uint8_t>(moved.label);
       }
     }

@@ -77,7 +77,8 @@ inline std::vector<DishInCapture> dishes_of(const CaptureTruth& capture, const s
     const nlohmann::json& entry = tray ? capture.description["dishes"][i] : capture.description["dish"];
     DishInCapture dish;
     const int dish_label = tray ? entry["label"].get<int>() : 1;
-    dish.name = name + (tray ? " " + std::to_string(dish_label) : "");
+    dish.name = name;
+    if (tray) dish.name.append(" ").append(std::to_string(dish_label));
     if (!dish.dish.profile.set(dish_model_from_json(entry)).ok()) continue;
     if (tray) {
       const nlohmann::json& truth = capture.truth["dishes"][i];

@@ -1,0 +1,35 @@
+// Height map to volumes, as a measurement runs them.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "core/volume/height_volume.hpp"
+#include "core/volume/level_liquid.hpp"
+#include "core/volume/overhang.hpp"
+#include "tests/core/surface/block.hpp"
+
+namespace traygauge::testing {
+
+struct HeightMeasurement {
+  static constexpr std::size_t kMaxCells = 400 * 400;
+  static constexpr std::size_t kMaxGridWidth = 1024;
+
+  Allocated<HeightMapWorkspace> map_space{kMaxCells, kMaxGridWidth};
+  Allocated<HeightVolumeWorkspace> volume_space;
+  Allocated<LevelLiquidWorkspace> liquid_space;
+  HeightMap map;
+  LevelLiquid liquid;
+
+  Status run(std::span<const SurfaceGrid> views, const InnerSurface& dish, const HeightMapParams& params = {}) {
+    const Status built = build_height_map(views, dish, params, *map_space, map);
+    if (!built.ok()) return built;
+    liquid = level_liquid(dish, {}, *liquid_space, map);
+    const Status integrated = integrate_height_map(map, dish, {}, *volume_space);
+    close_overhangs(views, map, dish, {}, volume_space->items);
+    return integrated;
+  }
+  const HeightVolume& item(int label) { return volume_space->items[static_cast<std::size_t>(label)]; }
+};
+
+}  // namespace traygauge::testing
