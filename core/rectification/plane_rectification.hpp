@@ -22,7 +22,7 @@
 namespace traygauge {
 
 struct PlaneRectificationParams {
-  int max_samples = 168000;  // of the grid around the dish: a round dish measures π/4 of it, 2^17 (paper
+  int max_samples = 131072;  // 2^17 of the grid around the dish (paper III-B-2 resizes to a fixed dish size): time and
                              // III-B-2, "resized to a fixed dish size")
   int max_rows = 768;        // that tables are kept for
   double aspect = 1.0;       // row spacing over column spacing

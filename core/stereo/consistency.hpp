@@ -10,8 +10,8 @@
 namespace traygauge {
 
 struct ConsistencyParams {
-  double max_difference_px = 1.0;  // between a disparity and its partner's: one step of whole pixels
-  double border_share = 1.0;
+  double max_difference_px = 1.5;  // between a disparity and its partner's: whole pixels and half a step
+  double border_share = 0.65;
   double same_surface_px = 3.0;    // ends of a gap that differ by less are one surface seen through it; by
                                    // more, the gap is what the nearer one hides from the other view
 };

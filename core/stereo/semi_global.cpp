@@ -15,7 +15,6 @@ namespace {
 // Path costs stay below worst cost + large penalty; a pad above that never wins and never overflows.
 constexpr std::uint8_t kPadCost = 200;
 constexpr int kWorstCost = 63;
-constexpr std::uint16_t kNoSum = 0x7fff;
 
 ByteLanes least(ByteLanes a, ByteLanes b) {
   return a < b ? a : b;
@@ -57,31 +56,30 @@ struct PathCosts {
   ByteLanes least;  // of the lanes, in each
 };
 
-// In the order of the disparities.
-template <int kLanes>
-void gather_sums(const std::uint16_t* stored, std::uint16_t* sums) {
-  for (int chunk = 0; chunk < kLanes; chunk += kBandLanes) {
-    for (int k = 0; k < kHalfLanes; ++k) {
-      sums[chunk + 2 * k] = stored[chunk + k];
-      sums[chunk + 2 * k + 1] = stored[chunk + kHalfLanes + k];
-    }
-  }
+constexpr int sum_index(int lane) {
+  return lane / kBandLanes * kBandLanes + lane % 2 * kHalfLanes + lane % kBandLanes / 2;
 }
 
-// Lowers the sums of successive pixels of the second picture, and notes their disparities.
+// The disparity of the least sum, the lower one of equal sums.
 template <int kLanes>
-void offer(const std::uint16_t* sums, int first_disparity, std::uint16_t* best, std::int16_t* found) {
-  constexpr CostLanes kSteps{0, 1, 2, 3, 4, 5, 6, 7};
-  for (int k = 0; k < kLanes; k += kHalfLanes) {
-    const auto sum = load_lanes<CostLanes>(sums + k);
-    const auto before = load_lanes<CostLanes>(best + k);
-    const CostLanes lower = sum < before;
-    const CostLanes disparity = broadcast(first_disparity + k) + kSteps;
-    const CostLanes lowest = smaller(sum, before);
-    const CostLanes chosen = (disparity & lower) | (load_lanes<CostLanes>(found + k) & ~lower);
-    std::memcpy(best + k, &lowest, sizeof lowest);
-    std::memcpy(found + k, &chosen, sizeof chosen);
+int find_least(const std::uint16_t* sums) {
+  constexpr WideLanes kSteps{0, 2, 4, 6, 8, 10, 12, 14};
+  int least_key = std::numeric_limits<int>::max();
+  int best = 0;
+  for (int chunk = 0; chunk < kLanes; chunk += kBandLanes) {
+    // Sums of eight paths below 2^10 leave room for the lane; signed, so that every processor compares them.
+    const auto even = reinterpret_cast<CostLanes>((load_lanes<WideLanes>(sums + chunk) << 4) | kSteps);
+    const auto odd =
+        reinterpret_cast<CostLanes>((load_lanes<WideLanes>(sums + chunk + kHalfLanes) << 4) | (kSteps + 1));
+    const CostLanes keys = smaller(even, odd);
+    int key = keys[0];
+    for (int i = 1; i < kHalfLanes; ++i) key = std::min<int>(key, keys[i]);
+    if ((key >> 4) < (least_key >> 4)) {
+      least_key = key;
+      best = chunk + (key & 15);
+    }
   }
+  return best;
 }
 
 template <int kChunks>
@@ -106,7 +104,7 @@ class Matcher {
     }
   }
 
-  void sweep(bool forward, const std::array<ImageView<Disparity>, 2>* disparity);
+  void sweep(bool forward, ImageView<Disparity> disparity);
 
  private:
   // Path costs of the pixels of a row, in one direction, with one pixel beyond either end.
@@ -127,7 +125,7 @@ class Matcher {
   template <std::size_t kPaths>
   static void add_paths(const std::array<const Path*, 4>& paths, bool first, std::uint16_t* sums);
   void sweep_row(int y, int previous_y, int step);
-  void choose(int y, const std::array<ImageView<Disparity>, 2>& disparity);
+  void choose(int y, Disparity* disparity) const;
   // What a jump between two neighbours costs.
   ByteLanes large_penalty(int x, int y, int from_x, int from_y) const {
     if (pair_.labels[0].at(x, y) != pair_.labels[0].at(from_x, from_y)) return border_penalty_;
@@ -303,7 +301,7 @@ void Matcher<kChunks>::sweep_row(int y, int previous_y, int step) {
 }
 
 template <int kChunks>
-void Matcher<kChunks>::sweep(bool forward, const std::array<ImageView<Disparity>, 2>* disparity) {
+void Matcher<kChunks>::sweep(bool forward, ImageView<Disparity> disparity) {
   for (int which = 0; which < 2; ++which) {
     for (int i = -1; i < 3 * (width_ + 2) - 1; ++i) clear(path_row(which, 0)[i]);
   }
@@ -312,55 +310,40 @@ void Matcher<kChunks>::sweep(bool forward, const std::array<ImageView<Disparity>
     const int y = forward ? i : height_ - 1 - i;
     load_second_row(y);
     sweep_row(y, y - step, step);
-    if (disparity != nullptr) choose(y, *disparity);
+    if (!forward) choose(y, disparity.row(y));
   }
 }
 
-// The least sum of every pixel of the first picture, and of all that meet in one of the second.
 template <int kChunks>
-void Matcher<kChunks>::choose(int y, const std::array<ImageView<Disparity>, 2>& disparity) {
-  Disparity* first = disparity[0].row(y);
-  Disparity* second = disparity[1].row(y);
-  const std::uint8_t* labels = pair_.labels[0].row(y);
-  const std::uint8_t* second_labels = pair_.labels[1].row(y);
-  std::uint16_t* second_best = workspace_.second_best.data() + kMaxBandLanes;
-  std::int16_t* second_found = workspace_.second_found.data() + kMaxBandLanes;
-  std::fill_n(workspace_.second_best.data(), width_ + 2 * kMaxBandLanes, kNoSum);
+void Matcher<kChunks>::choose(int y, Disparity* disparity) const {
   for (int x = 0; x < width_; ++x) {
-    first[x] = kNoDisparity;
-    if (labels[x] == 0) continue;
-    const int base = base_.at(x, y);
-    std::uint16_t sums[static_cast<std::size_t>(kLanes)];
-    gather_sums<kLanes>(sums_at(x, y), sums);
-    int best = 0;
-    for (int k = 1; k < kLanes; ++k) best = sums[k] < sums[best] ? k : best;
+    disparity[x] = kNoDisparity;
+    if (pair_.labels[0].at(x, y) == 0) continue;
+    const std::uint16_t* sums = sums_at(x, y);
+    const int best = find_least<kLanes>(sums);
     int fraction = 0;
-    if (best > 0 && best + 1 < kLanes) fraction = parabola_offset(sums[best - 1], sums[best], sums[best + 1]);
-    first[x] = static_cast<Disparity>((base + best) * kDisparityScale + fraction);
-    const int start = std::clamp(x + base, -kMaxBandLanes, width_ + kMaxBandLanes - kLanes);
-    offer<kLanes>(sums, start - x, second_best + start, second_found + start);
-  }
-  for (int x = 0; x < width_; ++x) {
-    const bool known = second_labels[x] != 0 && second_best[x] != kNoSum;
-    second[x] = known ? static_cast<Disparity>(second_found[x] * kDisparityScale) : kNoDisparity;
+    if (best > 0 && best + 1 < kLanes) {
+      fraction = parabola_offset(sums[sum_index(best - 1)], sums[sum_index(best)], sums[sum_index(best + 1)]);
+    }
+    disparity[x] = static_cast<Disparity>((base_.at(x, y) + best) * kDisparityScale + fraction);
   }
 }
 
 template <int kChunks>
 void match_band(const BandedPair& pair, ImageView<const std::int16_t> first_disparity,
                 const SemiGlobalParams& params, SemiGlobalWorkspace& workspace,
-                const std::array<ImageView<Disparity>, 2>& disparity) {
+                ImageView<Disparity> disparity) {
   Matcher<kChunks> matcher(pair, first_disparity, params, workspace);
-  matcher.sweep(true, nullptr);
-  matcher.sweep(false, &disparity);
+  matcher.sweep(true, disparity);
+  matcher.sweep(false, disparity);
 }
 
 }  // namespace
 
 void match_semi_global(const BandedPair& pair, ImageView<const std::int16_t> first_disparity, int lanes,
                        const SemiGlobalParams& params, SemiGlobalWorkspace& workspace,
-                       const std::array<ImageView<Disparity>, 2>& disparity) {
-  static_assert(kMaxBandLanes == 6 * kBandLanes);
+                       ImageView<Disparity> disparity) {
+  static_assert(kMaxBandLanes == 4 * kBandLanes);
   switch (lanes / kBandLanes) {
     case 1:
       return match_band<1>(pair, first_disparity, params, workspace, disparity);
@@ -368,12 +351,8 @@ void match_semi_global(const BandedPair& pair, ImageView<const std::int16_t> fir
       return match_band<2>(pair, first_disparity, params, workspace, disparity);
     case 3:
       return match_band<3>(pair, first_disparity, params, workspace, disparity);
-    case 4:
-      return match_band<4>(pair, first_disparity, params, workspace, disparity);
-    case 5:
-      return match_band<5>(pair, first_disparity, params, workspace, disparity);
     default:
-      return match_band<6>(pair, first_disparity, params, workspace, disparity);
+      return match_band<4>(pair, first_disparity, params, workspace, disparity);
   }
 }
 

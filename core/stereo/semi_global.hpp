@@ -14,17 +14,17 @@ namespace traygauge {
 
 struct SemiGlobalParams {
   // In bits of the census, of 31.
-  int small_step_penalty = 4;    // a change by one disparity: slanted food is the rule
+  int small_step_penalty = 3;    // a change by one disparity: slanted food is the rule
   int large_step_penalty = 28;   // by more, in plain areas
   int least_large_penalty = 10;  // where the picture has an edge of several edge_contrast
-  int border_penalty = 12;        // between samples of different labels
+  int border_penalty = 14;        // between samples of different labels
   int edge_contrast = 12;        // grey levels that halve the large penalty
   int label_penalty = 16;        // partners with different labels
-  bool diagonal_paths = true;    // eight paths instead of four
+  bool diagonal_paths = false;   // eight paths instead of four: slower, and no better within bands
 };
 
 inline constexpr int kBandLanes = 16;     // disparities in a register
-inline constexpr int kMaxBandLanes = 96;  // widest band
+inline constexpr int kMaxBandLanes = 64;  // widest band
 inline constexpr int kBandPadding = 16;   // of path costs, either side
 
 // Both pictures of a level and what matching needs of them. Labels 0 are not matched.
@@ -40,8 +40,6 @@ struct SemiGlobalWorkspace {
   std::array<std::span<std::uint8_t>, 2> paths;   // two rows of path costs in three directions
   std::span<std::uint32_t> padded_codes;          // one row of the second picture
   std::span<std::uint8_t> padded_labels;
-  std::span<std::uint16_t> second_best;  // one row: least sum of each pixel of the second picture
-  std::span<std::int16_t> second_found;          // and its disparity
 
   template <class Allocator>
   constexpr void allocate(Allocator& arena, int max_columns, int max_states) {
@@ -51,16 +49,14 @@ struct SemiGlobalWorkspace {
     for (auto& row : paths) row = arena.template take<std::uint8_t>(3 * columns * kLanes);
     padded_codes = arena.template take<std::uint32_t>(columns + 2 * kMaxBandLanes);
     padded_labels = arena.template take<std::uint8_t>(columns + 2 * kMaxBandLanes);
-    second_best = arena.template take<std::uint16_t>(columns + 2 * kMaxBandLanes);
-    second_found = arena.template take<std::int16_t>(columns + 2 * kMaxBandLanes);
   }
 };
 
-// Finds the disparities of either picture from the same sums. `first_disparity` holds the start of each
+// Finds the disparities of the first picture: column of the partner less own column. `first_disparity` holds the start of each
 // pixel's band of `lanes` disparities (a multiple of kBandLanes); pixels × lanes ≤ the workspace's states.
 // Results in sixteenths, kNoDisparity outside of the labels and where nothing matched.
 void match_semi_global(const BandedPair& pair, ImageView<const std::int16_t> first_disparity, int lanes,
                        const SemiGlobalParams& params, SemiGlobalWorkspace& workspace,
-                       const std::array<ImageView<Disparity>, 2>& disparity);
+                       ImageView<Disparity> disparity);
 
 }  // namespace traygauge

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <utility>
 
 #include "core/segmentation/label_regions.hpp"
 
@@ -51,6 +52,15 @@ class Refinement {
   float* windows(int channel) { return workspace_.windows.data() + channel * columns_; }
   float* sums(int channel) { return workspace_.sums.data() + channel * columns_ + kMaxRefinementRadius; }
   static std::ptrdiff_t at(ImageView<float> picture, int y) { return std::ptrdiff_t{y} * picture.width; }
+  // First labelled column of a row, and the one behind the last.
+  std::pair<int, int> labelled_columns(int y) const {
+    const std::uint8_t* labels = pair_.labels.row(y);
+    int first = 0;
+    int last = disparity_.width;
+    while (first < last && labels[first] == 0) ++first;
+    while (last > first && labels[last - 1] == 0) --last;
+    return {first, last};
+  }
   void compute_terms(int y);
   // Whether the row has one label around a sample.
   bool is_inside_outline(const std::uint8_t* labels, int x) const {
@@ -139,13 +149,13 @@ void Refinement::solve_row(int y) {
   float* target = workspace_.target.data() + at(disparity_, y);
   const float* disparity = disparity_.row(y);
   const auto most = static_cast<float>(params_.max_step_px);
-  const int width = disparity_.width;
+  const auto [first, last] = labelled_columns(y);
   for (int k = 0; k < kChannels; ++k) {
     const float* sum = sums(k) - radius;
     float* window = windows(k);
-    for (int x = 0; x < width; ++x) window[x] = sum[x];
+    for (int x = first; x < last; ++x) window[x] = sum[x];
     for (int i = 1; i <= 2 * radius; ++i) {
-      for (int x = 0; x < width; ++x) window[x] += sum[x + i];
+      for (int x = first; x < last; ++x) window[x] += sum[x + i];
     }
   }
   const float* count = windows(0);
@@ -153,7 +163,7 @@ void Refinement::solve_row(int y) {
   const float* gradient = windows(2);
   const float* square = windows(3);
   const float* product = windows(4);
-  for (int x = 0; x < width; ++x) {
+  for (int x = first; x < last; ++x) {
     const float share = count[x] > 0.0F ? 1.0F / count[x] : 0.0F;
     const float energy = square[x] - gradient[x] * gradient[x] * share;
     const float correlation = product[x] - gradient[x] * residual[x] * share;
@@ -186,7 +196,7 @@ struct MembraneRow {
   const float* upper_tie;
 };
 
-void relax_row(const MembraneRow& row, float up, float stiffness, int width) {
+void relax_row(const MembraneRow& row, float up, float stiffness, int first, int last) {
   float* __restrict__ disparity = row.disparity;
   const float* __restrict__ old = row.old;
   const float* __restrict__ above = row.above;
@@ -201,8 +211,9 @@ void relax_row(const MembraneRow& row, float up, float stiffness, int width) {
     const float total = kLeastHold + row.certainty[x] + stiffness * ties;
     disparity[x] = (kLeastHold * old[x] + row.target[x] + stiffness * pull) / total;
   };
-  relax_one(0, 0.0F);
-  for (int x = 1; x < width; ++x) relax_one(x, row.right_tie[x - 1]);
+  if (first == last) return;
+  relax_one(first, 0.0F);
+  for (int x = first + 1; x < last; ++x) relax_one(x, row.right_tie[x - 1]);
 }
 
 // One Gauss-Seidel step from row to row, a Jacobi step within each.
@@ -224,9 +235,10 @@ void Refinement::relax(bool downwards) {
     std::memcpy(old, disparity, static_cast<std::size_t>(width) * sizeof(float));
     old[-1] = old[0];
     old[width] = old[width - 1];
+    const auto [first, last] = labelled_columns(y);
     const float up = y > 0 ? 1.0F : 0.0F;
     relax_row({disparity, old, above, below, certainty, target, right_tie, lower_tie, upper_tie}, up, stiffness,
-              width);
+              first, last);
   }
 }
 

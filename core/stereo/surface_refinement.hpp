@@ -14,12 +14,12 @@
 namespace traygauge {
 
 struct SurfaceRefinementParams {
-  int iterations = 3;        // each resamples the picture anew
+  int iterations = 2;        // each resamples the picture anew
   int window_radius = 2;     // 1 to kMaxRefinementRadius
   double max_step_px = 1.0;  // of an iteration: the linearisation reaches about a pixel
   double stiffness =
       12.0;             // grey², against the mean squared gradient of a window: noise of 2 to 4 grey levels
-  int relaxations = 8;  // of the membrane, per iteration
+  int relaxations = 4;  // of the membrane, per iteration
   double max_jump_px = 1.5;  // neighbours that differ by more are not tied
   double dish_weight = 0.05;    // of the dish's samples in windows: food beside it is not mixed with it
   int outline_px = 2;  // samples of food nearer to another label weigh as the dish's: their gradient is its outline's

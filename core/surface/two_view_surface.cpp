@@ -89,60 +89,82 @@ void extend_known(ImageView<Disparity> disparity) {
   }
 }
 
-// Bands of `lanes` about twice the disparity of the coarser level.
-void centre_bands(ImageView<const Disparity> coarse, DisparityRange range, int lanes,
+// Bands of `lanes` about twice the disparity of the coarser level, counted from the reference view.
+void centre_bands(ImageView<const Disparity> coarse, int sign, DisparityRange range, int lanes,
                   ImageView<std::int16_t> first) {
   const int last = std::max(range.min_px, range.max_px + 1 - lanes);
   for (int y = 0; y < first.height; ++y) {
     const Disparity* row = coarse.row(y / 2);
     for (int x = 0; x < first.width; ++x) {
-      const int twice = (row[x / 2] + kDisparityScale / 4) >> 3;
+      const int twice = sign * ((row[x / 2] + kDisparityScale / 4) >> 3);
       first.at(x, y) = static_cast<std::int16_t>(std::clamp(twice - lanes / 2, range.min_px, last));
     }
   }
 }
 static_assert(kDisparityScale == 16);
 
-void match_level(TwoViewSurfaceWorkspace& workspace, std::size_t level, DisparityRange range, bool coarsest,
-                 const TwoViewSurfaceParams& params) {
+// The range of a level, counted from the reference view, and one more at either end.
+DisparityRange range_at(DisparityRange range, std::size_t level, int sign) {
+  const double scale = static_cast<double>(1 << level);
+  const DisparityRange reduced{static_cast<int>(std::floor(range.min_px / scale)) - 1,
+                               static_cast<int>(std::ceil(range.max_px / scale)) + 1};
+  return sign > 0 ? reduced : DisparityRange{-reduced.max_px, -reduced.min_px};
+}
+
+// Matches view `v` against the other one.
+void match_reference(TwoViewSurfaceWorkspace& workspace, std::size_t level, std::size_t v, DisparityRange range,
+                     bool coarsest, const TwoViewSurfaceParams& params) {
   std::array<View, 2>& views = workspace.views;
   const ImageView<const std::uint8_t> like = views[0].gray[level];
   const ImageView<std::int16_t> first = as_picture(workspace.first_disparity, like);
+  const int sign = v == 0 ? 1 : -1;
+  const DisparityRange searched = range_at(range, level, sign);
   int lanes = params.band_lanes;
-  const int scale = 1 << level;
-  const DisparityRange at_level{static_cast<int>(std::floor(static_cast<double>(range.min_px) / scale)) - 1,
-                                static_cast<int>(std::ceil(static_cast<double>(range.max_px) / scale)) + 1};
   if (coarsest) {
-    lanes = std::min((at_level.count() + kBandLanes - 1) / kBandLanes * kBandLanes, kMaxBandLanes);
+    lanes = std::min((searched.count() + kBandLanes - 1) / kBandLanes * kBandLanes, kMaxBandLanes);
     std::fill_n(first.data, static_cast<std::size_t>(like.width) * static_cast<std::size_t>(like.height),
-                static_cast<std::int16_t>(at_level.min_px));
+                static_cast<std::int16_t>(searched.min_px));
   } else {
     const ImageView<Disparity> coarse =
-        as_picture(views[0].consistent, ImageView<const std::uint8_t>(views[0].gray[level + 1]));
+        as_picture(views[v].consistent, ImageView<const std::uint8_t>(views[0].gray[level + 1]));
     extend_known(coarse);
-    centre_bands(coarse, at_level, lanes, first);
+    centre_bands(coarse, sign, searched, lanes, first);
   }
   BandedPair pair;
-  std::array<ImageView<Disparity>, 2> found;
-  for (std::size_t v = 0; v < 2; ++v) {
-    const ImageView<std::uint32_t> codes = as_picture(views[v].codes, like);
-    transform_symmetric_census(views[v].gray[level], codes);
-    pair.gray[v] = views[v].gray[level];
-    pair.labels[v] = views[v].labels[level];
-    pair.codes[v] = codes;
-    found[v] = as_picture(views[v].disparity, like);
+  for (std::size_t i = 0; i < 2; ++i) {
+    const View& view = views[i == 0 ? v : 1 - v];
+    pair.gray[i] = view.gray[level];
+    pair.labels[i] = view.labels[level];
+    pair.codes[i] = as_picture(view.codes, like);
   }
   const ImageView<std::uint32_t> mask = as_picture(workspace.census_mask, like);
-  if (params.outline_mask) mask_symmetric_census(views[0].labels[level], mask);
-  else std::fill_n(mask.data,static_cast<std::size_t>(mask.width * mask.height),~0U);
+  mask_symmetric_census(views[v].labels[level], mask);
   pair.mask = mask;
+  const ImageView<Disparity> found = as_picture(views[v].disparity, like);
   match_semi_global(pair, first, lanes, params.semi_global, workspace.semi_global, found);
+  if (sign > 0) return;
+  for (int y = 0; y < found.height; ++y) {
+    for (int x = 0; x < found.width; ++x) {
+      Disparity& d = found.at(x, y);
+      if (d != kNoDisparity) d = static_cast<Disparity>(-d);
+    }
+  }
+}
+
+void match_level(TwoViewSurfaceWorkspace& workspace, std::size_t level, DisparityRange range, bool coarsest,
+                 const TwoViewSurfaceParams& params) {
+  for (View& view : workspace.views) {
+    transform_symmetric_census(view.gray[level],
+                               as_picture(view.codes, ImageView<const std::uint8_t>(view.gray[level])));
+  }
+  for (std::size_t v = 0; v < 2; ++v) match_reference(workspace, level, v, range, coarsest, params);
 }
 
 void filter_level(TwoViewSurfaceWorkspace& workspace, std::size_t level, int radius) {
   const ImageView<const std::uint8_t> like = workspace.views[0].gray[level];
-  const View& view = workspace.views[0];
-  filter_median(as_picture(view.disparity, like), radius, as_picture(view.consistent, like));
+  for (const View& view : workspace.views) {
+    filter_median(as_picture(view.disparity, like), radius, as_picture(view.consistent, like));
+  }
 }
 
 // Disparities that both views agree on, gaps filled, as real numbers for the refinement.

@@ -29,7 +29,6 @@ struct TwoViewSurfaceParams {
   double min_height_mm = -2.0;  // below the bottom: the pose's error, and the table beside the dish
   double highest_mm = 90.0;     // no food is higher above the bottom
   int median_radius = 1;
-  bool outline_mask = true;
   double confirmed_px = 1.0;  // both views' refined disparities agree within
   SemiGlobalParams semi_global;
   ConsistencyParams consistency;
