@@ -11,7 +11,7 @@ using Mat6 = Eigen::Matrix<double, 6, 6>;
 
 // A view's alignment with the print, as if the card lay flat on the table; the information is that of a step
 // as in `moved`.
-struct CardAlignment {
+struct CardPrior {
   Pose camera_from_table;
   Mat6 information = Mat6::Zero();
 };
@@ -30,7 +30,7 @@ struct CardLie {
 
 // The step from the alignment to the card where camera and lie put it. Turns are taken for small: half the
 // antisymmetric part of a rotation is its axis times the sine.
-inline Vec6 card_deviation(const CardAlignment& alignment, const Pose& camera_from_card) {
+inline Vec6 card_deviation(const CardPrior& alignment, const Pose& camera_from_card) {
   const Mat3 turn = camera_from_card.rotation * alignment.camera_from_table.rotation.transpose();
   Vec6 deviation;
   deviation << 0.5 * (turn(2, 1) - turn(1, 2)), 0.5 * (turn(0, 2) - turn(2, 0)),

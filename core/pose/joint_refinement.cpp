@@ -53,7 +53,7 @@ class JointRefinement {
     // Dish and card rest on the tray together; the background may not.
     const bool is_dish_first = count_dish_tracks() >= params_.min_dish_tracks;
     for (const Trust trust :
-         {is_dish_first ? Trust::dishes : Trust::lines, Trust::lines, Trust::consensus, Trust::table}) {
+         {is_dish_first ? Trust::dishes : Trust::all, Trust::lines, Trust::consensus, Trust::table}) {
       weigh_tracks(trust);
       if (trust == Trust::consensus && params_.use_table) find_table_tracks();
       improve();
@@ -68,8 +68,9 @@ class JointRefinement {
  private:
   // What the tracks are taken for, round by round.
   enum class Trust : std::uint8_t {
+    all,        // any for their lines
     dishes,     // those on dishes for their lines
-    lines,      // all for their lines
+    lines,      // those near their lines
     consensus,  // and the background that agrees about it for the table
     table,      // and all background near the table for it
   };
@@ -115,20 +116,21 @@ class JointRefinement {
       double by_height = 0.0;
       Vec6 by_motion;
       PairVector by_pair;
-      const bool is_believed = trust != Trust::dishes || is_on_a_dish(track.label);
-      if (is_believed && residuals.off_line(track, residual, by_motion)) {
-        weight.line_variance = variance;
-        weight.line_squared_scale = sigmas * (variance + predicted_variance<6>(motion, by_motion));
-      }
+      if (!residuals.off_line(track, residual, by_motion)) continue;
+      weight.line_variance = variance;
+      weight.line_squared_scale = sigmas * (variance + predicted_variance<6>(motion, by_motion));
+      // However little a wrong track weighs, a thousand that agree would pull; at first, however, the card
+      // may be further off than it says.
       const bool is_on_line = residual * residual <= weight.line_squared_scale;
-      const bool is_table = is_on_line && (trust == Trust::consensus || trust == Trust::table) &&
-                            params_.use_table && track.label == kBackgroundLabel;
-      if (is_table && residuals.along_line(track, residual, by_pair, by_height)) {
-        const double rough = params_.table_flatness_mm * by_height;
-        weight.table_variance = variance + rough * rough;
-        weight.table_squared_scale =
-            sigmas * (weight.table_variance + predicted_variance<kPairParameters>(covariance, by_pair));
-      }
+      weight.uses_line = trust == Trust::all || (trust == Trust::dishes && is_on_a_dish(track.label)) ||
+                         (trust >= Trust::lines && is_on_line);
+      const bool is_table = trust >= Trust::consensus && params_.use_table && track.label == kBackgroundLabel;
+      if (!is_table || !is_on_line || !residuals.along_line(track, residual, by_pair, by_height)) continue;
+      const double rough = params_.table_flatness_mm * by_height;
+      weight.table_variance = variance + rough * rough;
+      weight.table_squared_scale =
+          sigmas * (weight.table_variance + predicted_variance<kPairParameters>(covariance, by_pair));
+      weight.uses_table = residual * residual <= weight.table_squared_scale;
     }
   }
 
@@ -150,7 +152,7 @@ class JointRefinement {
       double residual = 0.0;
       double by_height = 0.0;
       PairVector by_pair;
-      if (!(weight.table_squared_scale > 0.0)) continue;
+      if (!(weight.table_squared_scale > 0.0)) continue;  // the card may be off by more: all are asked
       if (!residuals.along_line(terms_.tracks[i], residual, by_pair, by_height)) continue;
       const double variance = weight.table_variance + predicted_variance<6>(motion, by_pair.head<6>());
       const Vec3 ray = table_from_first.rotation * terms_.tracks[i].first.homogeneous();
@@ -167,7 +169,7 @@ class JointRefinement {
     const std::span<TableSighting> sightings = workspace_.sightings.first(count);
     find_table(sightings, table_covariance(), params_.table);
     for (const TableSighting& sighting : sightings) {
-      if (!sighting.is_table) workspace_.weights[sighting.track].table_squared_scale = 0.0;
+      workspace_.weights[sighting.track].uses_table = sighting.is_table;
     }
   }
 
@@ -325,7 +327,7 @@ class JointRefinement {
   bool are_dishes_placed_ = false;
 };
 
-bool is_usable(const CardAlignment& card) {
+bool is_usable(const CardPrior& card) {
   return card.camera_from_table.rotation.allFinite() && card.camera_from_table.translation.allFinite() &&
          card.information.allFinite() && card.information.diagonal().minCoeff() > 0.0;
 }

@@ -47,7 +47,7 @@ struct JointDish {
 };
 
 struct JointInput {
-  std::array<CardAlignment, 2> cards;
+  std::array<CardPrior, 2> cards;
   Vec3 card_middle_mm = Vec3::Zero();  // of the print, in the table frame
   std::span<const PointTrack> tracks;
   std::span<const JointDish> dishes;

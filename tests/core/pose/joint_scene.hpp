@@ -57,7 +57,7 @@ struct JointScene {
   TableCameras camera_from_table;
   CardLie card;
   DishPlace place;
-  std::array<CardAlignment, 2> cards;
+  std::array<CardPrior, 2> cards;
   std::vector<PointTrack> tracks;
   std::array<std::vector<Vec2>, 2> outlines;
   Vec3 card_middle_mm{42.8, -27.0, 0.2};
@@ -185,7 +185,7 @@ inline JointScene joint_scene(std::uint64_t seed, const JointSceneOptions& optio
   for (std::size_t view = 0; view < 2; ++view) {
     Vec6 step;
     for (int k = 0; k < 6; ++k) step[k] = normal(random) * (k < 3 ? turn_sigma : options.card_shift_sigma_mm);
-    CardAlignment& card = scene.cards[view];
+    CardPrior& card = scene.cards[view];
     card.camera_from_table = moved(scene.camera_from_table[view] * table_from_card, step);
     card.information.diagonal() << Vec3::Constant(1.0 / (turn_sigma * turn_sigma)),
         Vec3::Constant(1.0 / (options.card_shift_sigma_mm * options.card_shift_sigma_mm));
