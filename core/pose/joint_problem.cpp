@@ -73,9 +73,9 @@ double JointProblem::tracks_cost(const JointState& state) const {
   for (std::size_t i = 0; i < terms_.tracks.size(); ++i) {
     const TrackWeight& weight = terms_.weights[i];
     double residual = 0.0;
-    if (weight.line_squared_scale > 0.0 && residuals.off_line(terms_.tracks[i], residual))
+    if (weight.uses_line && residuals.off_line(terms_.tracks[i], residual))
       cost += robust_cost(residual, weight.line_variance, weight.line_squared_scale);
-    if (weight.table_squared_scale > 0.0 && residuals.along_line(terms_.tracks[i], residual))
+    if (weight.uses_table && residuals.along_line(terms_.tracks[i], residual))
       cost += robust_cost(residual, weight.table_variance, weight.table_squared_scale);
   }
   return cost;
@@ -92,12 +92,11 @@ double JointProblem::add_tracks(const JointState& state, Equations& equations) c
     Vec6 by_line;
     PairVector by_table;
     double by_height = 0.0;
-    if (weight.line_squared_scale > 0.0 && residuals.off_line(terms_.tracks[i], residual, by_line)) {
+    if (weight.uses_line && residuals.off_line(terms_.tracks[i], residual, by_line)) {
       cost += robust_cost(residual, weight.line_variance, weight.line_squared_scale);
       line.add(residual, by_line, robust_weight(residual, weight.line_variance, weight.line_squared_scale));
     }
-    if (weight.table_squared_scale > 0.0 &&
-        residuals.along_line(terms_.tracks[i], residual, by_table, by_height)) {
+    if (weight.uses_table && residuals.along_line(terms_.tracks[i], residual, by_table, by_height)) {
       cost += robust_cost(residual, weight.table_variance, weight.table_squared_scale);
       table.add(residual, by_table,
                 robust_weight(residual, weight.table_variance, weight.table_squared_scale));

@@ -32,13 +32,14 @@ struct JointState {
   std::array<DishPlace, kMaxPlacedDishes> places;
 };
 
-// How a track's residuals count: a residual r costs r²/variance / (1 + r²/scale²) (Geman and McClure); a
-// scale of zero switches it off. px².
+// How a track's residuals count: a residual r costs r²/variance / (1 + r²/scale²) (Geman and McClure). px².
 struct TrackWeight {
   double line_variance = 1.0;
   double line_squared_scale = 0.0;
   double table_variance = 1.0;
   double table_squared_scale = 0.0;
+  bool uses_line = false;
+  bool uses_table = false;
 };
 
 struct JointRim {

@@ -12,7 +12,9 @@ namespace {
 constexpr double kMedianToSigma = 1.4826;  // of normal errors
 constexpr int kNoiseRounds = 4;
 constexpr double kNoiseReach = 3.0;       // sigmas within which tracks tell the noise
-constexpr double kMinImprovement = 1e-7;  // relative decrease of the cost that is worth another iteration
+constexpr double kMinTableSpread = 0.3;   // smoother than this the table is not taken for
+constexpr double kInitialDamping = 1e-8;  // the card alone is near enough for Gauss and Newton's steps
+constexpr double kMinImprovement = 1e-5;  // relative decrease of the cost that is worth another iteration
 
 double information(double sigma) {
   return 1.0 / (sigma * sigma);
@@ -53,10 +55,17 @@ class JointRefinement {
     // Dish and card rest on the tray together; the background may not.
     const bool is_dish_first = count_dish_tracks() >= params_.min_dish_tracks;
     for (const Trust trust :
-         {is_dish_first ? Trust::dishes : Trust::lines, Trust::lines, Trust::consensus, Trust::table}) {
+         {is_dish_first ? Trust::dishes : Trust::all, Trust::lines, Trust::consensus, Trust::table}) {
       weigh_tracks(trust);
+      const JointState before = state_;
       if (trust == Trust::consensus && params_.use_table) find_table_tracks();
       improve();
+      if (is_table_found_ && !is_card_plausible()) {
+        is_table_found_ = false;
+        state_ = before;
+        weigh_tracks(Trust::lines);
+        improve();
+      }
       // The rims tell the table's slope before its texture is asked.
       if (params_.use_rims && !are_dishes_placed_) place_dishes();
       if (!update_covariance()) return StatusCode::pose_not_found;
@@ -68,8 +77,9 @@ class JointRefinement {
  private:
   // What the tracks are taken for, round by round.
   enum class Trust : std::uint8_t {
+    all,        // any for their lines
     dishes,     // those on dishes for their lines
-    lines,      // all for their lines
+    lines,      // those near their lines
     consensus,  // and the background that agrees about it for the table
     table,      // and all background near the table for it
   };
@@ -83,8 +93,17 @@ class JointRefinement {
     const JointProblem problem(terms_, workspace_.eliminations);
     LevenbergMarquardtParams search;
     search.max_iterations = params_.iterations;
+    search.initial_damping = kInitialDamping;
     search.min_improvement = kMinImprovement;
     result_.iterations += minimise<kJointParameters>(problem, search, state_).iterations;
+  }
+
+  // No number of points outvotes the card's lie.
+  bool is_card_plausible() const {
+    const double squared_deviation =
+        terms_.lie_tilt_information * state_.card.tilt_rad.squaredNorm() +
+        terms_.lie_raised_information * state_.card.raised_mm * state_.card.raised_mm;
+    return squared_deviation <= params_.table.max_squared_deviation;
   }
 
   bool update_covariance() {
@@ -103,6 +122,7 @@ class JointRefinement {
     const Mat6 motion = covariance.topLeftCorner<6, 6>();
     // Once the dishes have placed the cameras, and before the background can spoil that.
     if (trust <= Trust::lines) measure_noise(residuals, motion);
+    if (trust == Trust::table) measure_table_spread(residuals);
     const double noise = result_.track_noise_factor * result_.track_noise_factor;
     const double sigmas = params_.robust_sigmas * params_.robust_sigmas;
     for (std::size_t i = 0; i < terms_.tracks.size(); ++i) {
@@ -115,20 +135,22 @@ class JointRefinement {
       double by_height = 0.0;
       Vec6 by_motion;
       PairVector by_pair;
-      const bool is_believed = trust != Trust::dishes || is_on_a_dish(track.label);
-      if (is_believed && residuals.off_line(track, residual, by_motion)) {
-        weight.line_variance = variance;
-        weight.line_squared_scale = sigmas * (variance + predicted_variance<6>(motion, by_motion));
-      }
+      if (!residuals.off_line(track, residual, by_motion)) continue;
+      weight.line_variance = variance;
+      weight.line_squared_scale = sigmas * (variance + predicted_variance<6>(motion, by_motion));
+      // However little a wrong track weighs, a thousand that agree would pull; at first, however, the card
+      // may be further off than it says.
       const bool is_on_line = residual * residual <= weight.line_squared_scale;
-      const bool is_table = is_on_line && (trust == Trust::consensus || trust == Trust::table) &&
+      weight.uses_line = trust == Trust::all || (trust == Trust::dishes && is_on_a_dish(track.label)) ||
+                         (trust >= Trust::lines && is_on_line);
+      const bool is_table = (trust == Trust::consensus || (trust == Trust::table && is_table_found_)) &&
                             params_.use_table && track.label == kBackgroundLabel;
-      if (is_table && residuals.along_line(track, residual, by_pair, by_height)) {
-        const double rough = params_.table_flatness_mm * by_height;
-        weight.table_variance = variance + rough * rough;
-        weight.table_squared_scale =
-            sigmas * (weight.table_variance + predicted_variance<kPairParameters>(covariance, by_pair));
-      }
+      if (!is_table || !is_on_line || !residuals.along_line(track, residual, by_pair, by_height)) continue;
+      const double rough = params_.table_flatness_mm * by_height;
+      weight.table_variance = variance + rough * rough;
+      weight.table_squared_scale = sigmas * (table_spread_ * table_spread_ * weight.table_variance +
+                                             predicted_variance<kPairParameters>(covariance, by_pair));
+      weight.uses_table = residual * residual <= weight.table_squared_scale;
     }
   }
 
@@ -150,7 +172,7 @@ class JointRefinement {
       double residual = 0.0;
       double by_height = 0.0;
       PairVector by_pair;
-      if (!(weight.table_squared_scale > 0.0)) continue;
+      if (!(weight.table_squared_scale > 0.0)) continue;  // the card may be off by more: all are asked
       if (!residuals.along_line(terms_.tracks[i], residual, by_pair, by_height)) continue;
       const double variance = weight.table_variance + predicted_variance<6>(motion, by_pair.head<6>());
       const Vec3 ray = table_from_first.rotation * terms_.tracks[i].first.homogeneous();
@@ -165,9 +187,9 @@ class JointRefinement {
                                        false};
     }
     const std::span<TableSighting> sightings = workspace_.sightings.first(count);
-    find_table(sightings, table_covariance(), params_.table);
+    is_table_found_ = find_table(sightings, table_covariance(), params_.table);
     for (const TableSighting& sighting : sightings) {
-      if (!sighting.is_table) workspace_.weights[sighting.track].table_squared_scale = 0.0;
+      workspace_.weights[sighting.track].uses_table = sighting.is_table;
     }
   }
 
@@ -217,6 +239,23 @@ class JointRefinement {
       near = static_cast<std::size_t>(end - magnitudes.begin());
     }
     result_.track_noise_factor = std::clamp(factor, 1.0, params_.max_noise_factor);
+  }
+
+  // A smooth table, sharply seen: what then lies a little beside it is a tray's rim or a cloth.
+  void measure_table_spread(const TrackResiduals& residuals) {
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < terms_.tracks.size(); ++i) {
+      const TrackWeight& weight = workspace_.weights[i];
+      double residual = 0.0;
+      if (!weight.uses_table || !residuals.along_line(terms_.tracks[i], residual)) continue;
+      workspace_.magnitudes[count++] = std::abs(residual) / std::sqrt(weight.table_variance);
+    }
+    table_spread_ = 1.0;
+    if (count == 0) return;
+    const auto middle = workspace_.magnitudes.begin() + static_cast<std::ptrdiff_t>(count / 2);
+    std::nth_element(workspace_.magnitudes.begin(), middle,
+                     workspace_.magnitudes.begin() + static_cast<std::ptrdiff_t>(count));
+    table_spread_ = std::clamp(kMedianToSigma * *middle, kMinTableSpread, 1.0);
   }
 
   void place_dishes() {
@@ -323,6 +362,8 @@ class JointRefinement {
   JointTerms terms_;
   JointState state_;
   bool are_dishes_placed_ = false;
+  bool is_table_found_ = false;
+  double table_spread_ = 1.0;  // of the table's tracks about it, in their standard deviations
 };
 
 bool is_usable(const CardPrior& card) {

@@ -9,6 +9,9 @@
 namespace traygauge {
 namespace {
 
+// Height at the card's middle (mm), slopes along x and y.
+using TableCorrection = Vec3;
+
 constexpr double kMinSine =
     0.2;  // between the directions of two points from the card; nearly one line is none
 
@@ -60,10 +63,27 @@ TableCorrection refit(std::span<const TableSighting> sightings, const Mat3& info
   return equations.solve(0.0, step) ? TableCorrection(table + step) : table;
 }
 
+bool flag_table(std::span<TableSighting> sightings, const TableCorrection& table,
+                const TableConsensusParams& params) {
+  const double squared_limit = params.inlier_sigmas * params.inlier_sigmas;
+  int on_table = 0;
+  int beside = 0;
+  for (TableSighting& sighting : sightings) {
+    const double square = squared_deviation(sighting, table);
+    sighting.is_table = square <= squared_limit;
+    on_table += sighting.is_table ? 1 : 0;
+    beside += !sighting.is_table && square <= 4.0 * squared_limit ? 1 : 0;
+  }
+  const bool stands_out = on_table >= params.min_points && beside <= params.max_side_share * on_table;
+  if (!stands_out) {
+    for (TableSighting& sighting : sightings) sighting.is_table = false;
+  }
+  return stands_out;
+}
+
 }  // namespace
 
-TableCorrection find_table(std::span<TableSighting> sightings, const Mat3& prior,
-                           const TableConsensusParams& params) {
+bool find_table(std::span<TableSighting> sightings, const Mat3& prior, const TableConsensusParams& params) {
   const Mat3 information = prior.inverse();
   const double squared_limit = params.inlier_sigmas * params.inlier_sigmas;
   TableCorrection best = TableCorrection::Zero();
@@ -80,11 +100,12 @@ TableCorrection find_table(std::span<TableSighting> sightings, const Mat3& prior
     best = table;
     best_score = sum;
   }
-  for (int round = 0; round < params.refits; ++round)
-    best = refit(sightings, information, best, squared_limit);
-  for (TableSighting& sighting : sightings)
-    sighting.is_table = squared_deviation(sighting, best) <= squared_limit;
-  return best;
+  for (int round = 0; round < params.refits; ++round) {
+    const TableCorrection table = refit(sightings, information, best, squared_limit);
+    if (!(table.dot(information * table) <= params.max_squared_deviation)) break;
+    best = table;
+  }
+  return flag_table(sightings, best, params);
 }
 
 }  // namespace traygauge

@@ -31,15 +31,16 @@ struct TableConsensusParams {
   // table under the tray takes the plane away with a slope that the card alone would still allow.
   double reach_mm = 150.0;
   int refits = 3;
+  // The table stands out: so many points within the limit, and of those as far off again at most this share
+  // of them. A tray's rim or a cloth passes through any level, with as many points beside it as on it.
+  int min_points = 10;
+  double max_side_share = 0.5;
   std::uint64_t seed = 1;
 };
 
-// The table's correction: height at the card's middle (mm), slopes along x and y.
-using TableCorrection = Vec3;
-
 // MSAC over planes through the card's middle and two of the points, none further from nought than its
-// covariance `prior` (positive definite) allows, refitted by least squares. Flags the points on the table.
-TableCorrection find_table(std::span<TableSighting> sightings, const Mat3& prior,
-                           const TableConsensusParams& params);
+// covariance `prior` (positive definite) allows, refitted by least squares: height at the card's middle (mm),
+// slopes along x and y. Flags the points on the table; false, and none, when no plane stands out.
+bool find_table(std::span<TableSighting> sightings, const Mat3& prior, const TableConsensusParams& params);
 
 }  // namespace traygauge
