@@ -32,7 +32,8 @@ struct DishMeasurementWorkspace {
   template <class Allocator>
   constexpr void allocate(Allocator& arena, const Configuration& configuration) {
     surface.allocate(arena, configuration.best.surface);
-    height_map.allocate(arena, configuration.best.pipeline.max_height_cells);
+    height_map.allocate(arena, configuration.best.pipeline.max_height_cells,
+                        static_cast<std::size_t>(configuration.best.surface.max_columns));
     liquid.allocate(arena);
     volume.allocate(arena);
   }
