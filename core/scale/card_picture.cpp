@@ -29,6 +29,33 @@ bool is_taken(const CardTile& tile, CardSampling sampling) {
   return sampling != CardSampling::sixteenth || ((tile.x + 2 * tile.y) / kCardTileSide) % 4 == 0;
 }
 
+// The tile's pixels that lie inside the label by `inset` pixels along rows and columns.
+std::uint64_t inner_pixels(ImageView<const std::uint8_t> labels, int left, int top, int inset) {
+  const auto is_card = [&](int x, int y) { return labels.contains(x, y) && labels.at(x, y) == kCardLabel; };
+  std::uint64_t bits = 0;
+  for (int bit = 0; bit < kCardTileSide * kCardTileSide; ++bit) {
+    const int x = left + bit % kCardTileSide;
+    const int y = top + bit / kCardTileSide;
+    const bool is_inner = is_card(x, y) && is_card(x - inset, y) && is_card(x + inset, y) &&
+                          is_card(x, y - inset) && is_card(x, y + inset);
+    if (is_inner) bits |= std::uint64_t{1} << bit;
+  }
+  return bits;
+}
+
+bool undistort_tile(const LensModel& lens, CardTile& tile) {
+  constexpr double kHalf = 0.5 * (kCardTileSide - 1);
+  const Vec2 centre(tile.x + kHalf, tile.y + kHalf);
+  Vec2 along_x;
+  Vec2 along_y;
+  if (!lens.undistort_pixel(centre, tile.ray) || !lens.undistort_pixel(centre + Vec2::UnitX(), along_x) ||
+      !lens.undistort_pixel(centre + Vec2::UnitY(), along_y)) {
+    return false;
+  }
+  tile.ray_by_pixel << along_x - tile.ray, along_y - tile.ray;
+  return true;
+}
+
 // Calls use(tile, place, bits) for every tile with samples.
 template <class Use>
 void for_each_tile(std::span<const CardTile> tiles, const PrintPlane& plane, CardSampling sampling, Use use) {
@@ -50,6 +77,27 @@ void for_each_lanes(std::uint64_t bits, Use use) {
     if (here != 0) use(bit % kCardTileSide, bit / kCardTileSide, here);
   }
 }
+
+// The tone at a tile, taken as constant there.
+class TileTone {
+ public:
+  TileTone(const CardTone& tone, const Vec2& normalised) : linear_(1.0, normalised.x(), normalised.y()) {
+    gain_ = tone.head<3>().dot(linear_);
+    gain_lane_ = static_cast<float>(gain_);
+    offset_lane_ = static_cast<float>(tone.tail<3>().dot(linear_));
+  }
+  double gain() const { return gain_; }
+  const Vec3& linear() const { return linear_; }  // derivative of gain, and of offset, by their parameters
+  FloatLanes residual(FloatLanes picture, FloatLanes print) const {
+    return picture - gain_lane_ * print - offset_lane_;
+  }
+
+ private:
+  Vec3 linear_;
+  double gain_ = 0.0;
+  float gain_lane_ = 0.0F;
+  float offset_lane_ = 0.0F;
+};
 
 // Weighted sums over a tile's samples of the products of (by_x, by_y, gray, 1) among themselves and with the
 // residual.
@@ -140,43 +188,28 @@ Status CardPicture::load(ImageView<const std::uint8_t> gray, ImageView<const std
                          const PixelBox& box, const LensModel& lens, const CardPictureParams& params) {
   gray_ = gray;
   tiles_ = {};
-  labelled_ = used_ = 0;
-  const int e = params.erosion_px;
-  const int left = std::max(box.left, e);
-  const int top = std::max(box.top, e);
-  const int right = std::min(box.right, labels.width - e);
-  const int bottom = std::min(box.bottom, labels.height - e);
-  const int columns = std::max(0, (right - left) / kCardTileSide);
-  const int rows = std::max(0, (bottom - top) / kCardTileSide);
-  const auto is_card = [&](int x, int y) { return labels.at(x, y) == kCardLabel; };
-  // Half a box is card at the least when it lies askew, so this keeps all tiles of usual cards.
+  used_ = 0;
+  labelled_ = 0;
+  for (int y = box.top; y < box.bottom; ++y) {
+    const std::uint8_t* row = labels.row(y);
+    labelled_ += static_cast<int>(std::count(row + box.left, row + box.right, kCardLabel));
+  }
+  const int columns = (box.width() + kCardTileSide - 1) / kCardTileSide;
+  const int rows = (box.height() + kCardTileSide - 1) / kCardTileSide;
+  // A card that lies askew fills half its box at the least.
   const int every = 1 + columns * rows / (2 * std::max(1, static_cast<int>(storage_.size())));
   std::size_t count = 0;
   for (int i = 0; i < columns * rows && count < storage_.size(); i += every) {
-    CardTile tile;
-    tile.x = left + i % columns * kCardTileSide;
-    tile.y = top + i / columns * kCardTileSide;
-    for (int bit = 0; bit < 64; ++bit) {
-      const int x = tile.x + bit % 8;
-      const int y = tile.y + bit / 8;
-      if (is_card(x, y) && is_card(x - e, y) && is_card(x + e, y) && is_card(x, y - e) && is_card(x, y + e)) {
-        tile.labelled |= std::uint64_t{1} << bit;
-      }
-    }
-    const Vec2 centre(tile.x + 0.5 * (kCardTileSide - 1), tile.y + 0.5 * (kCardTileSide - 1));
-    Vec2 along_x;
-    Vec2 along_y;
-    if (tile.labelled == 0 || !lens.undistort_pixel(centre, tile.ray) ||
-        !lens.undistort_pixel(centre + Vec2::UnitX(), along_x) ||
-        !lens.undistort_pixel(centre + Vec2::UnitY(), along_y)) {
-      continue;
-    }
-    tile.ray_by_pixel << along_x - tile.ray, along_y - tile.ray;
-    labelled_ += std::popcount(tile.labelled);
-    storage_[count++] = tile;
+    CardTile& tile = storage_[count];
+    tile.x = box.left + i % columns * kCardTileSide;
+    tile.y = box.top + i / columns * kCardTileSide;
+    const bool is_whole = tile.x + kCardTileSide <= labels.width && tile.y + kCardTileSide <= labels.height;
+    if (!is_whole) continue;
+    tile.labelled = inner_pixels(labels, tile.x, tile.y, params.erosion_px);
+    if (tile.labelled != 0 && undistort_tile(lens, tile)) ++count;
   }
   tiles_ = storage_.first(count);
-  return labelled_ > 0 ? StatusCode::ok : StatusCode::card_not_found;
+  return count > 0 ? StatusCode::ok : StatusCode::card_not_found;
 }
 
 void CardPicture::select(const Pose& camera_from_table, const CardModelSize& size, double margin_mm) {
@@ -207,29 +240,36 @@ void CardPicture::select(const Pose& camera_from_table, const CardModelSize& siz
 }
 
 CardCorrelation CardPicture::correlate(const Pose& camera_from_table, const CardModelSize& size,
-                                       const CardPatternLevel& level, CardSampling sampling) const {
+                                       const CardPatternLevel& level, CardSampling sampling,
+                                       const CardInliers& inliers) const {
   const PrintPlane plane(camera_from_table, size);
+  const auto cutoff = static_cast<float>(inliers.cutoff_gray);
   CardCorrelation result;
-  std::array<double, 5> sums{};  // of print, picture, and their products
+  std::array<double, 6> sums{};  // of print, picture, their products, and 1
   for_each_tile(
       tiles_, plane, sampling, [&](const CardTile& tile, const PrintPlace& place, std::uint64_t bits) {
+        const TileTone tone(inliers.tone, plane.normalised(place.centre));
         const PrintSampler sampler(level, place.centre, place.by_ray * tile.ray_by_pixel, kCardTileSide);
-        std::array<FloatLanes, 5> lanes{};
+        std::array<FloatLanes, 6> lanes{};
         for_each_lanes(bits, [&](int column, int row, unsigned flags) {
-          const FloatLanes used = flags_of(flags);
-          const FloatLanes print = used * sampler.at(column, row).gray;
-          const FloatLanes picture = used * load_gray(gray_.row(tile.y + row) + tile.x + column);
-          lanes[0] += print;
-          lanes[1] += picture;
-          lanes[2] += print * print;
-          lanes[3] += picture * picture;
-          lanes[4] += print * picture;
+          const FloatLanes print = sampler.at(column, row).gray;
+          const FloatLanes picture = load_gray(gray_.row(tile.y + row) + tile.x + column);
+          const FloatLanes residual = tone.residual(picture, print);
+          const FloatLanes size_of = residual < 0.0F ? -residual : residual;
+          const FloatLanes used = size_of <= cutoff ? flags_of(flags) : FloatLanes{};
+          lanes[0] += used * print;
+          lanes[1] += used * picture;
+          lanes[2] += used * print * print;
+          lanes[3] += used * picture * picture;
+          lanes[4] += used * print * picture;
+          lanes[5] += used;
         });
         for (std::size_t i = 0; i < sums.size(); ++i) sums[i] += sum_of(lanes[i]);
         result.samples += std::popcount(bits);
       });
-  if (result.samples < 2) return result;
-  const double n = result.samples;
+  const double n = sums[5];
+  result.inliers = static_cast<int>(n);
+  if (result.inliers < 2) return result;
   const double print_varies = sums[2] - sums[0] * sums[0] / n;
   const double picture_varies = sums[3] - sums[1] * sums[1] / n;
   const double together = sums[4] - sums[0] * sums[1] / n;
@@ -250,17 +290,13 @@ CardLinearisation CardPicture::linearise(const Pose& camera_from_table, const Ca
   Histogram histogram{};
   for_each_tile(
       tiles_, plane, sampling, [&](const CardTile& tile, const PrintPlace& place, std::uint64_t bits) {
-        const Vec2 at = plane.normalised(place.centre);
-        const Vec3 linear(1.0, at.x(), at.y());
-        const double gain = tone.head<3>().dot(linear);
-        const auto gain_lanes = static_cast<float>(gain);
-        const auto offset_lanes = static_cast<float>(tone.tail<3>().dot(linear));
+        const TileTone tile_tone(tone, plane.normalised(place.centre));
         const PrintSampler sampler(level, place.centre, place.by_ray * tile.ray_by_pixel, kCardTileSide);
         TileSums sums;
         for_each_lanes(bits, [&](int column, int row, unsigned flags) {
           const PrintLanes print = sampler.at(column, row);
           const FloatLanes gray = load_gray(gray_.row(tile.y + row) + tile.x + column);
-          const FloatLanes residual = gray - gain_lanes * print.gray - offset_lanes;
+          const FloatLanes residual = tile_tone.residual(gray, print.gray);
           const FloatLanes ratio = residual * inverse_cutoff;
           const FloatLanes root = 1.0F / (1.0F + ratio * ratio);
           const FloatLanes weight = flags_of(flags) * root * root;
@@ -269,8 +305,8 @@ CardLinearisation CardPicture::linearise(const Pose& camera_from_table, const Ca
           count_sizes(residual, flags, histogram);
         });
         const Eigen::Matrix<double, 2, 6> gray_by_step =
-            gain * level.px_per_mm.asDiagonal() * plane.print_by_step(place, tile.ray);
-        add_tile(sums, gray_by_step, linear, result);
+            tile_tone.gain() * level.px_per_mm.asDiagonal() * plane.print_by_step(place, tile.ray);
+        add_tile(sums, gray_by_step, tile_tone.linear(), result);
         result.weights += sum_of(sums.weights);
         result.slopes += sum_of(sums.slopes);
         result.samples += std::popcount(bits);

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <span>
 
 #include "core/base/arena.hpp"
@@ -44,11 +45,18 @@ enum class CardSampling : std::uint8_t {
 // gloss and light do. In the order 1, x, y of gain, then of offset; x and y from −1 to 1 over the card.
 using CardTone = Eigen::Matrix<double, 6, 1>;
 
-// Plain correlation over the samples.
+// Which residuals count: those within `cutoff_gray` under the tone.
+struct CardInliers {
+  CardTone tone = CardTone::Zero();
+  double cutoff_gray = std::numeric_limits<double>::infinity();
+};
+
+// Over the samples that count.
 struct CardCorrelation {
   double correlation = 0.0;
   double rms_gray = 0.0;  // of the residual
   int samples = 0;
+  int inliers = 0;
   CardTone tone = CardTone::Zero();  // constant over the card
 };
 
@@ -80,13 +88,15 @@ class CardPicture {
   void select(const Pose& camera_from_table, const CardModelSize& size, double margin_mm);
 
   CardCorrelation correlate(const Pose& camera_from_table, const CardModelSize& size,
-                            const CardPatternLevel& level, CardSampling sampling) const;
+                            const CardPatternLevel& level, CardSampling sampling,
+                            const CardInliers& inliers) const;
 
   // Weighs a residual r by Geman and McClure: 1 / (1 + (r / cutoff_gray)²)².
   CardLinearisation linearise(const Pose& camera_from_table, const CardModelSize& size,
                               const CardPatternLevel& level, const CardTone& tone, double cutoff_gray,
                               CardSampling sampling) const;
 
+  // All pixels with the label, in the box.
   int labelled_pixels() const { return labelled_; }
   int used_pixels() const { return used_; }
 
