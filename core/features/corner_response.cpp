@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 
 namespace traygauge {
 namespace {
@@ -72,8 +71,7 @@ void CornerResponse::next_row(std::span<float> responses) {
   float* __restrict out = responses.data();
   for (int x = 0; x < kCornerBorder; ++x) out[x] = out[width - 1 - x] = 0.0F;
   for (int x = kCornerBorder; x < width - kCornerBorder; ++x) {
-    // 25 · 1020² fits in 32 bits; differences of floats are taken late, so integers go in exactly as far as
-    // 24 bits reach.
+    // At most 25 · 1020²: the sums fit in 32 bits, and floats hold them to one part in 2²⁴.
     const auto a = static_cast<float>(sum_across(xx + x));
     const auto b = static_cast<float>(sum_across(xy + x));
     const auto c = static_cast<float>(sum_across(yy + x));
