@@ -115,15 +115,15 @@ double JointProblem::add_tracks(const JointState& state, Equations& equations) c
 
 double JointProblem::rim_cost(const JointState& state, std::size_t index) const {
   const JointRim& rim = terms_.rims[index];
-  const double variance = rim.point_sigma_px * rim.point_sigma_px;
+  const double variance = rim.point_sigma_px * rim.point_sigma_px / static_cast<double>(rim.step);
   const double squared_scale = rim.scale_px * rim.scale_px;
   double cost = rim.prior.cost(state.places[index]);
   for (std::size_t view = 0; view < 2; ++view) {
     const RimProjection projection(state.places[index], state.camera_from_table[view],
                                    terms_.focals_px[view]);
-    for (const Vec2& ray : rim.outlines[view]) {
+    for (std::size_t i = 0; i < rim.outlines[view].size(); i += rim.step) {
       double residual = 0.0;
-      if (!projection.residual(ray, residual)) return kHuge;
+      if (!projection.residual(rim.outlines[view][i], residual)) return kHuge;
       cost += robust_cost(residual, variance, squared_scale);
     }
   }
@@ -132,7 +132,7 @@ double JointProblem::rim_cost(const JointState& state, std::size_t index) const 
 
 double JointProblem::add_rim(const JointState& state, std::size_t index, Equations& equations) const {
   const JointRim& rim = terms_.rims[index];
-  const double variance = rim.point_sigma_px * rim.point_sigma_px;
+  const double variance = rim.point_sigma_px * rim.point_sigma_px / static_cast<double>(rim.step);
   const double squared_scale = rim.scale_px * rim.scale_px;
   PlaceMatrix information = rim.prior.information.asDiagonal();
   PlaceVector slope = rim.prior.information.cwiseProduct(as_vector(state.places[index]) - rim.prior.mean);
@@ -142,11 +142,11 @@ double JointProblem::add_rim(const JointState& state, std::size_t index, Equatio
     const RimProjection projection(state.places[index], state.camera_from_table[view],
                                    terms_.focals_px[view]);
     NormalEquations<6 + kPlaceParameters> sums;
-    for (const Vec2& ray : rim.outlines[view]) {
+    for (std::size_t i = 0; i < rim.outlines[view].size(); i += rim.step) {
       double residual = 0.0;
       Vec6 by_camera;
       PlaceVector by_place;
-      if (!projection.linearise(ray, residual, by_camera, by_place)) return kHuge;
+      if (!projection.linearise(rim.outlines[view][i], residual, by_camera, by_place)) return kHuge;
       Eigen::Matrix<double, 6 + kPlaceParameters, 1> jacobian;
       jacobian << by_camera, by_place;
       cost += robust_cost(residual, variance, squared_scale);

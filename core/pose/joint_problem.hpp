@@ -47,6 +47,7 @@ struct JointRim {
   PlacePrior prior;
   double point_sigma_px = 1.0;
   double scale_px = 1.0;
+  std::size_t step = 1;  // of so many points one is read
 };
 
 // What the elimination leaves behind for going back: place step = −from_place − from_cameras · camera step.

@@ -14,7 +14,9 @@ constexpr int kNoiseRounds = 4;
 constexpr double kNoiseReach = 3.0;       // sigmas within which tracks tell the noise
 constexpr double kMinTableSpread = 0.3;   // smoother than this the table is not taken for
 constexpr double kInitialDamping = 1e-8;  // the card alone is near enough for Gauss and Newton's steps
-constexpr double kMinImprovement = 1e-5;  // relative decrease of the cost that is worth another iteration
+// Relative decrease of the cost that is worth another iteration: before the next round weighs anew, and last.
+constexpr double kMinImprovement = 1e-2;
+constexpr double kMinLastImprovement = 1e-5;
 
 double information(double sigma) {
   return 1.0 / (sigma * sigma);
@@ -59,12 +61,12 @@ class JointRefinement {
       weigh_tracks(trust);
       const JointState before = state_;
       if (trust == Trust::consensus && params_.use_table) find_table_tracks();
-      improve();
+      improve(trust == Trust::table ? kMinLastImprovement : kMinImprovement);
       if (is_table_found_ && !is_card_plausible()) {
         is_table_found_ = false;
         state_ = before;
         weigh_tracks(Trust::lines);
-        improve();
+        improve(kMinLastImprovement);
       }
       // The rims tell the table's slope before its texture is asked.
       if (params_.use_rims && !are_dishes_placed_) place_dishes();
@@ -89,12 +91,12 @@ class JointRefinement {
     return static_cast<int>(std::count_if(terms_.tracks.begin(), terms_.tracks.end(), on_dish));
   }
 
-  void improve() {
+  void improve(double min_improvement) {
     const JointProblem problem(terms_, workspace_.eliminations);
     LevenbergMarquardtParams search;
     search.max_iterations = params_.iterations;
     search.initial_damping = kInitialDamping;
-    search.min_improvement = kMinImprovement;
+    search.min_improvement = min_improvement;
     result_.iterations += minimise<kJointParameters>(problem, search, state_).iterations;
   }
 
@@ -271,6 +273,7 @@ class JointRefinement {
       JointRim& rim = workspace_.rims[rims];
       rim.outlines = dish.outlines;
       rim.prior = prior_of(model, found.placed.place.azimuth_rad, params_.placement);
+      rim.step = outline_step(dish.outlines, params_.placement.max_view_points);
       rim.point_sigma_px = params_.placement.point_sigma_px;
       rim.scale_px =
           robust_scale_px(dish.outlines, state_.camera_from_table, input_.focals_px, found.placed.place,

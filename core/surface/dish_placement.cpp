@@ -11,7 +11,6 @@ constexpr std::size_t kMaxCandidates = 32;
 constexpr double kFreeAzimuthSigmaRad = 0.5;    // of a measured place: keeps a round one regular
 constexpr double kRoundAzimuthSigmaRad = 0.01;  // of a round dish, whose azimuth means nothing
 constexpr double kRoundMm = 0.5;                // axes that differ by less
-constexpr std::size_t kStep = 3;                // of the outline's points, while a place is being found
 constexpr double kHold = 1e4;                   // times the information of a described size and height
 constexpr double kMinImprovement = 1e-6;   // relative decrease of the cost that is worth another iteration
 constexpr double kMedianToSigma = 1.4826;  // of normal errors
@@ -23,11 +22,12 @@ double information(double sigma) {
 
 // The ellipse through both outlines laid on the level `height_mm`.
 bool guess_place(const DishOutlines& outlines, const TableCameras& cameras, double height_mm,
-                 DishPlacementWorkspace& workspace, DishPlace& place) {
+                 std::size_t step, DishPlacementWorkspace& workspace, DishPlace& place) {
   workspace.points_mm.clear();
   for (std::size_t view = 0; view < 2; ++view) {
     const Vec3 centre_mm = camera_centre_mm(cameras[view]);
-    for (const Vec2& ray : outlines[view]) {
+    for (std::size_t i = 0; i < outlines[view].size(); i += step) {
+      const Vec2& ray = outlines[view][i];
       const Vec3 direction = cameras[view].rotation.transpose() * ray.homogeneous();
       const double depth = (height_mm - centre_mm.z()) / direction.z();
       if (std::isfinite(depth) && depth > 0.0) workspace.points_mm.push_back(centre_mm + depth * direction);
@@ -111,7 +111,8 @@ class DishPlacement {
         cameras_(cameras),
         focals_px_(focals_px),
         params_(params),
-        workspace_(workspace) {
+        workspace_(workspace),
+        step_(outline_step(outlines, params.max_view_points)) {
     search_.max_iterations = params.iterations;
     search_.min_improvement = kMinImprovement;
   }
@@ -121,7 +122,7 @@ class DishPlacement {
     double best_cost = kUnseenPlace;
     for (const DishModel& model : candidates) {
       DishPlace place;
-      if (!guess_place(outlines_, cameras_, edge_height_mm(model), workspace_, place)) continue;
+      if (!guess_place(outlines_, cameras_, edge_height_mm(model), step_, workspace_, place)) continue;
       place = start_of(model, place);
       place.edge_drop_mm = params_.edge_drop_mm;
       const double cost = fit_described(model, place);
@@ -147,7 +148,7 @@ class DishPlacement {
     PlacePrior prior = prior_of(model, place.azimuth_rad, params_);
     prior.information.segment<3>(kPlaceHeight) *= kHold;
     double cost = kUnseenPlace;
-    for (const double scale_px : params_.first_robust_scales_px) cost = fit(prior, scale_px, kStep, place);
+    for (const double scale_px : params_.first_robust_scales_px) cost = fit(prior, scale_px, place);
     return cost;
   }
 
@@ -160,10 +161,10 @@ class DishPlacement {
     reaching.max_robust_scale_px = params_.first_robust_scales_px[0];
     double scale_px =
         robust_scale_px(outlines_, cameras_, focals_px_, described, reaching, workspace_, unused);
-    fit(prior, scale_px, kStep, placed.measured);
+    fit(prior, scale_px, placed.measured);
     scale_px =
         robust_scale_px(outlines_, cameras_, focals_px_, placed.measured, params_, workspace_, placed.fit);
-    fit(prior, scale_px, kStep, placed.measured);
+    fit(prior, scale_px, placed.measured);
   }
 
   void finish(const DishModel& model, PlacedDish& placed) {
@@ -171,18 +172,18 @@ class DishPlacement {
     const PlacePrior prior = prior_of(model, placed.place.azimuth_rad, params_);
     const double scale_px =
         robust_scale_px(outlines_, cameras_, focals_px_, placed.measured, params_, workspace_, placed.fit);
-    fit(prior, scale_px, 1, placed.place);
+    fit(prior, scale_px, placed.place);
     const PlacementProblem problem(outlines_, cameras_, focals_px_, prior, params_.point_sigma_px, scale_px,
-                                   1);
+                                   step_);
     NormalEquations<kPlaceParameters> equations;
     problem.linearise(placed.place, equations);
     invert_information(equations, placed.covariance);
     robust_scale_px(outlines_, cameras_, focals_px_, placed.place, params_, workspace_, placed.fit);
   }
 
-  double fit(const PlacePrior& prior, double scale_px, std::size_t step, DishPlace& place) const {
+  double fit(const PlacePrior& prior, double scale_px, DishPlace& place) const {
     const PlacementProblem problem(outlines_, cameras_, focals_px_, prior, params_.point_sigma_px, scale_px,
-                                   step);
+                                   step_);
     return minimise<kPlaceParameters>(problem, search_, place).cost;
   }
 
@@ -191,6 +192,7 @@ class DishPlacement {
   const FocalsPx& focals_px_;
   const DishPlacementParams& params_;
   DishPlacementWorkspace& workspace_;
+  std::size_t step_;
   LevenbergMarquardtParams search_;
 };
 
@@ -217,16 +219,18 @@ PlacePrior prior_of(const DishModel& model, double azimuth_rad, const DishPlacem
 double robust_scale_px(const DishOutlines& outlines, const TableCameras& cameras, const FocalsPx& focals_px,
                        const DishPlace& place, const DishPlacementParams& params,
                        DishPlacementWorkspace& workspace, OutlineFit& fit) {
+  const std::size_t step = outline_step(outlines, params.max_view_points);
   std::size_t count = 0;
+  fit = {};
   for (std::size_t view = 0; view < 2; ++view) {
     const RimProjection rim(place, cameras[view], focals_px[view]);
-    for (const Vec2& ray : outlines[view]) {
+    for (std::size_t i = 0; i < outlines[view].size(); i += step) {
       double residual_px = 0.0;
-      if (count < workspace.magnitudes_px.size() && rim.residual(ray, residual_px))
+      ++fit.points;
+      if (count < workspace.magnitudes_px.size() && rim.residual(outlines[view][i], residual_px))
         workspace.magnitudes_px[count++] = std::abs(residual_px);
     }
   }
-  fit = {};
   if (count == 0) return params.max_robust_scale_px;
   const std::span<double> magnitudes_px = workspace.magnitudes_px.first(count);
   std::sort(magnitudes_px.begin(), magnitudes_px.end());
@@ -239,7 +243,6 @@ double robust_scale_px(const DishOutlines& outlines, const TableCameras& cameras
     squares += magnitude_px * magnitude_px;
     ++fit.inliers;
   }
-  fit.points = static_cast<int>(outlines[0].size() + outlines[1].size());
   fit.rms_px = fit.inliers > 0 ? std::sqrt(squares / fit.inliers) : 0.0;
   return scale_px;
 }

@@ -31,6 +31,7 @@ struct DishPlacementParams {
   // The upright side of the edge: between a knife's edge and a thick rim.
   double edge_drop_mm = 1.0;
   double edge_drop_sigma_mm = 1.0;
+  int max_view_points = 120;      // that are read of each outline
   int min_points = 24;            // in both views together
   int min_view_points = 8;        // a view with fewer has no say
   double min_inlier_share = 0.5;  // of each view's points on the outline found; fewer contradict it

@@ -16,6 +16,14 @@ namespace traygauge {
 using DishOutlines = std::array<std::span<const Vec2>, 2>;
 using FocalsPx = std::array<double, 2>;
 
+// Of so many points of the outlines one is read, with the weight of all: neighbours repeat each other's
+// error.
+inline std::size_t outline_step(const DishOutlines& outlines, int max_view_points) {
+  const std::size_t longer =
+      outlines[0].size() > outlines[1].size() ? outlines[0].size() : outlines[1].size();
+  return 1 + longer / static_cast<std::size_t>(max_view_points > 0 ? max_view_points : 1);
+}
+
 // What is known of a place before the outlines are seen: independent normal errors.
 struct PlacePrior {
   PlaceVector mean = PlaceVector::Zero();
