@@ -170,6 +170,7 @@ void Refinement::solve_row(int y) {
       for (int x = first; x < last; ++x) window[x] += sum[x + i];
     }
   }
+  const std::uint8_t* trusted = trusted_.row(y);
   const float* count = windows(0);
   const float* residual = windows(1);
   const float* gradient = windows(2);
@@ -179,7 +180,7 @@ void Refinement::solve_row(int y) {
     const float share = count[x] > 0.0F ? 1.0F / count[x] : 0.0F;
     const float energy = square[x] - gradient[x] * gradient[x] * share;
     const float correlation = product[x] - gradient[x] * residual[x] * share;
-    const float weight = std::max(energy, 0.0F) * share;
+    const float weight = trusted[x] != 0 ? std::max(energy, 0.0F) * share : 0.0F;
     const float step = correlation / std::max(energy, kLeastEnergy);
     certainty[x] = weight;
     target[x] = weight * (disparity[x] + std::max(std::min(step, most), -most));
