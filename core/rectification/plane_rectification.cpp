@@ -95,10 +95,13 @@ Status PlaneRectification::build(const std::array<StoredView, 2>& views, const L
   Vec2 low = Vec2::Constant(std::numeric_limits<double>::infinity());
   Vec2 high = -low;
   for (const StoredView& view : views) {
+    int seen = 0;
     visit_outline(view, kept, plane_height_mm, params.outline_step_px, [&](const Vec2& point) {
       low = low.cwiseMin(point);
       high = high.cwiseMax(point);
+      ++seen;
     });
+    if (seen == 0) return StatusCode::rectification_failed;
   }
   if (!(high.x() > low.x() && high.y() > low.y())) return StatusCode::rectification_failed;
   const Vec2 dish_mm = 0.5 * (low + high);

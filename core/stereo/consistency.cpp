@@ -31,7 +31,8 @@ struct Gap {
   int end;
 };
 
-// Where an item's gap reaches its border with the dish it has fallen from its last known height to this share.
+// Where an item's gap reaches its border with the dish it has fallen from its last known height to this
+// share.
 void fill_gap(Disparity* row, const std::uint8_t* labels, int width, Gap gap, int one_surface,
               const ConsistencyParams& params) {
   const bool item = is_item(labels[gap.first]);

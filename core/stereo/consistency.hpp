@@ -11,7 +11,8 @@ namespace traygauge {
 
 struct ConsistencyParams {
   double max_difference_px = 1.5;  // between a disparity and its partner's: whole pixels and half a step
-  double border_share = 0.65;
+  double border_share = 0.65;      // of its last known height that an item's hidden flank has where its
+                                   // outline ends; the mean over the captures' flanks
   double same_surface_px = 3.0;    // ends of a gap that differ by less are one surface seen through it; by
                                    // more, the gap is what the nearer one hides from the other view
 };

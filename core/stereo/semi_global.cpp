@@ -88,8 +88,8 @@ class Matcher {
   static constexpr int kLanes = kChunks * kBandLanes;
   using Path = PathCosts<kChunks>;
 
-  Matcher(const BandedPair& pair, ImageView<const std::int16_t> first_disparity, const SemiGlobalParams& params,
-          SemiGlobalWorkspace& workspace)
+  Matcher(const BandedPair& pair, ImageView<const std::int16_t> first_disparity,
+          const SemiGlobalParams& params, SemiGlobalWorkspace& workspace)
       : pair_(pair), base_(first_disparity), params_(params), workspace_(workspace) {
     width_ = pair.gray[0].width;
     height_ = pair.gray[0].height;
@@ -154,7 +154,8 @@ template <int kChunks>
 void Matcher<kChunks>::load_second_row(int y) {
   const auto padding = static_cast<std::size_t>(kMaxBandLanes);
   const auto columns = static_cast<std::size_t>(width_);
-  std::memcpy(workspace_.padded_codes.data() + padding, pair_.codes[1].row(y), columns * sizeof(std::uint32_t));
+  std::memcpy(workspace_.padded_codes.data() + padding, pair_.codes[1].row(y),
+              columns * sizeof(std::uint32_t));
   std::memset(workspace_.padded_labels.data(), 0, padding);
   std::memcpy(workspace_.padded_labels.data() + padding, pair_.labels[1].row(y), columns);
   std::memset(workspace_.padded_labels.data() + padding + columns, 0, padding);
@@ -229,8 +230,9 @@ void Matcher<kChunks>::add_paths(const std::array<const Path*, 4>& paths, bool f
     WideLanes odd{};
     for (std::size_t k = 0; k < kPaths; k += 2) {
       // Two path costs fit a byte: twice worst cost and large penalty.
-      const auto pair = reinterpret_cast<WideLanes>(load_lanes<ByteLanes>(paths[k]->lanes + chunk * kBandLanes) +
-                                                    load_lanes<ByteLanes>(paths[k + 1]->lanes + chunk * kBandLanes));
+      const auto pair =
+          reinterpret_cast<WideLanes>(load_lanes<ByteLanes>(paths[k]->lanes + chunk * kBandLanes) +
+                                      load_lanes<ByteLanes>(paths[k + 1]->lanes + chunk * kBandLanes));
       even += pair & 0xff;
       odd += pair >> 8;
     }

@@ -17,7 +17,7 @@ struct SemiGlobalParams {
   int small_step_penalty = 3;    // a change by one disparity: slanted food is the rule
   int large_step_penalty = 28;   // by more, in plain areas
   int least_large_penalty = 10;  // where the picture has an edge of several edge_contrast
-  int border_penalty = 14;        // between samples of different labels
+  int border_penalty = 14;       // between samples of different labels
   int edge_contrast = 12;        // grey levels that halve the large penalty
   int label_penalty = 16;        // partners with different labels
   bool diagonal_paths = false;   // eight paths instead of four: slower, and no better within bands
@@ -36,9 +36,9 @@ struct BandedPair {
 };
 
 struct SemiGlobalWorkspace {
-  std::span<std::uint16_t> sums;                  // path costs of all pixels and disparities
-  std::array<std::span<std::uint8_t>, 2> paths;   // two rows of path costs in three directions
-  std::span<std::uint32_t> padded_codes;          // one row of the second picture
+  std::span<std::uint16_t> sums;                 // path costs of all pixels and disparities
+  std::array<std::span<std::uint8_t>, 2> paths;  // two rows of path costs in three directions
+  std::span<std::uint32_t> padded_codes;         // one row of the second picture
   std::span<std::uint8_t> padded_labels;
 
   template <class Allocator>
@@ -52,9 +52,10 @@ struct SemiGlobalWorkspace {
   }
 };
 
-// Finds the disparities of the first picture: column of the partner less own column. `first_disparity` holds the start of each
-// pixel's band of `lanes` disparities (a multiple of kBandLanes); pixels × lanes ≤ the workspace's states.
-// Results in sixteenths, kNoDisparity outside of the labels and where nothing matched.
+// Finds the disparities of the first picture: column of the partner less own column. `first_disparity` holds
+// the start of each pixel's band of `lanes` disparities (a multiple of kBandLanes, all within
+// ±kMaxDisparityPx); pixels × lanes ≤ the workspace's states. Results in sixteenths, kNoDisparity outside of
+// the labels and where nothing matched.
 void match_semi_global(const BandedPair& pair, ImageView<const std::int16_t> first_disparity, int lanes,
                        const SemiGlobalParams& params, SemiGlobalWorkspace& workspace,
                        ImageView<Disparity> disparity);

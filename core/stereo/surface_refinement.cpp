@@ -11,7 +11,7 @@ namespace traygauge {
 namespace {
 
 constexpr int kChannels = SurfaceRefinementWorkspace::kChannels;
-constexpr float kLeastHold = 1e-6F;   // grey²: keeps a sample that nothing holds where it is
+constexpr float kLeastHold = 1e-6F;    // grey²: keeps a sample that nothing holds where it is
 constexpr float kLeastEnergy = 0.01F;  // grey², of a window without any gradient
 
 // Value and slope of the cubic through four samples (Catmull-Rom).
@@ -41,6 +41,7 @@ class Refinement {
   }
 
   void tie_neighbours();
+  void smooth();
   void collect_evidence();
   void relax(bool downwards);
 
@@ -96,6 +97,17 @@ void Refinement::tie_neighbours() {
       lower[x] = tie(x, y, x, y + 1);
     }
   }
+}
+
+// A window's samples are resampled each at its own disparity, so what they scatter must go first.
+void Refinement::smooth() {
+  const auto hold = static_cast<float>(params_.smoothing_hold * params_.stiffness);
+  const std::ptrdiff_t samples = at(disparity_, disparity_.height);
+  std::fill_n(workspace_.certainty.data(), samples, hold);
+  for (std::ptrdiff_t i = 0; i < samples; ++i) {
+    workspace_.target[static_cast<std::size_t>(i)] = hold * disparity_.data[i];
+  }
+  for (int i = 0; i < params_.smoothings; ++i) relax(i % 2 == 0);
 }
 
 // Count, residual, gradient, gradient², gradient · residual of every sample of a row.
@@ -158,6 +170,7 @@ void Refinement::solve_row(int y) {
       for (int x = first; x < last; ++x) window[x] += sum[x + i];
     }
   }
+  const std::uint8_t* trusted = trusted_.row(y);
   const float* count = windows(0);
   const float* residual = windows(1);
   const float* gradient = windows(2);
@@ -167,7 +180,7 @@ void Refinement::solve_row(int y) {
     const float share = count[x] > 0.0F ? 1.0F / count[x] : 0.0F;
     const float energy = square[x] - gradient[x] * gradient[x] * share;
     const float correlation = product[x] - gradient[x] * residual[x] * share;
-    const float weight = std::max(energy, 0.0F) * share;
+    const float weight = trusted[x] != 0 ? std::max(energy, 0.0F) * share : 0.0F;
     const float step = correlation / std::max(energy, kLeastEnergy);
     certainty[x] = weight;
     target[x] = weight * (disparity[x] + std::max(std::min(step, most), -most));
@@ -237,8 +250,8 @@ void Refinement::relax(bool downwards) {
     old[width] = old[width - 1];
     const auto [first, last] = labelled_columns(y);
     const float up = y > 0 ? 1.0F : 0.0F;
-    relax_row({disparity, old, above, below, certainty, target, right_tie, lower_tie, upper_tie}, up, stiffness,
-              first, last);
+    relax_row({disparity, old, above, below, certainty, target, right_tie, lower_tie, upper_tie}, up,
+              stiffness, first, last);
   }
 }
 
@@ -250,6 +263,7 @@ void refine_surface(const RefinementPair& pair, ImageView<const std::uint8_t> tr
   Refinement refinement(pair, trusted, params, workspace, disparity);
   for (int iteration = 0; iteration < params.iterations; ++iteration) {
     refinement.tie_neighbours();
+    refinement.smooth();
     refinement.collect_evidence();
     for (int i = 0; i < params.relaxations; ++i) refinement.relax(i % 2 == 0);
   }

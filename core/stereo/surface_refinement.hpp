@@ -17,13 +17,16 @@ struct SurfaceRefinementParams {
   int iterations = 2;        // each resamples the picture anew
   int window_radius = 2;     // 1 to kMaxRefinementRadius
   double max_step_px = 1.0;  // of an iteration: the linearisation reaches about a pixel
-  double stiffness =
-      12.0;             // grey², against the mean squared gradient of a window: noise of 2 to 4 grey levels
-  int relaxations = 4;  // of the membrane, per iteration
-  double max_jump_px = 1.5;  // neighbours that differ by more are not tied
+  // grey², against the mean squared gradient of a window: some times the noise of 2 to 4 grey levels.
+  double stiffness = 25.0;
+  int smoothings = 2;           // of the membrane before an iteration
+  double smoothing_hold = 0.5;  // of a sample's own disparity, against each neighbour's, while smoothing
+  int relaxations = 4;          // of the membrane, per iteration
+  double max_jump_px = 1.5;     // neighbours that differ by more are not tied
   double dish_weight = 0.05;    // of the dish's samples in windows: food beside it is not mixed with it
-  int outline_px = 2;  // samples of food nearer to another label weigh as the dish's: their gradient is its outline's
-  double border_tie = 0.1;   // between samples of different labels
+  int outline_px = 2;       // samples of food this near to another label weigh as little: their gradient is
+                            // their outline's
+  double border_tie = 0.1;  // between samples of different labels
 };
 
 inline constexpr int kMaxRefinementRadius = 6;
@@ -34,8 +37,8 @@ struct SurfaceRefinementWorkspace {
   std::span<float> target;     // disparity that the window asks for, times certainty
   std::span<float> right_tie;
   std::span<float> lower_tie;
-  std::span<float> terms;  // kChannels of 2 kMaxRefinementRadius + 1 rows
-  std::span<float> sums;   // kChannels of one row, with kMaxRefinementRadius beyond its ends
+  std::span<float> terms;    // kChannels of 2 kMaxRefinementRadius + 1 rows
+  std::span<float> sums;     // kChannels of one row, with kMaxRefinementRadius beyond its ends
   std::span<float> windows;  // kChannels of one row
   std::span<float> row;
 

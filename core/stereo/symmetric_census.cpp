@@ -65,7 +65,8 @@ void transform(ImageView<const std::uint8_t> picture, ImageView<std::uint32_t> c
     const int last = std::max(first, picture.width - kReach);
     for (int x = 0; x < first; ++x) codes.at(x, y) = transform_at_border<Bit>(rows, x, picture.width);
     transform_inside<Bit>(rows, first, last, codes.row(y));
-    for (int x = last; x < picture.width; ++x) codes.at(x, y) = transform_at_border<Bit>(rows, x, picture.width);
+    for (int x = last; x < picture.width; ++x)
+      codes.at(x, y) = transform_at_border<Bit>(rows, x, picture.width);
   }
 }
 

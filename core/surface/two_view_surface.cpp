@@ -112,8 +112,8 @@ DisparityRange range_at(DisparityRange range, std::size_t level, int sign) {
 }
 
 // Matches view `v` against the other one.
-void match_reference(TwoViewSurfaceWorkspace& workspace, std::size_t level, std::size_t v, DisparityRange range,
-                     bool coarsest, const TwoViewSurfaceParams& params) {
+void match_reference(TwoViewSurfaceWorkspace& workspace, std::size_t level, std::size_t v,
+                     DisparityRange range, bool coarsest, const TwoViewSurfaceParams& params) {
   std::array<View, 2>& views = workspace.views;
   const ImageView<const std::uint8_t> like = views[0].gray[level];
   const ImageView<std::int16_t> first = as_picture(workspace.first_disparity, like);

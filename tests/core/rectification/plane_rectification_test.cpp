@@ -66,9 +66,9 @@ struct Scene {
       std::vector<cv::Point> outline;
       for (int i = 0; i < 90; ++i) {
         const double angle = i * 2.0 * CV_PI / 90.0;
-        outline.push_back(project(view.lens, view.camera_from_table,
-                                  {20.0 + kDishRadiusMm * std::cos(angle),
-                                   -30.0 + kDishRadiusMm * std::sin(angle), kPlaneMm}));
+        outline.push_back(project(
+            view.lens, view.camera_from_table,
+            {20.0 + kDishRadiusMm * std::cos(angle), -30.0 + kDishRadiusMm * std::sin(angle), kPlaneMm}));
       }
       cv::fillConvexPoly(labels[v], outline, kDishLabel);
       gray[v] = cv::Mat1b(view.lens.height, view.lens.width, std::uint8_t{128});
@@ -128,7 +128,8 @@ TEST(PlaneRectification, HoldsTheDishOfBothViews) {
   for (int v = 0; v < 2; ++v) {
     const auto i = static_cast<std::size_t>(v);
     cv::Mat1b labels(grid.rows(), grid.columns());
-    grid.sample_labels(v, scene.views[i], labels_on_dish(kDishLabel), {labels.data, labels.cols, labels.rows});
+    grid.sample_labels(v, scene.views[i], labels_on_dish(kDishLabel),
+                       {labels.data, labels.cols, labels.rows});
     const double area_mm2 = cv::countNonZero(labels) * grid.column_step_mm() * grid.row_step_mm();
     EXPECT_NEAR(area_mm2 / (CV_PI * kDishRadiusMm * kDishRadiusMm), 1.0, 0.03);
     cv::Mat1b border = labels.clone();

@@ -58,8 +58,8 @@ struct Pair {
     Arena arena({block.data() + (aligned - raw), plan.high_water_bytes()});
     workspace.allocate(arena, kWidth, kWidth * kHeight);
     ASSERT_FALSE(arena.exhausted());
-    refine_surface({view(first), view(labels), view(second), view(labels), 1}, view(trusted), params, workspace,
-                   view(surface));
+    refine_surface({view(first), view(labels), view(second), view(labels), 1}, view(trusted), params,
+                   workspace, view(surface));
   }
   // Median of the absolute errors and mean of the signed ones, away from the borders.
   std::pair<double, double> errors() const {
@@ -98,8 +98,8 @@ TEST(SurfaceRefinement, FindsSubpixelShiftsOfSlantedAndCurvedSurfaces) {
 
 TEST(SurfaceRefinement, SamplesWithoutPartnersFollowTheirNeighbours) {
   Pair pair([](int x, int) { return 4.0 + 0.05 * x; }, 0.0, 1);
-  for (int y = 30; y < 40; ++y) {
-    for (int x = 80; x < 90; ++x) {
+  for (int y = 32; y < 38; ++y) {
+    for (int x = 82; x < 88; ++x) {
       const auto i = static_cast<std::size_t>(y * kWidth + x);
       pair.trusted[i] = 0;
       pair.first[i] = 0;

@@ -1,5 +1,5 @@
-// The dense surface of the captures' dishes at their true poses: what dense matching alone does to heights and
-// volumes of food, with either view as the one that has true depth.
+// The dense surface of the captures' dishes at their true poses: what dense matching alone does to heights
+// and volumes of food, with either view as the one that has true depth.
 #include "core/surface/two_view_surface.hpp"
 
 #include <gtest/gtest.h>
@@ -91,13 +91,13 @@ class Truth {
     const TrueView& view = pair.capture.views.at(0);
     const Pose world_from_camera = view.camera_from_world.inverse();
     const cv::Mat1f depth = pair.capture.read_depth_mm();
-    points_.resize(static_cast<std::size_t>(grid.points.width) * static_cast<std::size_t>(grid.points.height));
+    points_.resize(static_cast<std::size_t>(grid.points.width) *
+                   static_cast<std::size_t>(grid.points.height));
     for (int y = 0; y < grid.points.height; ++y) {
       for (int x = 0; x < grid.points.width; ++x) {
         const SurfacePoint& p = grid.points.at(x, y);
         const Vec3 in_camera = view.camera_from_world * Vec3(p.x_mm, p.y_mm, p.z_mm);
-        const Vec2 pixel =
-            view.lens.pinhole.pixel(view.lens.distort(in_camera.head<2>() / in_camera.z()));
+        const Vec2 pixel = view.lens.pinhole.pixel(view.lens.distort(in_camera.head<2>() / in_camera.z()));
         const auto column = static_cast<int>(std::lround(pixel.x()));
         const auto row = static_cast<int>(std::lround(pixel.y()));
         const bool inside = column >= 0 && row >= 0 && column < depth.cols && row < depth.rows;
@@ -154,8 +154,8 @@ class Truth {
     }
     volume += prism(measured(x, y), measured(x + 1, y), measured(x, y + 1)) +
               prism(measured(x + 1, y), measured(x + 1, y + 1), measured(x, y + 1));
-    true_volume += prism(at(x, y), at(x + 1, y), at(x, y + 1)) +
-                   prism(at(x + 1, y), at(x + 1, y + 1), at(x, y + 1));
+    true_volume +=
+        prism(at(x, y), at(x + 1, y), at(x, y + 1)) + prism(at(x + 1, y), at(x + 1, y + 1), at(x, y + 1));
   }
 
   const SurfaceGrid& grid_;
@@ -186,9 +186,9 @@ TEST_P(TwoViewSurface, HeightsAndVolumesAreRight) {
   double median_mm = 0.0;
   double bias_mm = 0.0;
   int count = 0;
-  for (const Source& source : {Source{"meals/m01", 1}, Source{"meals/m04", 1}, Source{"meals/m08", 2},
-                               Source{"meals/m11", 2}, Source{"angles/a01", 3}, Source{"plates/c1_dinner", 1},
-                               Source{"plates/c1_oval", 1}}) {
+  for (const Source& source :
+       {Source{"meals/m01", 1}, Source{"meals/m04", 1}, Source{"meals/m08", 2}, Source{"meals/m11", 2},
+        Source{"angles/a01", 3}, Source{"plates/c1_dinner", 1}, Source{"plates/c1_oval", 1}}) {
     const CapturePair pair(source.folder, true_view_second ? source.other : 0,
                            true_view_second ? 0 : source.other);
     ASSERT_TRUE(pair.run(stage).ok()) << source.folder;
@@ -228,7 +228,8 @@ TEST_F(CapturedSurface, SameBitsWhateverWasMeasuredBefore) {
     const ImageView<const SurfacePoint> b = used.grids[v].points;
     ASSERT_EQ(a.width, b.width);
     ASSERT_EQ(a.height, b.height);
-    const auto bytes = static_cast<std::size_t>(a.width) * static_cast<std::size_t>(a.height) * sizeof *a.data;
+    const auto bytes =
+        static_cast<std::size_t>(a.width) * static_cast<std::size_t>(a.height) * sizeof *a.data;
     EXPECT_EQ(std::memcmp(a.data, b.data, bytes), 0);
   }
 }
