@@ -5,12 +5,14 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/pose/model_search.hpp"
 #include "core/pose/triangulation.hpp"
 #include "core/scale/card_plane.hpp"
 #include "core/scale/card_pose.hpp"
 #include "core/scale/card_tracks.hpp"
 #include "core/scale/homography.hpp"
 #include "core/scale/scale_estimation.hpp"
+#include "core/segmentation/label_regions.hpp"
 
 namespace traygauge {
 namespace {
@@ -86,6 +88,26 @@ bool motion_of_card(const CardFit& fit, const CardPoseParams& params, ExtrinsicW
   return true;
 }
 
+bool lies_on_card(const PreparedView& view, const Vec2& ray) {
+  const Vec2 pixel = view.lens.pinhole.pixel(view.lens.distort(ray));
+  const auto x = static_cast<int>(std::lround(pixel.x()));
+  const auto y = static_cast<int>(std::lround(pixel.y()));
+  return view.labels.contains(x, y) && view.labels.at(x, y) == kCardLabel;
+}
+
+// Views of different scenes share the card at most. That is a small plane, and a turn of the camera alone
+// explains it: what looks like views too close to each other has hardly an inlier elsewhere.
+Status explain_closeness(const ExtrinsicInput& input, std::span<const RayMatch> rays,
+                         std::span<const std::uint8_t> inliers, const RelativePoseParams& params) {
+  std::size_t beside_card = 0;
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    if (inliers[i] == 0 || lies_on_card(*input.first, rays[i].first)) continue;
+    if (!lies_on_card(*input.second, rays[i].second)) ++beside_card;
+  }
+  return is_non_trivial(beside_card, rays.size(), params) ? StatusCode::views_too_close
+                                                          : StatusCode::too_few_matches;
+}
+
 double rotation_between_deg(const Pose& a, const Pose& b) {
   constexpr double kDegrees = 180.0 / std::numbers::pi;
   return kDegrees * std::abs(Eigen::AngleAxisd(a.rotation.transpose() * b.rotation).angle());
@@ -155,6 +177,9 @@ Status calibrate_extrinsics(const ExtrinsicInput& input, const Configuration& co
   RelativePose pose;
   Status status =
       estimate_relative_pose(rays, focal_px, configuration.pose, random, workspace.pose, pose, inliers);
+  if (status.code() == StatusCode::views_too_close) {
+    return explain_closeness(input, rays, inliers, configuration.pose);
+  }
   if (!status.ok()) return status;
 
   clock.enter(Stage::scale);

@@ -208,10 +208,11 @@ TEST_F(BadInput, ViewsOfDifferentDishes) {
     SpoiledCapture mixed(spoiled.file(""));
     mixed.document["views"][1]["camera"] = donor.at("camera");
     mixed.store();
-    expect_refusal(mixed.measure({"--pair", "0,1"}),
-                   {"too_few_matches", "pose_not_found", "card_not_found", "pose_contradicts_card",
-                    "labels_inconsistent", "scale_not_found", "table_not_found", "too_little_depth",
-                    "views_too_far_apart", "views_too_close", "rim_not_found", "disparity_range_too_large"});
+    expect_refusal(
+        mixed.measure({"--pair", "0,1"}),
+        {"too_few_matches", "pose_not_found", "card_not_found", "pose_contradicts_card",
+         "labels_inconsistent", "scale_not_found", "table_not_found", "too_little_depth",
+         "views_too_far_apart", "rim_not_found", "disparity_range_too_large", "rectification_failed"});
   }
 }
 

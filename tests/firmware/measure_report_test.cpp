@@ -123,7 +123,7 @@ TEST_F(Report, DocumentStaysJsonWhateverTheNumbersAndPaths) {
 }
 
 TEST_F(Report, EveryStatusHasItsNameAndSentence) {
-  for (int code = 0; code <= static_cast<int>(StatusCode::item_below_dish); ++code) {
+  for (int code = 0; code <= static_cast<int>(StatusCode::item_textureless); ++code) {
     measurement_.status = static_cast<StatusCode>(code);
     const Json json = document();
     EXPECT_EQ(json["status"], name(static_cast<StatusCode>(code)));
