@@ -104,7 +104,7 @@ enum class Profile : std::uint8_t {
 };
 
 struct Configuration {
-  Profile profile = Profile::paper;
+  Profile profile = Profile::best;
   LensModel lens;
   ReferenceCard card;
   // Candidates for the only dish: the nearest by rim size and height; none near: dish_unknown. A tray with

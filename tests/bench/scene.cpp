@@ -72,6 +72,7 @@ void draw_card(const SyntheticCamera& camera, const ReferenceCard& card, Picture
 
 Configuration Scene::configuration() const {
   Configuration configuration;
+  configuration.profile = Profile::paper;
   configuration.lens = lens;
   configuration.card = card;
   configuration.card.pattern = pattern.gray();

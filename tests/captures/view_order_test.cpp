@@ -14,8 +14,10 @@ namespace {
 
 constexpr double kMaxDifference = 0.02;
 
-std::map<int, double> volumes_of(const Capture& capture, std::array<int, 2> pair) {
-  CaptureSession session(capture, pair, capture.dishes);
+std::map<int, double> volumes_of(Profile profile, const Capture& capture, std::array<int, 2> pair) {
+  Configuration parameters;
+  parameters.profile = profile;
+  CaptureSession session(capture, pair, capture.dishes, parameters);
   const Measurement& measurement = session.measure(1);
   EXPECT_TRUE(measurement.status.ok()) << pair[0] << "," << pair[1] << " " << name(measurement.status.code());
   std::map<int, double> volumes;
@@ -23,13 +25,17 @@ std::map<int, double> volumes_of(const Capture& capture, std::array<int, 2> pair
   return volumes;
 }
 
-TEST(ViewOrderOfCaptures, ReversedPairsMeasureTheSame) {
+class ViewOrderOfCaptures : public testing::TestWithParam<Profile> {};
+INSTANTIATE_TEST_SUITE_P(Both, ViewOrderOfCaptures, testing::Values(Profile::best, Profile::paper),
+                         [](const auto& info) { return info.param == Profile::best ? "Best" : "Paper"; });
+
+TEST_P(ViewOrderOfCaptures, ReversedPairsMeasureTheSame) {
   if (captures_folder().empty()) GTEST_SKIP() << "TRAYGAUGE_CAPTURES names no captures";
   double largest = 0.0;
   for (const auto& [folder, capture] : single_dish_captures()) {
     for (const auto& pair : capture.pairs) {
-      const auto forward = volumes_of(capture, pair);
-      const auto reverse = volumes_of(capture, {pair[1], pair[0]});
+      const auto forward = volumes_of(GetParam(), capture, pair);
+      const auto reverse = volumes_of(GetParam(), capture, {pair[1], pair[0]});
       ASSERT_EQ(forward.size(), reverse.size());
       for (const auto& [label, volume_ml] : forward) {
         const double difference = std::abs(reverse.at(label) / volume_ml - 1.0);

@@ -89,7 +89,11 @@ TEST(Allocations, NoneWhenAMeasurementIsRefused) {
   EXPECT_EQ(course.allocations, 0);
 }
 
-TEST(Allocations, NoneOnACapture) {
+class AllocationsOfProfile : public testing::TestWithParam<Profile> {};
+INSTANTIATE_TEST_SUITE_P(Both, AllocationsOfProfile, testing::Values(Profile::best, Profile::paper),
+                         [](const auto& info) { return info.param == Profile::best ? "Best" : "Paper"; });
+
+TEST_P(AllocationsOfProfile, NoneOnACapture) {
   if (captures_folder().empty()) GTEST_SKIP() << "TRAYGAUGE_CAPTURES names no captures";
   const Capture capture = read_capture(captures_folder() / "meals" / "m01");
   const std::array<LoadedView, 2> views = {load_view(capture.views[0]), load_view(capture.views[1])};
@@ -100,6 +104,7 @@ TEST(Allocations, NoneOnACapture) {
   const std::array<DishModel, 1> dishes = {
       DishModel{dish.outer_size_mm, dish.rim_height_mm, dish.bottom_height_mm}};
   Configuration configuration;
+  configuration.profile = GetParam();
   configuration.lens = {camera.size.width,
                         camera.size.height,
                         {camera.fx_px, camera.fy_px, camera.cx_px, camera.cy_px},

@@ -16,19 +16,30 @@ namespace {
 constexpr std::size_t kBudgetBytes = std::size_t{32} << 20U;  // at 1600 × 1200, the default
 constexpr std::byte kGuard{0x5C};
 
-static_assert(planned_bytes(Configuration{}) > 0);
-static_assert(planned_bytes(Configuration{}) + (std::size_t{64} << 10U) <= kBudgetBytes,
+constexpr Configuration default_of(Profile profile) {
+  Configuration configuration;
+  configuration.profile = profile;
+  return configuration;
+}
+
+static_assert(planned_bytes(default_of(Profile::paper)) > 0);
+static_assert(planned_bytes(default_of(Profile::paper)) + (std::size_t{64} << 10U) <= kBudgetBytes,
               "64 KiB are for the state at the head of the block");
+static_assert(planned_bytes(default_of(Profile::best)) + (std::size_t{64} << 10U) <= kBudgetBytes);
 
 TEST(EstimatorMemory, DefaultStaysWithinTheBudget) {
-  EXPECT_LE(required_bytes(Configuration{}), kBudgetBytes);
-  EXPECT_LE(required_bytes(Configuration{}) - planned_bytes(Configuration{}), std::size_t{64} << 10U);
+  for (const Profile profile : {Profile::best, Profile::paper}) {
+    const Configuration configuration = default_of(profile);
+    EXPECT_LE(required_bytes(configuration), kBudgetBytes);
+    EXPECT_LE(required_bytes(configuration) - planned_bytes(configuration), std::size_t{64} << 10U);
+  }
 }
 
 TEST(EstimatorMemory, RowsAddUp) {
-  for (const int keypoints : {500, 3000, 6000}) {
-    Configuration configuration;
-    configuration.limits.max_keypoints = keypoints;
+  for (const auto& [profile, width] :
+       {std::pair{Profile::paper, 1600}, {Profile::paper, 640}, {Profile::best, 1600}, {Profile::best, 640}}) {
+    Configuration configuration = default_of(profile);
+    configuration.limits.max_frame_width = width;
     std::size_t kept = 0;
     std::size_t largest_shared = 0;
     for (const MemoryRow& row : describe_memory(configuration)) {
@@ -45,7 +56,7 @@ TEST(EstimatorMemory, RowsAddUp) {
 
 TEST(EstimatorMemory, MoreOfACapTakesMoreMemory) {
   const auto bytes = [](auto change) {
-    Configuration configuration;
+    Configuration configuration = default_of(Profile::paper);
     change(configuration);
     return required_bytes(configuration);
   };

@@ -110,6 +110,7 @@ TrayScene::TrayScene(const TrayOptions& options) : pattern(options.pattern_seed)
 
 Configuration TrayScene::configuration() const {
   Configuration configuration;
+  configuration.profile = Profile::paper;
   configuration.lens.width = kWidth;
   configuration.lens.height = kHeight;
   configuration.lens.pinhole = cameras[0].pinhole;

@@ -17,6 +17,7 @@ TEST(WithoutSurf, TheEstimatorOfProfilePaperIsRefused) {
   const std::vector<std::uint8_t> pattern(kPatternPx * kPatternPx);
   const std::array<DishModel, 1> dishes = {DishModel{{260.0, 260.0}, 22.0, 4.5}};
   Configuration configuration;
+  configuration.profile = Profile::paper;
   configuration.lens = {1600, 1200, {1200.0, 1200.0, 800.0, 600.0}};
   configuration.card.pattern = {pattern.data(), kPatternPx, kPatternPx};
   configuration.dishes = dishes;
