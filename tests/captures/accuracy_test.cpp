@@ -61,7 +61,7 @@ class CaptureAccuracy : public testing::TestWithParam<Profile> {
   }
 };
 INSTANTIATE_TEST_SUITE_P(Both, CaptureAccuracy, testing::Values(Profile::best, Profile::paper),
-                         [](const auto& info) { return info.param == Profile::best ? "Best" : "Paper"; });
+                         [](const auto& profile) { return profile.param == Profile::best ? "Best" : "Paper"; });
 
 TEST_P(CaptureAccuracy, NothingIsRefused) {
   EXPECT_GE(protocol_runs(GetParam()).size(), 24U);

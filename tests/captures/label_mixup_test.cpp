@@ -30,7 +30,7 @@ StatusCode measure_with_labels(Profile profile, const Capture& original, std::ar
 
 class LabelMixup : public testing::TestWithParam<Profile> {};
 INSTANTIATE_TEST_SUITE_P(Both, LabelMixup, testing::Values(Profile::best, Profile::paper),
-                         [](const auto& info) { return info.param == Profile::best ? "Best" : "Paper"; });
+                         [](const auto& profile) { return profile.param == Profile::best ? "Best" : "Paper"; });
 
 TEST_P(LabelMixup, ExchangedOrDoubledLabelsAreRefused) {
   if (captures_folder().empty()) GTEST_SKIP() << "TRAYGAUGE_CAPTURES names no captures";
