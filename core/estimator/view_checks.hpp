@@ -27,20 +27,21 @@ struct ViewCheckParams {
 
   // Blur counts only where it exceeds a length in the picture and one on the table: a fine sensor may spread
   // an edge over more pixels without losing what is measured. Good: 0.8 to 0.96 px, with 0.7 px of defocus
-  // 1.14; 0.27 to 0.64 mm. From 1.5 px in one view on volumes drift by 8 points; from 3 px on nothing was
-  // measured any more, or the card was not found.
+  // 1.14; 0.27 to 0.64 mm. From 1.5 px in one view on volumes drift by 8 points; at 3 px in one view the
+  // card was no longer found in any capture, at 3 px in both in most.
   double blur_warning_px = 1.5;
   double blur_warning_mm = 0.45;
   double max_blur_px = 3.0;  // more: too_blurred
   double max_blur_mm = 0.9;
 
-  // The white of the card's print. Good: 130 to 220. At 60 the food spans 30 grey values, and volumes were
+  // The white of the card's print. Good: 170 to 220. At 60 the food spans 30 grey values, and volumes were
   // off by 24 % where 110 gave 10 %.
   int underexposed_white = 60;
   int min_white = 25;  // less: frame_too_dark
 
-  // Of the card, by its outline. Good: 0.92 to 0.99. A half that is covered leaves 0.50 to 0.81, a fifth
-  // 0.82.
+  // Of the card, by its outline. Good: 0.92 to 0.99. Covered from one side: a fifth leaves 0.82, a third
+  // 0.65, a half 0.75 to 0.88. Where about 0.6 is gone, the rest has a card's shape again: only its print
+  // tells.
   double visible_card_warning = 0.90;
   double min_visible_card = 0.82;  // less: card_hidden
 

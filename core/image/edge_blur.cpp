@@ -4,13 +4,14 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <cstdlib>
 #include <numbers>
 
 namespace traygauge {
 namespace {
 
 constexpr int kReach_px = 8;  // of the profile across an edge, to each side: ends of edges up to 4 px wide
+constexpr int kStep_px =
+    2;  // in both directions: a quarter of the edges says as much in a quarter of the time
 constexpr int kBinsPerPixel = 32;
 constexpr double kFootShare = 0.1;  // of the steepest slope: where the edge ends
 
@@ -100,8 +101,8 @@ class EdgeCollector {
     // The flattest edge that still ends within reach.
     const int min_slope = std::max(2, min_rise_ / kReach_px);
     const int margin = kReach_px + 1;
-    for (int y = margin; y < gray_.height - margin; ++y) {
-      for (int x = margin; x < gray_.width - margin; ++x) {
+    for (int y = margin; y < gray_.height - margin; y += kStep_px) {
+      for (int x = margin; x < gray_.width - margin; x += kStep_px) {
         if (labels_.at(x, y) != label_) continue;
         const EdgeProfile profile(gray_, x, y, direction);
         const int slope = profile.slope(0);

@@ -13,7 +13,7 @@ struct EdgeBlurParams {
   double min_rise_share = 0.45;  // of the region's contrast: weaker edges may be halftones of the print
   // Of the widths of the edges, in each direction: neighbouring print widens edges, nothing narrows them.
   double width_quantile = 0.25;
-  int min_edges = 30;     // of a direction; fewer say nothing. A card 85 px long has hundreds
+  int min_edges = 30;     // of a direction; fewer say nothing; a card 140 px long has a hundred
   int min_contrast = 16;  // grey values between dark and bright print; less is no print
 };
 

@@ -1,7 +1,7 @@
 #include "core/segmentation/item_pixels.hpp"
 
 #include <algorithm>
-#include <cstdlib>
+#include <cmath>
 #include <cstring>
 
 namespace traygauge {

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "core/estimator/measurement.hpp"
+#include "firmware/measure/capture_session.hpp"
 #include "tests/firmware/command_runner.hpp"
 #include "tests/support/faulty_capture.hpp"
 
@@ -239,7 +240,6 @@ class Faults : public ::testing::TestWithParam<std::string> {
 TEST_P(Faults, OfThePictures) {
   run_faults(faults_of_pictures(), "meals/m01", {0, 1});
   run_faults(faults_of_pictures(), "meals/m11", {0, 1});
-  run_faults(faults_of_pictures(), "plates/c1_dinner", {0, 1});
 }
 
 TEST_P(Faults, OfTheScene) {
@@ -273,6 +273,34 @@ TEST_P(Faults, NeverFarOffWithoutAWord) {
       print(name, fault, outcome, truth_ml);
     }
   }
+}
+
+// All pairs of all captures, trays by one of their dishes: no doubt about the pictures.
+TEST(PicturesWithoutAFault, RaiseNoDoubt) {
+  if (captures_folder().empty()) GTEST_SKIP() << "TRAYGAUGE_CAPTURES names no captures";
+  constexpr std::array<Warning, 7> kDoubts = {Warning::blurred,
+                                              Warning::underexposed,
+                                              Warning::card_partly_hidden,
+                                              Warning::food_clipped,
+                                              Warning::little_texture,
+                                              Warning::exposure_differs,
+                                              Warning::white_balance_differs};
+  int pairs = 0;
+  for (const fs::path& folder : capture_folders()) {
+    const Capture capture = read_capture(folder);
+    for (const auto& pair : capture.pairs) {
+      CaptureSession session(capture, pair, {capture.dishes.front()});
+      const Measurement& measurement = session.measure(1);
+      SCOPED_TRACE(folder.filename().string() + " " + std::to_string(pair[0]) + "," +
+                   std::to_string(pair[1]));
+      EXPECT_TRUE(measurement.status.ok()) << name(measurement.status.code());
+      for (const Warning doubt : kDoubts) {
+        EXPECT_FALSE(measurement.warnings[static_cast<std::size_t>(doubt)]) << name(doubt);
+      }
+      ++pairs;
+    }
+  }
+  EXPECT_GE(pairs, 25);
 }
 
 INSTANTIATE_TEST_SUITE_P(Profiles, Faults, ::testing::Values("paper"),
