@@ -93,6 +93,9 @@ struct MeasurementReport {
   double mm_per_baseline = 0.0;
   int rim_points = 0;
   double rim_height_mm = 0.0;  // measured, above the table
+  double rim_rms_px = 0.0;     // profile best: of the outlines' points on the rim
+  double rim_inlier_share = 0.0;
+  double food_agreement = 0.0;  // profile best: share of food whose label the other view confirms
   int dish_index = -1;         // among the candidates of the configuration
   int rectified_rows = 0;
   int rectified_columns = 0;

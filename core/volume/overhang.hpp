@@ -13,7 +13,7 @@ struct OverhangParams {
   // A view tilted by t sees the dish under a ball's near side over about 0.8 r tan t of depth, under a wall
   // over none. The undercut's area must reach this share of what a ball of the item's size and height shows;
   // long items along the line of sight show a third. Smaller takes walls with noise for fruit.
-  double min_undercut_share = 0.2;
+  double min_undercut_share = 0.4;
   // Height of the equator over the dish, of the item's height: 0.5 for a ball, less for fruit, which flattens
   // where it rests: its column volume is 1.14 to 1.24 times the closed one, a ball's 1.25 times.
   double equator_share = 0.48;

@@ -75,6 +75,76 @@ void outline_labels(cv::Mat& map, const ImageView<const std::uint8_t>& labels) {
 
 }  // namespace
 
+namespace {
+
+// What each cell of the dishes' height maps is, side by side on the table. `value` maps a cell to a number.
+template <class Value>
+cv::Mat lay_out_cells(std::span<const MeasuredSurface> surfaces, Value&& value) {
+  const double cell_mm = surfaces.front().heights.cell_mm;
+  Vec2 low = Vec2::Constant(1e9);
+  Vec2 high = Vec2::Constant(-1e9);
+  for (const MeasuredSurface& surface : surfaces) {
+    const HeightMap& map = surface.heights;
+    low = low.cwiseMin(map.origin_mm);
+    high = high.cwiseMax(map.centre_mm(map.cells.width - 1, map.cells.height - 1));
+  }
+  const Vec2 size = (high - low) / cell_mm;
+  cv::Mat values(static_cast<int>(std::lround(size.y())) + 1, static_cast<int>(std::lround(size.x())) + 1,
+                 CV_32F, cv::Scalar(kUnknown));
+  for (const MeasuredSurface& surface : surfaces) {
+    const HeightMap& map = surface.heights;
+    const Vec2 shift = (map.origin_mm - low) / cell_mm;
+    for (int y = 0; y < map.cells.height; ++y) {
+      for (int x = 0; x < map.cells.width; ++x) {
+        const int column = static_cast<int>(std::lround(shift.x())) + x;
+        const int row = values.rows - 1 - static_cast<int>(std::lround(shift.y())) - y;  // y points up
+        const HeightCell& cell = map.cells.at(x, y);
+        if (cell.label == kBackgroundLabel || row < 0 || column < 0 || column >= values.cols) continue;
+        values.at<float>(row, column) = value(surface, map.centre_mm(x, y), cell);
+      }
+    }
+  }
+  return values;
+}
+
+}  // namespace
+
+cv::Mat draw_food_heights(const MeasureReport& report, cv::Size size) {
+  const auto surfaces = report.measurement->views.surfaces;
+  if (surfaces.empty()) return draw_unreached("Heights", report, size);
+  const cv::Mat heights =
+      lay_out_cells(surfaces, [](const MeasuredSurface& surface, const Vec2& place, const HeightCell& cell) {
+        return is_item(cell.label) ? static_cast<float>(cell.z_mm - surface.inner.height_mm(place)) : 0.0F;
+      });
+  ColourScale scale{0.0, 1.0, "mm"};
+  if (!spanned_range(heights, kOutlierShare, scale.low, scale.high)) {
+    return draw_missing(size, "No cell has a height.");
+  }
+  scale.low = std::min(scale.low, 0.0);
+  return draw_map(colour_values(heights, scale), scale, size);
+}
+
+cv::Mat draw_evidence(const MeasureReport& report, cv::Size size) {
+  const auto surfaces = report.measurement->views.surfaces;
+  if (surfaces.empty()) return draw_unreached("Surface", report, size);
+  const cv::Mat labels = lay_out_cells(surfaces, [](const MeasuredSurface&, const Vec2&, const HeightCell& cell) {
+    return static_cast<float>(cell.label + (cell.kind == CellKind::surface ? 0 : 256));
+  });
+  cv::Mat picture(labels.size(), CV_8UC3, kUnknownColour);
+  for (int y = 0; y < labels.rows; ++y) {
+    for (int x = 0; x < labels.cols; ++x) {
+      const float value = labels.at<float>(y, x);
+      if (!std::isfinite(value)) continue;
+      const int label = static_cast<int>(value);
+      const cv::Scalar colour = label_colour(static_cast<std::uint8_t>(label % 256)) * (label < 256 ? 0.85 : 0.35);
+      picture.at<cv::Vec3b>(y, x) = {cv::saturate_cast<std::uint8_t>(colour[0]),
+                                     cv::saturate_cast<std::uint8_t>(colour[1]),
+                                     cv::saturate_cast<std::uint8_t>(colour[2])};
+    }
+  }
+  return fit(picture, size, cv::INTER_NEAREST, kUnknownColour);
+}
+
 cv::Mat draw_disparity(const MeasureReport& report, cv::Size size) {
   const ImageView<const Disparity>& disparity = report.measurement->views.disparity;
   if (disparity.empty()) return draw_unreached("Disparity", report, size);

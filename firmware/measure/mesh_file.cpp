@@ -9,7 +9,9 @@
 #include <fstream>
 #include <system_error>
 #include <utility>
+#include <vector>
 
+#include "core/segmentation/label_regions.hpp"
 #include "simulator/capture/png_writer.hpp"
 
 namespace traygauge {
@@ -90,17 +92,87 @@ void append_face(std::string& bytes, const FoodMesh& mesh, const MeshTriangle& t
   bytes += static_cast<char>(triangle.label);
 }
 
+// The food cells of all height maps as a mesh in the reference camera.
+class CellMesh {
+ public:
+  explicit CellMesh(const MeasurementViews& views)
+      : camera_from_table_(views.camera_from_table[static_cast<std::size_t>(views.reference_view)]) {
+    for (const MeasuredSurface& surface : views.surfaces) add(surface);
+    if (!views.surfaces.empty()) {
+      const Vec3 up = camera_from_table_.rotation.col(2);
+      const double height_mm = views.surfaces.front().inner.profile.bottom_height_mm();
+      bottom_ = {up, up.dot(camera_from_table_ * Vec3(0.0, 0.0, height_mm))};
+    }
+  }
+
+  FoodMesh mesh() const {
+    FoodMesh mesh;
+    mesh.points = points_;
+    mesh.triangles = triangles_;
+    return mesh;
+  }
+  const Plane& bottom() const { return bottom_; }
+
+ private:
+  void add(const MeasuredSurface& surface) {
+    const HeightMap& map = surface.heights;
+    std::vector<std::int32_t> index(static_cast<std::size_t>(map.cells.width) *
+                                        static_cast<std::size_t>(map.cells.height),
+                                    -1);
+    const auto at = [&](int x, int y) -> std::int32_t& {
+      return index[static_cast<std::size_t>(y) * static_cast<std::size_t>(map.cells.width) +
+                   static_cast<std::size_t>(x)];
+    };
+    for (int y = 0; y < map.cells.height; ++y) {
+      for (int x = 0; x < map.cells.width; ++x) {
+        const HeightCell& cell = map.cells.at(x, y);
+        if (!is_item(cell.label)) continue;
+        at(x, y) = static_cast<std::int32_t>(points_.size());
+        const Vec2 place = map.centre_mm(x, y);
+        MeshPoint point;
+        point.position_mm = camera_from_table_ * Vec3(place.x(), place.y(), cell.z_mm);
+        point.label = cell.label;
+        points_.push_back(point);
+      }
+    }
+    for (int y = 0; y + 1 < map.cells.height; ++y) {
+      for (int x = 0; x + 1 < map.cells.width; ++x) {
+        add_triangle({at(x, y), at(x + 1, y), at(x, y + 1)});
+        add_triangle({at(x + 1, y), at(x + 1, y + 1), at(x, y + 1)});
+      }
+    }
+  }
+
+  void add_triangle(const std::array<std::int32_t, 3>& corners) {
+    for (const std::int32_t corner : corners) {
+      if (corner < 0) return;
+    }
+    MeshTriangle triangle;
+    triangle.corners = corners;
+    triangle.label = points_[static_cast<std::size_t>(corners[0])].label;
+    triangles_.push_back(triangle);
+  }
+
+  Pose camera_from_table_;
+  Plane bottom_;
+  std::vector<MeshPoint> points_;
+  std::vector<MeshTriangle> triangles_;
+};
+
 }  // namespace
 
 bool has_surface(const Measurement& measurement) {
   const MeasurementViews& views = measurement.views;
+  if (!views.surfaces.empty()) return true;
   // A plane through the camera itself is the one that was never set.
   return !views.mesh.points.empty() && !views.mesh.triangles.empty() && views.dish_bottom.offset != 0.0;
 }
 
 std::string compose_mesh(const Measurement& measurement, const Picture& picture, const LensModel& lens) {
-  const FoodMesh& mesh = measurement.views.mesh;
-  const Plane& bottom = measurement.views.dish_bottom;
+  const MeasurementViews& views = measurement.views;
+  const CellMesh cells(views);
+  const FoodMesh mesh = views.surfaces.empty() ? views.mesh : cells.mesh();
+  const Plane bottom = views.surfaces.empty() ? views.dish_bottom : cells.bottom();
   const Pose pose = dish_from_camera(mesh, bottom);
   std::string bytes = compose_header(mesh);
   for (const MeshPoint& point : mesh.points) {

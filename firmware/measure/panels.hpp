@@ -17,4 +17,9 @@ cv::Mat draw_disparity(const MeasureReport& report, cv::Size size);
 // Height over the bottom of the dish, in the reference view.
 cv::Mat draw_heights(const MeasureReport& report, cv::Size size);
 
+// Profile best: height of the food over the dish's inner surface, seen from above; and what was seen of it,
+// coloured by item, dark where no view sees it.
+cv::Mat draw_food_heights(const MeasureReport& report, cv::Size size);
+cv::Mat draw_evidence(const MeasureReport& report, cv::Size size);
+
 }  // namespace traygauge

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "firmware/base/text.hpp"
+#include "firmware/config/profile.hpp"
 #include "firmware/measure/drawing.hpp"
 #include "firmware/measure/panels.hpp"
 #include "simulator/capture/png_writer.hpp"
@@ -46,11 +47,14 @@ void write_picture_sheet(const std::filesystem::path& file, const MeasureReport&
                          const CaptureSession& session) {
   const cv::Size size = panel_size(session.view(0).picture.size);
   const Measurement& measurement = *report.measurement;
+  const bool is_paper = report.profile == name(Profile::paper);
   const cv::Mat panels[] = {
       add_title(draw_view(session.view(0), measurement, size), view_title(report, 0)),
       add_title(draw_view(session.view(1), measurement, size), view_title(report, 1)),
-      add_title(draw_disparity(report, size), "disparity of the rectified views"),
-      add_title(draw_heights(report, size), "height over the bottom of the dish"),
+      is_paper ? add_title(draw_disparity(report, size), "disparity of the rectified views")
+               : add_title(draw_evidence(report, size), "from above: dark where no view sees it"),
+      is_paper ? add_title(draw_heights(report, size), "height over the bottom of the dish")
+               : add_title(draw_food_heights(report, size), "height of the food over the dish"),
   };
   const int panel_height = size.height + kTitleHeightPx;
   cv::Mat sheet(kTitleHeightPx + 2 * panel_height + kGapPx, 2 * size.width + kGapPx, CV_8UC3, kPaper);

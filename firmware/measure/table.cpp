@@ -2,6 +2,7 @@
 #include <string>
 
 #include "firmware/base/text.hpp"
+#include "firmware/config/profile.hpp"
 #include "firmware/measure/measure_report.hpp"
 #include "simulator/capture/input_error.hpp"
 
@@ -78,9 +79,15 @@ std::string compose_table(const MeasureReport& report) {
   const auto kept = [&](std::size_t i) {
     return std::to_string(counts.keypoints[i]) + " of " + std::to_string(counts.keypoints_found[i]);
   };
-  text += line("points", kept(0) + " and " + kept(1) + " salient points, " + std::to_string(counts.matches) +
+  if (report.profile == name(Profile::best)) {
+    text += line("points", std::to_string(counts.matches) + " of " + std::to_string(counts.corners) +
+                               " corners found in both views, " + std::to_string(counts.inliers) +
+                               " fit the motion");
+  } else {
+    text += line("points", kept(0) + " and " + kept(1) + " salient points, " + std::to_string(counts.matches) +
                              " matches, " + std::to_string(counts.inliers) + " fit the motion, " +
                              std::to_string(counts.card_tracks) + " lie on the card");
+  }
   text += line("time", times(report));
   text +=
       line("memory", mebibytes(report.used_bytes) + " of " + mebibytes(report.reserved_bytes) + " MiB used");

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/estimator/best/food_agreement.hpp"
 #include "core/estimator/best/uncertainty.hpp"
 #include "core/surface/triangulation.hpp"
 
@@ -133,7 +134,11 @@ void measure_dish(const ViewPair& views, const SceneGeometry& geometry, std::siz
   if (!placed.status.ok()) return refuse(placed.status);
   const DishModel& model = dish.candidates[static_cast<std::size_t>(placed.placed.candidate)];
   report.rim_height_mm = placed.placed.place.edge_height_mm;
+  report.rim_rms_px = placed.placed.fit.rms_px;
+  report.rim_inlier_share =
+      static_cast<double>(placed.placed.fit.inliers) / std::max(1, placed.placed.fit.points);
   report.dish_index = static_cast<int>(&model - configuration.dishes.data());
+  if (report.rim_inlier_share < best.pipeline.min_rim_inlier_share) return refuse(StatusCode::labels_inconsistent);
 
   clock.enter(Stage::stereo);
   const double bottom_mm = model.bottom_height_mm;
@@ -148,6 +153,11 @@ void measure_dish(const ViewPair& views, const SceneGeometry& geometry, std::siz
   report.rectified_columns = dense.columns;
   report.disparity_range = dense.disparity_range;
   report.matched_share = 0.5 * (dense.confirmed[0] + dense.confirmed[1]);
+
+  const double agreement =
+      measure_food_agreement(grids, views, geometry.joint.camera_from_table, best.agreement);
+  report.food_agreement = agreement;
+  if (agreement < best.agreement.min_share) return refuse(StatusCode::labels_inconsistent);
 
   clock.enter(Stage::surface);
   InnerSurface inner;

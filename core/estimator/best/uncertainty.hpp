@@ -12,7 +12,11 @@ struct UncertaintyParams {
   double disparity_bias_px = 0.05;   // of an item's mean disparity: smooth skin, gloss, slanted windows
   double hidden_share = 0.5;         // of the volume that no view sees
   double outline_px = 0.3;           // of an item's outline, all along it
-  double surface_share = 0.008;      // of the volume: what the samples of a rough surface leave out
+  // Of the volume: matching errors that follow the food, shine and roughness; and per mean height over the
+  // square root of the area, because steep sides are matched and filled worse than flat tops. Both from the
+  // spread of the rendered captures' errors.
+  double surface_share = 0.013;
+  double steepness_share = 0.06;
   double dish_height_mm = 0.10;      // of the dish's inner surface: firing, glaze, feet
 };
 

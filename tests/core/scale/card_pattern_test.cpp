@@ -29,7 +29,7 @@ TEST(CardPatternTest, LevelsAreTheGaussianBlurredPrint) {
     const cv::Matx23d map(scale_x, 0.0, 0.5 * scale_x - 0.5, 0.0, scale_y, 0.5 * scale_y - 0.5);
     const cv::Size target(level.gray.width, level.gray.height);
     cv::warpAffine(blurred, expected, map, target, cv::INTER_LINEAR | cv::WARP_INVERSE_MAP);
-    const int margin = static_cast<int>(kMarginSigmas * level.blur_mm * level.px_per_mm.x());
+    const int margin = static_cast<int>(kMarginSigmas * level.blur_mm * level.px_per_mm().x());
     double sum = 0.0;
     double signed_sum = 0.0;
     int count = 0;
