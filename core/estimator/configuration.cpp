@@ -51,8 +51,8 @@ Status validate(const Configuration& configuration) {
   if (configuration.profile == Profile::paper) {
     if (const Status status = validate_feature_search(configuration); !status.ok()) return status;
   }
-  for (const Status status : {validate(configuration.pose),
-                              validate(configuration.rectification), validate(configuration.stereo)}) {
+  for (const Status status : {validate(configuration.pose), validate(configuration.rectification),
+                              validate(configuration.stereo)}) {
     if (!status.ok()) return status;
   }
   if (const Status status = validate(configuration.dishes); !status.ok()) return status;

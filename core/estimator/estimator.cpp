@@ -179,7 +179,8 @@ Status Estimator::set_pattern(const GivenFeatures& features, int picture_width_p
 Status Estimator::set_matches(std::span<const GivenMatch> matches,
                               std::span<const GivenCardMatch> card_matches) {
   if (!status_.ok()) return status_;
-  if (!takes_correspondences(*state_) || state_->views != 2 || matches.empty()) return StatusCode::invalid_configuration;
+  if (!takes_correspondences(*state_) || state_->views != 2 || matches.empty())
+    return StatusCode::invalid_configuration;
   const LensModel& first = state_->view(0).lens;
   const LensModel& second = state_->view(1).lens;
   GivenCorrespondences& given = state_->memory.given;

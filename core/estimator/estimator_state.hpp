@@ -17,7 +17,7 @@ struct EstimatorState {
   std::array<DishModel, kMaxDishCandidates> dishes{};
   EstimatorMemory memory;  // of profile paper
   BestMemory best;         // of profile best
-  Extrinsics extrinsics;  // its lists lie in `memory`
+  Extrinsics extrinsics;   // its lists lie in `memory`
   std::size_t reserved_bytes = 0;
   std::size_t used_bytes = 0;
   double setup_ms = 0.0;

@@ -96,7 +96,7 @@ struct MeasurementReport {
   double rim_rms_px = 0.0;     // profile best: of the outlines' points on the rim
   double rim_inlier_share = 0.0;
   double food_agreement = 0.0;  // profile best: share of food whose label the other view confirms
-  int dish_index = -1;         // among the candidates of the configuration
+  int dish_index = -1;          // among the candidates of the configuration
   int rectified_rows = 0;
   int rectified_columns = 0;
   DisparityRange disparity_range;

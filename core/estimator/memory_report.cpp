@@ -19,7 +19,8 @@ std::array<MemoryRow, kMemoryRowCount> describe_best(const Configuration& config
   return {{
       {"state", estimator_state_bytes(), false},
       {"card pattern",
-       bytes_of([&](ArenaPlan& plan) { memory.pattern.allocate(plan, configuration.best.card.pattern); }), false},
+       bytes_of([&](ArenaPlan& plan) { memory.pattern.allocate(plan, configuration.best.card.pattern); }),
+       false},
       {"first view", view, false},
       {"second view", view, false},
       {"cameras and dishes", bytes_of([](ArenaPlan& plan) { plan.take<SceneGeometry>(1); }), false},
@@ -61,7 +62,8 @@ std::array<MemoryRow, kMemoryRowCount> describe_paper(const Configuration& confi
 }  // namespace
 
 std::array<MemoryRow, kMemoryRowCount> describe_memory(const Configuration& configuration) {
-  return configuration.profile == Profile::best ? describe_best(configuration) : describe_paper(configuration);
+  return configuration.profile == Profile::best ? describe_best(configuration)
+                                                : describe_paper(configuration);
 }
 
 }  // namespace traygauge

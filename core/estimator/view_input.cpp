@@ -23,17 +23,15 @@ Status check_sizes(const FrameView& frame, ImageView<const std::uint8_t> labels,
 Status check_labels(const LabelRegions& regions, ImageView<const std::uint8_t> labels) {
   bool has_dish = false;
   bool has_food = false;
-  bool is_cut_off = false;
   for (std::size_t value = kDishLabel; value <= kLastFurtherDishLabel; ++value) {
     const auto label = static_cast<std::uint8_t>(value);
     if (regions.pixels[value] == 0 || (!is_dish(label) && !is_item(label))) continue;
     has_dish = has_dish || is_dish(label) || is_item(label);
     has_food = has_food || is_item(label);
-    is_cut_off = is_cut_off || touches_edge(regions.boxes[value], labels.width, labels.height);
   }
   if (!has_dish) return StatusCode::no_dish_label;
   if (!has_food) return StatusCode::no_food_label;
-  return is_cut_off ? StatusCode::dish_cut_off : StatusCode::ok;
+  return touches_edge(regions.dish, labels.width, labels.height) ? StatusCode::dish_cut_off : StatusCode::ok;
 }
 
 Status check_angle(double relative_angle_deg, const ViewGeometryParams& params) {

@@ -27,7 +27,7 @@ inline constexpr int kCardPatternLevels = 8;
 struct CardPatternLevel {
   ImageView<std::uint8_t> gray;
   std::array<double, 2> px_per_axis_mm{};  // pixel = mm · px_per_mm − 0.5
-  double blur_mm = 0.0;           // standard deviation
+  double blur_mm = 0.0;                    // standard deviation
 
   Vec2 px_per_mm() const { return {px_per_axis_mm[0], px_per_axis_mm[1]}; }
 };

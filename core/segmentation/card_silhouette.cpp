@@ -20,8 +20,8 @@ std::size_t extend_chain(std::span<Vec2> chain, std::size_t size, const Vec2& po
 }
 
 // The convex hull of the label's pixels (their corners), clockwise in the picture; returns the label's area.
-double trace_hull(ImageView<const std::uint8_t> labels, const PixelBox& box, CardSilhouetteWorkspace& workspace,
-                  std::span<Vec2>& hull) {
+double trace_hull(ImageView<const std::uint8_t> labels, const PixelBox& box,
+                  CardSilhouetteWorkspace& workspace, std::span<Vec2>& hull) {
   std::size_t left_size = 0;
   std::size_t right_size = 0;
   double area_px = 0.0;
@@ -111,7 +111,7 @@ double CardSilhouette::visible_share(double card_aspect_ratio) const {
 }
 
 CardSilhouette measure_card_silhouette(ImageView<const std::uint8_t> labels, const PixelBox& box,
-                                 const LensModel& lens, CardSilhouetteWorkspace& workspace) {
+                                       const LensModel& lens, CardSilhouetteWorkspace& workspace) {
   CardSilhouette outline;
   const auto rows = static_cast<std::size_t>(std::max(box.height(), 0));
   if (box.empty() || 2 * rows > workspace.left.size()) return outline;

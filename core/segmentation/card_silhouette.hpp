@@ -47,6 +47,6 @@ struct CardSilhouetteWorkspace {
 
 // `box` holds every pixel of the card's label. Not found where the label has no quadrilateral around it.
 CardSilhouette measure_card_silhouette(ImageView<const std::uint8_t> labels, const PixelBox& box,
-                                 const LensModel& lens, CardSilhouetteWorkspace& workspace);
+                                       const LensModel& lens, CardSilhouetteWorkspace& workspace);
 
 }  // namespace traygauge

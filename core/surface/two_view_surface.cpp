@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 
 #include "core/stereo/median.hpp"
 #include "core/stereo/symmetric_census.hpp"

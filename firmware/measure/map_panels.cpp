@@ -127,16 +127,18 @@ cv::Mat draw_food_heights(const MeasureReport& report, cv::Size size) {
 cv::Mat draw_evidence(const MeasureReport& report, cv::Size size) {
   const auto surfaces = report.measurement->views.surfaces;
   if (surfaces.empty()) return draw_unreached("Surface", report, size);
-  const cv::Mat labels = lay_out_cells(surfaces, [](const MeasuredSurface&, const Vec2&, const HeightCell& cell) {
-    return static_cast<float>(cell.label + (cell.kind == CellKind::surface ? 0 : 256));
-  });
+  const cv::Mat labels =
+      lay_out_cells(surfaces, [](const MeasuredSurface&, const Vec2&, const HeightCell& cell) {
+        return static_cast<float>(cell.label + (cell.kind == CellKind::surface ? 0 : 256));
+      });
   cv::Mat picture(labels.size(), CV_8UC3, kUnknownColour);
   for (int y = 0; y < labels.rows; ++y) {
     for (int x = 0; x < labels.cols; ++x) {
       const float value = labels.at<float>(y, x);
       if (!std::isfinite(value)) continue;
       const int label = static_cast<int>(value);
-      const cv::Scalar colour = label_colour(static_cast<std::uint8_t>(label % 256)) * (label < 256 ? 0.85 : 0.35);
+      const cv::Scalar colour =
+          label_colour(static_cast<std::uint8_t>(label % 256)) * (label < 256 ? 0.85 : 0.35);
       picture.at<cv::Vec3b>(y, x) = {cv::saturate_cast<std::uint8_t>(colour[0]),
                                      cv::saturate_cast<std::uint8_t>(colour[1]),
                                      cv::saturate_cast<std::uint8_t>(colour[2])};

@@ -84,7 +84,8 @@ void add_measure_command(CLI::App& app, MeasureOptions& options) {
   command->add_option("capture", options.capture, "Folder with capture.json")->required();
   command->add_option("--pair", options.pair, "The two views A,B; default: the first of the capture's pairs");
   command->add_option("--labels", options.labels, "Where dish and food are outlined: given (label pictures)");
-  command->add_option("--profile", options.profile, "best (default), or paper: every stage as the paper describes it");
+  command->add_option("--profile", options.profile,
+                      "best (default), or paper: every stage as the paper describes it");
   command->add_option("--seed", options.seed, "Seed of all randomness, default 0");
   command->add_option("--config", options.config, "Folder with dishes/, for captures that name no dish")
       ->envname("TRAYGAUGE_CONFIG");

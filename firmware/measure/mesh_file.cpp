@@ -116,9 +116,8 @@ class CellMesh {
  private:
   void add(const MeasuredSurface& surface) {
     const HeightMap& map = surface.heights;
-    std::vector<std::int32_t> index(static_cast<std::size_t>(map.cells.width) *
-                                        static_cast<std::size_t>(map.cells.height),
-                                    -1);
+    std::vector<std::int32_t> index(
+        static_cast<std::size_t>(map.cells.width) * static_cast<std::size_t>(map.cells.height), -1);
     const auto at = [&](int x, int y) -> std::int32_t& {
       return index[static_cast<std::size_t>(y) * static_cast<std::size_t>(map.cells.width) +
                    static_cast<std::size_t>(x)];

@@ -47,7 +47,7 @@ void write_picture_sheet(const std::filesystem::path& file, const MeasureReport&
                          const CaptureSession& session) {
   const cv::Size size = panel_size(session.view(0).picture.size);
   const Measurement& measurement = *report.measurement;
-  const bool is_paper = report.profile == name(Profile::paper);
+  const bool is_paper = report.profile != name(Profile::best);
   const cv::Mat panels[] = {
       add_title(draw_view(session.view(0), measurement, size), view_title(report, 0)),
       add_title(draw_view(session.view(1), measurement, size), view_title(report, 1)),

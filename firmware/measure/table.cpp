@@ -84,9 +84,10 @@ std::string compose_table(const MeasureReport& report) {
                                " corners found in both views, " + std::to_string(counts.inliers) +
                                " fit the motion");
   } else {
-    text += line("points", kept(0) + " and " + kept(1) + " salient points, " + std::to_string(counts.matches) +
-                             " matches, " + std::to_string(counts.inliers) + " fit the motion, " +
-                             std::to_string(counts.card_tracks) + " lie on the card");
+    text +=
+        line("points", kept(0) + " and " + kept(1) + " salient points, " + std::to_string(counts.matches) +
+                           " matches, " + std::to_string(counts.inliers) + " fit the motion, " +
+                           std::to_string(counts.card_tracks) + " lie on the card");
   }
   text += line("time", times(report));
   text +=

@@ -50,8 +50,8 @@ EstimatorLimits RecordedCaptures::limits() const {
   return limits_for(size, size);
 }
 
-std::unique_ptr<MeasurableCaptures> open_recorded_captures(
-    const std::vector<std::filesystem::path>& folders, Profile profile) {
+std::unique_ptr<MeasurableCaptures> open_recorded_captures(const std::vector<std::filesystem::path>& folders,
+                                                           Profile profile) {
   return std::make_unique<RecordedCaptures>(folders, profile);
 }
 

@@ -26,8 +26,8 @@ std::uint64_t press_count(const StationCommand& command, const CaptureSource& ca
   return command.by_hand ? 2 * scans : scans;
 }
 
-int play(const StationCommand& command, Profile profile, MeasurableCaptures& captures, const std::atomic<bool>& stop,
-         std::ostream& out, std::ostream& log) {
+int play(const StationCommand& command, Profile profile, MeasurableCaptures& captures,
+         const std::atomic<bool>& stop, std::ostream& out, std::ostream& log) {
   SimulatedClock clock;
   TrayPlayer player(captures, command.by_hand ? CameraMover::hand : CameraMover::arm);
   SimulatedArm arm(clock, &player);
@@ -70,7 +70,8 @@ CLI::App* add_station_command(CLI::App& app, StationCommand& command) {
                     "Without an arm: move the camera and press again for the second view");
   station->add_option("--second-view", command.second_view_deg, "Where the arm goes, degrees from home")
       ->capture_default_str();
-  station->add_option("--profile", command.profile, "best (default), or paper: every stage as the paper describes it");
+  station->add_option("--profile", command.profile,
+                      "best (default), or paper: every stage as the paper describes it");
   station->add_option("--seed", command.seed, "Seed of the random samples")->capture_default_str();
   return station;
 }

@@ -28,8 +28,8 @@ struct StationCommand {
 
 // Reads what belongs to these folders, of which there is at least one; throws where a file or key of it is
 // not as expected.
-using OpenCaptures =
-    std::function<std::unique_ptr<MeasurableCaptures>(const std::vector<std::filesystem::path>& folders, Profile)>;
+using OpenCaptures = std::function<std::unique_ptr<MeasurableCaptures>(
+    const std::vector<std::filesystem::path>& folders, Profile)>;
 
 // Adds the command to `app`; when it is given, parsing fills `command`.
 CLI::App* add_station_command(CLI::App& app, StationCommand& command);

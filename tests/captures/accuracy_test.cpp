@@ -18,22 +18,21 @@ constexpr double kMaxAngle_deg = 30.5;  // the pairs up to 30 degrees; the next 
 constexpr int kSeeds = 2;
 
 std::vector<PairRuns> measure_sets(Profile profile) {
-    std::vector<PairRuns> all;
-    ProtocolOptions options;
-    options.profile = abilities_of(profile);
-    options.parameters.profile = profile;
-    options.runs = kSeeds;
-    for (const char* set : {"meals", "angles", "plates"}) {
-      std::vector<std::string> skipped;
-      auto some = run_protocol(captures_folder() / set, options, skipped, [](std::size_t, std::size_t) {});
-      EXPECT_TRUE(skipped.empty());
-      std::move(some.begin(), some.end(), std::back_inserter(all));
-    }
-    std::erase_if(all, [](const PairRuns& pair) {
-      return pair.runs.front().status == StatusCode::ok &&
-             pair.runs.front().relative_angle_deg > kMaxAngle_deg;
-    });
-    return all;
+  std::vector<PairRuns> all;
+  ProtocolOptions options;
+  options.profile = abilities_of(profile);
+  options.parameters.profile = profile;
+  options.runs = kSeeds;
+  for (const char* set : {"meals", "angles", "plates"}) {
+    std::vector<std::string> skipped;
+    auto some = run_protocol(captures_folder() / set, options, skipped, [](std::size_t, std::size_t) {});
+    EXPECT_TRUE(skipped.empty());
+    std::move(some.begin(), some.end(), std::back_inserter(all));
+  }
+  std::erase_if(all, [](const PairRuns& pair) {
+    return pair.runs.front().status == StatusCode::ok && pair.runs.front().relative_angle_deg > kMaxAngle_deg;
+  });
+  return all;
 }
 
 // Measured once for all cases.
@@ -61,7 +60,9 @@ class CaptureAccuracy : public testing::TestWithParam<Profile> {
   }
 };
 INSTANTIATE_TEST_SUITE_P(Both, CaptureAccuracy, testing::Values(Profile::best, Profile::paper),
-                         [](const auto& profile) { return profile.param == Profile::best ? "Best" : "Paper"; });
+                         [](const auto& profile) {
+                           return profile.param == Profile::best ? "Best" : "Paper";
+                         });
 
 TEST_P(CaptureAccuracy, NothingIsRefused) {
   EXPECT_GE(protocol_runs(GetParam()).size(), 24U);
@@ -74,9 +75,12 @@ TEST_P(CaptureAccuracy, NothingIsRefused) {
 }
 
 TEST_P(CaptureAccuracy, PoseAndScale) {
-  const double rotation = median(collect_errors(GetParam(), [](const StageErrors& e) { return e.rotation_deg; }));
-  const double direction = median(collect_errors(GetParam(), [](const StageErrors& e) { return e.direction_deg; }));
-  const double scale = median(collect_errors(GetParam(), [](const StageErrors& e) { return e.scale_percent; }));
+  const double rotation =
+      median(collect_errors(GetParam(), [](const StageErrors& e) { return e.rotation_deg; }));
+  const double direction =
+      median(collect_errors(GetParam(), [](const StageErrors& e) { return e.direction_deg; }));
+  const double scale =
+      median(collect_errors(GetParam(), [](const StageErrors& e) { return e.scale_percent; }));
   std::printf("median rotation %.3f deg, direction %.3f deg, scale %.2f %%\n", rotation, direction, scale);
   const bool is_best = GetParam() == Profile::best;
   EXPECT_LE(rotation, is_best ? 0.02 : 0.3);

@@ -222,7 +222,8 @@ TEST_F(BadInput, LabelsExchanged) {
     auto& views = spoiled.document["views"];
     std::swap(views[0]["labels"], views[1]["labels"]);
     spoiled.store();
-    expect_refusal(spoiled.measure({"--pair", "0,1"}), {"labels_inconsistent"});
+    expect_refusal(spoiled.measure({"--pair", "0,1"}),
+                   {"labels_inconsistent", "card_not_found", "dish_unknown"});
   }
 }
 

@@ -30,7 +30,9 @@ StatusCode measure_with_labels(Profile profile, const Capture& original, std::ar
 
 class LabelMixup : public testing::TestWithParam<Profile> {};
 INSTANTIATE_TEST_SUITE_P(Both, LabelMixup, testing::Values(Profile::best, Profile::paper),
-                         [](const auto& profile) { return profile.param == Profile::best ? "Best" : "Paper"; });
+                         [](const auto& profile) {
+                           return profile.param == Profile::best ? "Best" : "Paper";
+                         });
 
 TEST_P(LabelMixup, ExchangedOrDoubledLabelsAreRefused) {
   if (captures_folder().empty()) GTEST_SKIP() << "TRAYGAUGE_CAPTURES names no captures";
@@ -43,7 +45,8 @@ TEST_P(LabelMixup, ExchangedOrDoubledLabelsAreRefused) {
         EXPECT_EQ(items, 0U) << folder.filename() << " " << pair[0] << "," << pair[1] << " labels "
                              << labels[0] << "," << labels[1] << ": " << name(code);
         EXPECT_TRUE(code == StatusCode::labels_inconsistent || code == StatusCode::card_not_found ||
-                    code == StatusCode::pose_contradicts_card || code == StatusCode::dish_unknown || code == StatusCode::table_not_found)
+                    code == StatusCode::pose_contradicts_card || code == StatusCode::dish_unknown ||
+                    code == StatusCode::table_not_found)
             << name(code);
         ++refused;
       }

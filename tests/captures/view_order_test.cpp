@@ -27,7 +27,9 @@ std::map<int, double> volumes_of(Profile profile, const Capture& capture, std::a
 
 class ViewOrderOfCaptures : public testing::TestWithParam<Profile> {};
 INSTANTIATE_TEST_SUITE_P(Both, ViewOrderOfCaptures, testing::Values(Profile::best, Profile::paper),
-                         [](const auto& profile) { return profile.param == Profile::best ? "Best" : "Paper"; });
+                         [](const auto& profile) {
+                           return profile.param == Profile::best ? "Best" : "Paper";
+                         });
 
 TEST_P(ViewOrderOfCaptures, ReversedPairsMeasureTheSame) {
   if (captures_folder().empty()) GTEST_SKIP() << "TRAYGAUGE_CAPTURES names no captures";

@@ -127,7 +127,6 @@ TEST_F(MeasureCommand, WrongOptionsAreNamed) {
   }
   for (const char* seed : {"-1", "1.5", "x", "18446744073709551616", "1 "})
     expect_wrong_use({"--seed", seed}, "--seed");
-  expect_wrong_use({"--profile", "best"}, "--profile paper");
   expect_wrong_use({"--profile", "worst"}, "--profile");
   expect_wrong_use({"--labels", "auto"}, "--labels auto");
   expect_wrong_use({"--labels", "none"}, "--labels");
@@ -163,7 +162,7 @@ TEST_F(MeasureCommand, UnusableCapturesAreNamed) {
   expect_wrong_use({}, "at least two views");
 }
 
-TEST_F(MeasureCommand, SeveralDishesAreForAnotherVersion) {
+TEST_F(MeasureCommand, ProfilePaperRefusesSeveralDishes) {
   Json dish = files_.document["dish"];
   files_.document.erase("dish");
   dish["label"] = 1;
@@ -174,7 +173,7 @@ TEST_F(MeasureCommand, SeveralDishesAreForAnotherVersion) {
   dish["label"] = 201;
   files_.document["dishes"].push_back(dish);
   files_.store();
-  expect_wrong_use({}, "profile paper measures one dish");
+  expect_wrong_use({"--profile", "paper"}, "profile paper measures one dish");
 }
 
 TEST_F(MeasureCommand, EveryDishOfATrayReachesTheConfigurationWithItsLabel) {

@@ -64,9 +64,10 @@ TEST_F(Report, DocumentOfAMeasurement) {
   EXPECT_EQ(json["status"], "ok");
   EXPECT_EQ(
       json["items"],
-      Json::parse(R"([{"label":2,"dish":1,"status":"ok","volume_ml":101.25,"sigma_ml":null,"area_mm2":3500.0,
+      Json::parse(
+          R"([{"label":2,"dish":1,"status":"ok","volume_ml":101.25,"sigma_ml":null,"column_volume_ml":101.25,"area_mm2":3500.0,
                              "mean_height_mm":29.0,"max_height_mm":31.5},
-                            {"label":3,"dish":1,"status":"ok","volume_ml":22.5,"sigma_ml":null,"area_mm2":1900.0,
+                            {"label":3,"dish":1,"status":"ok","volume_ml":22.5,"sigma_ml":null,"column_volume_ml":22.5,"area_mm2":1900.0,
                              "mean_height_mm":11.8,"max_height_mm":12.5}])"));
   EXPECT_EQ(json["relative_angle_deg"], 17.5);
   EXPECT_EQ(json["pose"]["rotation"], Json({1, 0, 0, 0, 1, 0, 0, 0, 1}));

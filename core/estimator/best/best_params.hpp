@@ -18,16 +18,16 @@ namespace traygauge {
 
 // What ties the stages together.
 struct BestPipelineParams {
-  // Above the tallest sparse point on a dish the surface is searched this much higher: corners sit on edges and
-  // texture, not on every summit.
+  // Above the tallest sparse point on a dish the surface is searched this much higher: corners sit on edges
+  // and texture, not on every summit.
   double summit_margin_mm = 20.0;
   // No search ends below this height over a dish's bottom, however few points there are on the food.
   double min_top_mm = 40.0;
   // Of a dish's outlines on the rim found; fewer: the outlines are of another picture. Right ones reach 0.93
   // and more, those of a view 5 degrees off 0.63 to 0.80.
   double min_rim_inlier_share = 0.88;
-  std::size_t max_outline_points = 1024;  // of one dish in one view: a contour of 8 sides a point
-  std::size_t max_contour_sides = 8192;   // of one dish in one view, twice what a round one of 1600 px has
+  std::size_t max_outline_points = 1024;   // of one dish in one view: a contour of 8 sides a point
+  std::size_t max_contour_sides = 8192;    // of one dish in one view, twice what a round one of 1600 px has
   std::size_t max_height_cells = 180'000;  // of a dish's height map: 360 × 360 mm at 0.85 mm
 };
 

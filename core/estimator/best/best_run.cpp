@@ -32,6 +32,12 @@ double relative_angle_deg(const SceneGeometry& geometry) {
   return std::acos(std::clamp(first.dot(second), -1.0, 1.0)) * 180.0 / std::numbers::pi;
 }
 
+// The camera did not move against the card, as far as a card can tell.
+bool is_same_place(const SceneGeometry& geometry) {
+  constexpr double kSamePlaceMm = 1.0;
+  return second_from_first(geometry.joint.camera_from_table).translation.norm() < kSamePlaceMm;
+}
+
 Status summarise(const SceneGeometry& geometry, std::span<const ItemResult> items) {
   const auto is_measured = [](const ItemResult& item) { return item.status == StatusCode::ok; };
   const auto measured = std::count_if(items.begin(), items.end(), is_measured);
@@ -44,7 +50,8 @@ void report_pose(const SceneGeometry& geometry, bool reversed, Measurement& meas
   const Pose motion = second_from_first(geometry.joint.camera_from_table);
   measurement.has_pose = true;
   measurement.second_from_first = reversed ? motion.inverse() : motion;
-  measurement.rotation_angle_deg = std::abs(Eigen::AngleAxisd(motion.rotation).angle()) * 180.0 / std::numbers::pi;
+  measurement.rotation_angle_deg =
+      std::abs(Eigen::AngleAxisd(motion.rotation).angle()) * 180.0 / std::numbers::pi;
   measurement.relative_angle_deg = relative_angle_deg(geometry);
   measurement.views.camera_from_table = geometry.joint.camera_from_table;
   if (reversed) std::swap(measurement.views.camera_from_table[0], measurement.views.camera_from_table[1]);
@@ -63,7 +70,9 @@ Status compare_pictures(const BestMemory& memory, const Configuration& configura
 
 void warn(const ViewPair& views, const Configuration& configuration, const SceneGeometry& geometry,
           Measurement& measurement) {
-  const auto set = [&](Warning warning, bool on) { measurement.warnings[static_cast<std::size_t>(warning)] = on; };
+  const auto set = [&](Warning warning, bool on) {
+    measurement.warnings[static_cast<std::size_t>(warning)] = on;
+  };
   const ViewGeometryParams& params = configuration.geometry;
   set(Warning::angle_small, measurement.relative_angle_deg < params.small_angle_deg);
   set(Warning::angle_large, measurement.relative_angle_deg > params.large_angle_deg);
@@ -97,7 +106,9 @@ void run_best(BestMemory& memory, const Configuration& configuration, std::uint6
   if (!measurement.status.ok()) return;
   report_pose(geometry, reversed, measurement);
   warn(views, configuration, geometry, measurement);
-  measurement.status = check_angle(measurement.relative_angle_deg, configuration.geometry);
+  measurement.status = is_same_place(geometry)
+                           ? StatusCode::views_identical
+                           : check_angle(measurement.relative_angle_deg, configuration.geometry);
   if (!measurement.status.ok()) return;
   for (std::size_t d = 0; d < geometry.dish_count; ++d) {
     measure_dish(views, geometry, d, configuration, dish, clock, measurement.report);

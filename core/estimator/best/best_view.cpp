@@ -22,7 +22,8 @@ Status prepare_best_view(const FrameView& frame, const Configuration& configurat
   const CheckedView checked{frame, gray, view.labels, &view.regions, &view.lens};
   assess_view(checked, {configuration.card.width_mm, configuration.card.height_mm}, configuration.view_checks,
               workspace.silhouette, view.quality_storage.front());
-  if (const Status status = judge_view(view.quality(), configuration.view_checks); !status.ok()) return status;
+  if (const Status status = judge_view(view.quality(), configuration.view_checks); !status.ok())
+    return status;
   view.gray = build_pyramid(gray, view.pyramid);
 
   clock.enter(Stage::scale);

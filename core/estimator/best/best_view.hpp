@@ -56,7 +56,8 @@ struct BestViewWorkspace {
   }
 };
 
-// Checks sizes, labels and exposure, makes the grey pyramid, and finds the card. `view` has its lens and labels.
+// Checks sizes, labels and exposure, makes the grey pyramid, and finds the card. `view` has its lens and
+// labels.
 Status prepare_best_view(const FrameView& frame, const Configuration& configuration,
                          const CardPattern& pattern, BestViewWorkspace& workspace, StageClock& clock,
                          BestView& view);

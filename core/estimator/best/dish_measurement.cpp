@@ -20,12 +20,17 @@ PixelBox box_of(const LabelRegions& regions, const LabelSet& labels) {
   return box;
 }
 
+bool touches_edge(const PixelBox& box, const ImageView<const std::uint8_t>& labels) {
+  return !box.empty() &&
+         (box.left == 0 || box.top == 0 || box.right == labels.width || box.bottom == labels.height);
+}
+
 std::array<StoredView, 2> stored_views(const ViewPair& views, const SceneGeometry& geometry,
                                        const LabelSet& labels) {
   std::array<StoredView, 2> stored;
   for (std::size_t v = 0; v < 2; ++v) {
-    stored[v] = {views[v]->gray.levels[0], views[v]->labels, box_of(views[v]->regions, labels), views[v]->lens,
-                 geometry.joint.camera_from_table[v]};
+    stored[v] = {views[v]->gray.levels[0], views[v]->labels, box_of(views[v]->regions, labels),
+                 views[v]->lens, geometry.joint.camera_from_table[v]};
   }
   return stored;
 }
@@ -132,18 +137,24 @@ void measure_dish(const ViewPair& views, const SceneGeometry& geometry, std::siz
   };
   const JointDishResult& placed = geometry.joint.dishes[index];
   if (!placed.status.ok()) return refuse(placed.status);
+  for (const BestView* view : views) {
+    if (touches_edge(box_of(view->regions, dish.labels), view->labels))
+      return refuse(StatusCode::dish_cut_off);
+  }
   const DishModel& model = dish.candidates[static_cast<std::size_t>(placed.placed.candidate)];
   report.rim_height_mm = placed.placed.place.edge_height_mm;
   report.rim_rms_px = placed.placed.fit.rms_px;
   report.rim_inlier_share =
       static_cast<double>(placed.placed.fit.inliers) / std::max(1, placed.placed.fit.points);
   report.dish_index = static_cast<int>(&model - configuration.dishes.data());
-  if (report.rim_inlier_share < best.pipeline.min_rim_inlier_share) return refuse(StatusCode::labels_inconsistent);
+  if (report.rim_inlier_share < best.pipeline.min_rim_inlier_share)
+    return refuse(StatusCode::labels_inconsistent);
 
   clock.enter(Stage::stereo);
   const double bottom_mm = model.bottom_height_mm;
-  const double top_mm = std::max(tallest_track_mm(geometry, dish.labels, bottom_mm) + best.pipeline.summit_margin_mm,
-                                 bottom_mm + best.pipeline.min_top_mm);
+  const double top_mm =
+      std::max(tallest_track_mm(geometry, dish.labels, bottom_mm) + best.pipeline.summit_margin_mm,
+               bottom_mm + best.pipeline.min_top_mm);
   std::array<SurfaceGrid, 2> grids;
   TwoViewSurfaceReport dense;
   Status status = reconstruct_surface(stored_views(views, geometry, dish.labels), table_of(dish), bottom_mm,

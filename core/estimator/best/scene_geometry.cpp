@@ -35,8 +35,8 @@ Status trace_outlines(const ViewPair& views, const Configuration& configuration,
   return StatusCode::ok;
 }
 
-JointInput join(const ViewPair& views, const ReferenceCard& card,
-                std::span<const PointTrack> tracks, std::span<const JointDish> dishes) {
+JointInput join(const ViewPair& views, const ReferenceCard& card, std::span<const PointTrack> tracks,
+                std::span<const JointDish> dishes) {
   JointInput input;
   for (std::size_t v = 0; v < 2; ++v) {
     input.cards[v] = {views[v]->card().camera_from_table, views[v]->card().information};
@@ -87,9 +87,9 @@ Status find_geometry(const ViewPair& views, const Configuration& configuration, 
   const TrackedView first{views[0]->gray, views[0]->labels, views[0]->lens};
   const TrackedView second{views[1]->gray, views[1]->labels, views[1]->lens};
   PointTrackingReport tracking;
-  Status status = track_points(first, second, {views[0]->card().camera_from_table, views[1]->card().camera_from_table},
-                               configuration.card.thickness_mm, best.tracking, random, workspace.tracking,
-                               geometry.tracks, tracking);
+  Status status = track_points(
+      first, second, {views[0]->card().camera_from_table, views[1]->card().camera_from_table},
+      configuration.card.thickness_mm, best.tracking, random, workspace.tracking, geometry.tracks, tracking);
   report.corners = static_cast<int>(tracking.corners);
   report.matches = static_cast<int>(tracking.tracks);
   if (!status.ok()) return status;

@@ -17,8 +17,8 @@ namespace traygauge {
 // A dish on the tray, by its label in both views.
 struct DishOnTray {
   std::uint8_t label = kDishLabel;
-  LabelSet labels;                          // its own and its items'
-  std::span<const DishModel> candidates;    // the one described, or all that are known
+  LabelSet labels;                        // its own and its items'
+  std::span<const DishModel> candidates;  // the one described, or all that are known
 };
 
 struct SceneGeometry {
@@ -52,8 +52,8 @@ struct SceneGeometryWorkspace {
   }
 };
 
-// Lists the dishes that either view shows, with what lies on them. no_dish_label without any; dish_unknown when
-// one of them has no description.
+// Lists the dishes that either view shows, with what lies on them. no_dish_label without any; dish_unknown
+// when one of them has no description.
 Status list_dishes(const ViewPair& views, const Configuration& configuration,
                    SceneGeometryWorkspace& workspace, SceneGeometry& geometry);
 

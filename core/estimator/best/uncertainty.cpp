@@ -50,12 +50,15 @@ double estimate_sigma_ml(const UncertaintyInput& input, const TableCameras& came
   const HeightVolume& item = input.volume;
   if (!(item.area_mm2 > 0.0)) return 0.0;
   const double volume_mm3 = kMm3PerMl * item.column_volume_ml;
-  const double cameras_mm = std::sqrt(std::max(0.0, height_variance(input.centre_mm, camera_from_table, covariance)));
+  const double cameras_mm =
+      std::sqrt(std::max(0.0, height_variance(input.centre_mm, camera_from_table, covariance)));
   const double matching_mm = params.disparity_bias_px * input.height_per_px_mm;
-  const double edge_mm3 = outline_mm(item.area_mm2) * params.outline_px * input.px_mm * 0.5 * item.mean_height_mm;
+  const double edge_mm3 =
+      outline_mm(item.area_mm2) * params.outline_px * input.px_mm * 0.5 * item.mean_height_mm;
   const double variance_mm6 =
       item.area_mm2 * item.area_mm2 *
-          (cameras_mm * cameras_mm + matching_mm * matching_mm + params.dish_height_mm * params.dish_height_mm) +
+          (cameras_mm * cameras_mm + matching_mm * matching_mm +
+           params.dish_height_mm * params.dish_height_mm) +
       std::pow(params.hidden_share * kMm3PerMl * item.hidden_volume_ml, 2) + edge_mm3 * edge_mm3 +
       std::pow(params.surface_share * volume_mm3, 2) +
       std::pow(params.steepness_share * volume_mm3 * item.mean_height_mm / std::sqrt(item.area_mm2), 2);

@@ -9,23 +9,23 @@ namespace traygauge {
 
 // Standard deviations of what the covariance of the cameras does not know.
 struct UncertaintyParams {
-  double disparity_bias_px = 0.05;   // of an item's mean disparity: smooth skin, gloss, slanted windows
-  double hidden_share = 0.5;         // of the volume that no view sees
-  double outline_px = 0.3;           // of an item's outline, all along it
+  double disparity_bias_px = 0.05;  // of an item's mean disparity: smooth skin, gloss, slanted windows
+  double hidden_share = 0.5;        // of the volume that no view sees
+  double outline_px = 0.3;          // of an item's outline, all along it
   // Of the volume: matching errors that follow the food, shine and roughness; and per mean height over the
   // square root of the area, because steep sides are matched and filled worse than flat tops. Both from the
   // spread of the rendered captures' errors.
   double surface_share = 0.013;
   double steepness_share = 0.06;
-  double dish_height_mm = 0.10;      // of the dish's inner surface: firing, glaze, feet
+  double dish_height_mm = 0.10;  // of the dish's inner surface: firing, glaze, feet
 };
 
 // What an item's uncertainty follows from.
 struct UncertaintyInput {
   HeightVolume volume;
-  Vec3 centre_mm = Vec3::Zero();       // of the item's surface, table frame
-  double height_per_px_mm = 0.0;       // of disparity
-  double px_mm = 0.0;                  // of the samples, on the dish
+  Vec3 centre_mm = Vec3::Zero();  // of the item's surface, table frame
+  double height_per_px_mm = 0.0;  // of disparity
+  double px_mm = 0.0;             // of the samples, on the dish
 };
 
 // Standard deviation of the volume, ml.

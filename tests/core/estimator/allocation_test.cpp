@@ -91,7 +91,9 @@ TEST(Allocations, NoneWhenAMeasurementIsRefused) {
 
 class AllocationsOfProfile : public testing::TestWithParam<Profile> {};
 INSTANTIATE_TEST_SUITE_P(Both, AllocationsOfProfile, testing::Values(Profile::best, Profile::paper),
-                         [](const auto& profile) { return profile.param == Profile::best ? "Best" : "Paper"; });
+                         [](const auto& profile) {
+                           return profile.param == Profile::best ? "Best" : "Paper";
+                         });
 
 TEST_P(AllocationsOfProfile, NoneOnACapture) {
   if (captures_folder().empty()) GTEST_SKIP() << "TRAYGAUGE_CAPTURES names no captures";

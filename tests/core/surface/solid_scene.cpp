@@ -256,7 +256,7 @@ Solid liquid(int label, const InnerSurface& dish, double level_mm) {
 namespace {
 
 InnerSurface dish(std::array<double, 2> size, std::initializer_list<DishProfilePoint> profile, Vec2 centre,
-                double turn_rad) {
+                  double turn_rad) {
   DishModel model;
   model.outer_size_mm = size;
   for (const DishProfilePoint& point : profile) model.profile_points[model.profile_size++] = point;

@@ -21,12 +21,15 @@ struct HeightMeasurement {
   HeightMap map;
   LevelLiquid liquid;
 
-  Status run(std::span<const SurfaceGrid> views, const InnerSurface& dish, const HeightMapParams& params = {}) {
+  Status run(std::span<const SurfaceGrid> views, const InnerSurface& dish,
+             const HeightMapParams& params = {}) {
     const Status built = build_height_map(views, dish, params, *map_space, map);
     if (!built.ok()) return built;
     liquid = level_liquid(dish, {}, *liquid_space, map);
     const Status integrated = integrate_height_map(map, dish, {}, *volume_space);
-    close_overhangs(views, map, dish, {}, volume_space->items);
+    OverhangParams overhang;
+    overhang.min_undercut_share = 0.2;  // true depth shows all of an undercut
+    close_overhangs(views, map, dish, overhang, volume_space->items);
     return integrated;
   }
   const HeightVolume& item(int label) { return volume_space->items[static_cast<std::size_t>(label)]; }

@@ -137,7 +137,7 @@ TEST_F(EvaluateCommand, ATrayIsSkippedByAProfileThatMeasuresOneDish) {
   other["label"] = 201;
   files_.document["dishes"] = {dish, other};
   files_.store();
-  const CommandResult result = evaluate({});
+  const CommandResult result = evaluate({"--profile", "paper"});
   EXPECT_EQ(result.status, 1);
   EXPECT_EQ(fake_estimator().estimates, 0);
   EXPECT_NE(result.out.find("0 captures (1 skipped)"), std::string::npos) << result.out;

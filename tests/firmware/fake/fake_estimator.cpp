@@ -19,13 +19,13 @@ FakeEstimator& fake_estimator() {
   return fake;
 }
 
-TRAYGAUGE_FAKE std::size_t required_bytes(const EstimatorLimits& limits) {
+TRAYGAUGE_FAKE std::size_t required_bytes(const EstimatorLimits& limits, Profile /*profile*/) {
   return kBytesPerPixel * static_cast<std::size_t>(limits.max_frame_width) *
          static_cast<std::size_t>(limits.max_frame_height);
 }
 
 TRAYGAUGE_FAKE std::size_t required_bytes(const Configuration& configuration) {
-  return required_bytes(configuration.limits);
+  return required_bytes(configuration.limits, configuration.profile);
 }
 
 TRAYGAUGE_FAKE std::array<MemoryRow, kMemoryRowCount> describe_memory(const Configuration& configuration) {
@@ -67,7 +67,8 @@ TRAYGAUGE_FAKE Estimator::Estimator(std::span<std::byte> block, const Configurat
   fake.card = configuration.card;
   fake.dishes.assign(configuration.dishes.begin(), configuration.dishes.end());
   fake.limits = configuration.limits;
-  if (block.size() < required_bytes(configuration.limits)) status_ = StatusCode::out_of_memory;
+  if (block.size() < required_bytes(configuration.limits, configuration.profile))
+    status_ = StatusCode::out_of_memory;
 }
 
 TRAYGAUGE_FAKE double Estimator::setup_ms() const {
@@ -75,7 +76,7 @@ TRAYGAUGE_FAKE double Estimator::setup_ms() const {
 }
 
 TRAYGAUGE_FAKE std::size_t Estimator::reserved_bytes() const {
-  return required_bytes(fake_estimator().limits);
+  return required_bytes(fake_estimator().limits, Profile::best);
 }
 
 TRAYGAUGE_FAKE std::size_t Estimator::used_bytes() const {

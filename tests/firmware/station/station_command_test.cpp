@@ -114,7 +114,8 @@ TEST_F(StationCommandOnCaptures, ADamagedPictureSpoilsItsScanOnly) {
 }
 
 // Measured as one dish, the items of the others would get volumes above the wrong plane.
-TEST_F(StationCommandOnCaptures, RefusesATrayWithSeveralDishes) {
+TEST_F(StationCommandOnCaptures, ProfilePaperRefusesATrayWithSeveralDishes) {
+  command_.profile = "paper";
   try {
     play(captures_ / "trays" / "t01");
     FAIL() << "was played: " << out_.str();
