@@ -53,6 +53,9 @@ void report_pose(const SceneGeometry& geometry, bool reversed, Measurement& meas
   measurement.rotation_angle_deg =
       std::abs(Eigen::AngleAxisd(motion.rotation).angle()) * 180.0 / std::numbers::pi;
   measurement.relative_angle_deg = relative_angle_deg(geometry);
+  const Pose& reference = geometry.joint.camera_from_table[0];
+  const Vec3 up = reference.rotation.col(2);
+  measurement.views.table = {up, up.dot(reference.translation)};
   measurement.views.camera_from_table = geometry.joint.camera_from_table;
   if (reversed) std::swap(measurement.views.camera_from_table[0], measurement.views.camera_from_table[1]);
 }
@@ -112,6 +115,11 @@ void run_best(BestMemory& memory, const Configuration& configuration, std::uint6
   if (!measurement.status.ok()) return;
   for (std::size_t d = 0; d < geometry.dish_count; ++d) {
     measure_dish(views, geometry, d, configuration, dish, clock, measurement.report);
+  }
+  if (measurement.report.dish_index >= 0) {
+    const auto index = static_cast<std::size_t>(measurement.report.dish_index);
+    measurement.views.dish_bottom =
+        measurement.views.table.raised(configuration.dishes[index].bottom_height_mm);
   }
   measurement.status = summarise(geometry, dish.items.items());
   measurement.items = dish.items.items();

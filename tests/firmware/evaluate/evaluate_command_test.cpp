@@ -124,7 +124,7 @@ TEST_F(EvaluateCommand, WritesFilesThatParse) {
   EXPECT_EQ(count_lines(read_text(folder / "runs.csv")), 7U);
   EXPECT_EQ(count_lines(read_text(folder / "items.csv")), 3U);
   EXPECT_EQ(count_lines(read_text(folder / "captures.csv")), 3U);
-  EXPECT_EQ(Json::parse(read_text(folder / "summary.json"))["profile"], "paper");
+  EXPECT_EQ(Json::parse(read_text(folder / "summary.json"))["profile"], "best");
   for (const char* plot : {"signed_errors.svg", "variation.svg", "error_by_angle.svg", "volumes.svg"})
     EXPECT_EQ(find_xml_fault(read_text(folder / plot)), "") << plot;
 }
