@@ -118,7 +118,7 @@ std::vector<Fault> faults_of_pictures() {
       {"shake 8 px in both", both(shaken(8.0)), kNoCard, of(Warning::blurred), false},
       {"half of the card covered",
        second(covered(0.5)),
-       {"card_hidden"},
+       {"card_hidden", "card_not_found"},
        of(Warning::card_partly_hidden),
        false},
       {"a third of the card covered", second(covered(0.35)), {"card_hidden"}, ""},
@@ -303,7 +303,7 @@ TEST(PicturesWithoutAFault, RaiseNoDoubt) {
   EXPECT_GE(pairs, 25);
 }
 
-INSTANTIATE_TEST_SUITE_P(Profiles, Faults, ::testing::Values("paper"),
+INSTANTIATE_TEST_SUITE_P(Profiles, Faults, ::testing::Values("best", "paper"),
                          [](const auto& profile) { return profile.param; });
 
 }  // namespace
