@@ -289,7 +289,7 @@ TEST(PicturesWithoutAFault, RaiseNoDoubt) {
   for (const fs::path& folder : capture_folders()) {
     const Capture capture = read_capture(folder);
     for (const auto& pair : capture.pairs) {
-      CaptureSession session(capture, pair, {capture.dishes.front()});
+      CaptureSession session(capture, pair, capture.dishes);
       const Measurement& measurement = session.measure(1);
       SCOPED_TRACE(folder.filename().string() + " " + std::to_string(pair[0]) + "," +
                    std::to_string(pair[1]));
