@@ -181,5 +181,35 @@ TEST(PoseCorrection, FindsThePoseFromTableAndOtherPointsDespiteWrongOnes) {
   }
 }
 
+// Epipolar lines do not know how far the camera went: nothing may pull it towards the first one.
+TEST(PoseCorrection, WithoutAKnownHeightTheMotionKeepsItsLength) {
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    SCOPED_TRACE(::testing::Message() << "seed " << seed);
+    std::mt19937_64 random(seed);
+    std::uniform_real_distribution<double> place(-150.0, 150.0);
+    std::uniform_real_distribution<double> height(0.0, 60.0);
+    TableCameras truth;
+    truth[0] = look_at({-20, -40, 450}, Vec3::Zero(), 0.0, 1, 1, 1).camera_from_world;
+    truth[1] = look_at({25, -35, 450}, Vec3::Zero(), 0.05, 1, 1, 1).camera_from_world;
+    std::uniform_real_distribution<double> mistake(-0.03, 0.03);
+    std::vector<SeenPoint> points;
+    for (int i = 0; i < 50; ++i) {
+      const Vec3 point_mm(place(random), place(random), height(random));
+      const Vec3 first = truth[0] * point_mm;
+      const Vec3 second = truth[1] * point_mm;
+      points.push_back({Vec3::Zero(), first.head<2>() / first.z(), second.head<2>() / second.z(), false});
+      if (i % 5 == 0) points.back().second += Vec2(mistake(random), mistake(random));
+    }
+    TableCameras corrected = {truth[0], perturbed(truth[1], 0.5, 3.0, seed)};
+    const double given_mm = second_from_first(corrected).translation.norm();
+    correct_second_pose(points, 1000.0, {}, corrected);
+    EXPECT_NEAR(second_from_first(corrected).translation.norm(), given_mm, 6.0);
+    const EpipolarDistance distance(second_from_first(corrected), 1000.0);
+    int right = 0;
+    for (const SeenPoint& point : points) right += std::abs(distance(point.first, point.second)) < 0.5;
+    EXPECT_GE(right, 38);
+  }
+}
+
 }  // namespace
 }  // namespace traygauge
