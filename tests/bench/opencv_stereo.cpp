@@ -5,8 +5,6 @@
 #include <opencv2/calib3d.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "core/segmentation/label_regions.hpp"
-
 namespace traygauge::bench {
 namespace {
 
@@ -221,6 +219,10 @@ cv::Matx33d rotation_matrix(const Mat3& r) {
 
 cv::Vec3d vector_of(const Vec3& vector) {
   return {vector.x(), vector.y(), vector.z()};
+}
+
+cv::Rect as_rect(const PixelBox& box) {
+  return {box.left, box.top, box.width(), box.height()};
 }
 
 OpenCvLens::OpenCvLens(const LensModel& lens)
