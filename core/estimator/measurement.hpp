@@ -140,6 +140,8 @@ struct Measurement {
   std::array<bool, kWarningCount> warnings{};
   MeasurementReport report;
   MeasurementViews views;
+
+  void warn(Warning warning, bool on) { warnings[static_cast<std::size_t>(warning)] = on; }
 };
 
 }  // namespace traygauge

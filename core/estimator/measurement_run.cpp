@@ -117,18 +117,11 @@ Status calibrate(EstimatorState& state, Random& random, StageClock& clock, Measu
   return StatusCode::ok;
 }
 
-Status compare_pictures(const EstimatorState& state, Measurement& measurement) {
-  const ViewCheckParams& params = state.configuration.view_checks;
-  const ViewQuality& first = state.memory.views[0].quality();
-  const ViewQuality& second = state.memory.views[1].quality();
-  const ColourDifference difference = compare_colours(first.colours, second.colours, params.colours);
-  report_pictures(first, second, difference, params, measurement.report.pictures);
-  warn_about_pictures(first, second, difference, params, measurement.warnings);
-  return judge_pair(difference, params);
-}
-
 Status measure_views(EstimatorState& state, std::uint64_t seed, StageClock& clock, Measurement& measurement) {
-  if (const Status status = compare_pictures(state, measurement); !status.ok()) return status;
+  const auto& prepared = state.memory.views;
+  const Status pictures = compare_pictures(prepared[0].quality(), prepared[1].quality(),
+                                           state.configuration.view_checks, measurement);
+  if (!pictures.ok()) return pictures;
   Random random(seed);
   if (const Status status = calibrate(state, random, clock, measurement); !status.ok()) return status;
   const LinesOfSight lines = look_from_dish(state.worked_view(0), state.worked_view(1), state.extrinsics);

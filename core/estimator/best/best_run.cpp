@@ -60,17 +60,6 @@ void report_pose(const SceneGeometry& geometry, bool reversed, Measurement& meas
   if (reversed) std::swap(measurement.views.camera_from_table[0], measurement.views.camera_from_table[1]);
 }
 
-Status compare_pictures(const BestMemory& memory, const Configuration& configuration,
-                        Measurement& measurement) {
-  const ViewCheckParams& params = configuration.view_checks;
-  const ViewQuality& first = memory.views[0].quality();
-  const ViewQuality& second = memory.views[1].quality();
-  const ColourDifference difference = compare_colours(first.colours, second.colours, params.colours);
-  report_pictures(first, second, difference, params, measurement.report.pictures);
-  warn_about_pictures(first, second, difference, params, measurement.warnings);
-  return judge_pair(difference, params);
-}
-
 void warn(const ViewPair& views, const Configuration& configuration, const SceneGeometry& geometry,
           Measurement& measurement) {
   const auto set = [&](Warning warning, bool on) {
@@ -100,7 +89,8 @@ void run_best(BestMemory& memory, const Configuration& configuration, std::uint6
   Random random(seed);
   SceneGeometry& geometry = memory.scene.front();
   geometry = {};
-  measurement.status = compare_pictures(memory, configuration, measurement);
+  measurement.status = compare_pictures(memory.views[0].quality(), memory.views[1].quality(),
+                                        configuration.view_checks, measurement);
   if (!measurement.status.ok()) return;
   measurement.status = list_dishes(views, configuration, memory.geometry, geometry);
   if (!measurement.status.ok()) return;
