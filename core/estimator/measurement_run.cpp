@@ -74,9 +74,6 @@ void show_pictures(EstimatorState& state, MeasurementViews& views) {
 }
 
 void warn_about_views(const EstimatorState& state, Measurement& measurement) {
-  const auto warn = [&](Warning warning, bool on) {
-    measurement.warnings[static_cast<std::size_t>(warning)] = on;
-  };
   const Extrinsics& extrinsics = state.extrinsics;
   const ViewGeometryParams& params = state.configuration.geometry;
   const auto& views = state.memory.views;
@@ -85,17 +82,11 @@ void warn_about_views(const EstimatorState& state, Measurement& measurement) {
     return static_cast<double>(view.keypoints.size()) <
            min_kept_share * static_cast<double>(view.keypoints_found);
   };
-  warn(Warning::keypoints_capped, is_crowded(views[0]) || is_crowded(views[1]));
-  warn(Warning::matches_capped, extrinsics.matches_capped);
-  warn(Warning::pose_from_card, extrinsics.pose_from_card);
-  warn(Warning::few_card_points, measurement.report.card_tracks < params.few_card_tracks);
-  warn(Warning::angle_small, measurement.relative_angle_deg < params.small_angle_deg);
-  warn(Warning::angle_large, measurement.relative_angle_deg > params.large_angle_deg);
-  if (views[0].arm_angle_deg && views[1].arm_angle_deg) {
-    const double commanded_deg = std::abs(*views[1].arm_angle_deg - *views[0].arm_angle_deg);
-    warn(Warning::arm_angle_disagrees,
-         std::abs(commanded_deg - measurement.rotation_angle_deg) > params.max_arm_deviation_deg);
-  }
+  measurement.warn(Warning::keypoints_capped, is_crowded(views[0]) || is_crowded(views[1]));
+  measurement.warn(Warning::matches_capped, extrinsics.matches_capped);
+  measurement.warn(Warning::pose_from_card, extrinsics.pose_from_card);
+  measurement.warn(Warning::few_card_points, measurement.report.card_tracks < params.few_card_tracks);
+  warn_about_angles(views[0].arm_angle_deg, views[1].arm_angle_deg, params, measurement);
 }
 
 Status calibrate(EstimatorState& state, Random& random, StageClock& clock, Measurement& measurement) {
@@ -145,8 +136,7 @@ Status measure_views(EstimatorState& state, std::uint64_t seed, StageClock& cloc
   status = find_dish_bottom(pair, table, state.configuration, random, state.memory.extraction,
                             measurement.report, views);
   if (!status.ok()) return status;
-  measurement.warnings[static_cast<std::size_t>(Warning::dish_guessed)] =
-      state.configuration.dishes.size() > 1;
+  measurement.warn(Warning::dish_guessed, state.configuration.dishes.size() > 1);
   return extract_volumes(pair, state.configuration, state.memory.extraction, clock, views);
 }
 

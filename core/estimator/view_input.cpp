@@ -1,5 +1,7 @@
 #include "core/estimator/view_input.hpp"
 
+#include <cmath>
+
 namespace traygauge {
 namespace {
 
@@ -38,6 +40,17 @@ Status check_angle(double relative_angle_deg, const ViewGeometryParams& params) 
   if (relative_angle_deg < params.min_angle_deg) return StatusCode::views_too_close;
   if (relative_angle_deg > params.max_angle_deg) return StatusCode::views_too_far_apart;
   return StatusCode::ok;
+}
+
+void warn_about_angles(const std::optional<double>& first_arm_angle_deg,
+                       const std::optional<double>& second_arm_angle_deg, const ViewGeometryParams& params,
+                       Measurement& measurement) {
+  measurement.warn(Warning::angle_small, measurement.relative_angle_deg < params.small_angle_deg);
+  measurement.warn(Warning::angle_large, measurement.relative_angle_deg > params.large_angle_deg);
+  if (!first_arm_angle_deg || !second_arm_angle_deg) return;
+  const double commanded_deg = std::abs(*second_arm_angle_deg - *first_arm_angle_deg);
+  measurement.warn(Warning::arm_angle_disagrees,
+                   std::abs(commanded_deg - measurement.rotation_angle_deg) > params.max_arm_deviation_deg);
 }
 
 }  // namespace traygauge

@@ -2,9 +2,11 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
 #include "core/base/status.hpp"
 #include "core/estimator/configuration.hpp"
+#include "core/estimator/measurement.hpp"
 #include "core/image/camera.hpp"
 #include "core/image_view/image_view.hpp"
 #include "core/segmentation/label_regions.hpp"
@@ -20,5 +22,11 @@ Status check_labels(const LabelRegions& regions, ImageView<const std::uint8_t> l
 
 // views_too_close or views_too_far_apart.
 Status check_angle(double relative_angle_deg, const ViewGeometryParams& params);
+
+// The doubts that the angles of `measurement` raise, among themselves and against the arm's where both are
+// known.
+void warn_about_angles(const std::optional<double>& first_arm_angle_deg,
+                       const std::optional<double>& second_arm_angle_deg, const ViewGeometryParams& params,
+                       Measurement& measurement);
 
 }  // namespace traygauge
