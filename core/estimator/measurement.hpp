@@ -98,14 +98,13 @@ struct MeasurementReport {
   double rim_height_mm = 0.0;  // measured, above the table
   double rim_rms_px = 0.0;     // profile best: of the outlines' points on the rim
   double rim_inlier_share = 0.0;
-  double food_agreement = 0.0;  // profile best: share of food whose label the other view confirms
-  int dish_index = -1;          // among the candidates of the configuration
+  int dish_index = -1;  // among the candidates of the configuration
   int rectified_rows = 0;
   int rectified_columns = 0;
   DisparityRange disparity_range;
   double matched_share = 0.0;  // of the dish's pixels that got a depth
   PictureReport pictures;
-  double label_agreement = 0.0;  // share of food pixels with the same label in both views
+  double label_agreement = 0.0;  // share of the food whose label the other view confirms
 };
 
 // What was measured on one dish, in the table frame.

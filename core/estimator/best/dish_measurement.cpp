@@ -165,10 +165,9 @@ void measure_dish(const ViewPair& views, const SceneGeometry& geometry, std::siz
   report.disparity_range = dense.disparity_range;
   report.matched_share = 0.5 * (dense.confirmed[0] + dense.confirmed[1]);
 
-  const double agreement =
+  report.label_agreement =
       measure_food_agreement(grids, views, geometry.joint.camera_from_table, best.agreement);
-  report.food_agreement = agreement;
-  if (agreement < best.agreement.min_share) return refuse(StatusCode::labels_inconsistent);
+  if (report.label_agreement < best.agreement.min_share) return refuse(StatusCode::labels_inconsistent);
 
   clock.enter(Stage::surface);
   InnerSurface inner;
