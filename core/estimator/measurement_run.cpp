@@ -140,35 +140,37 @@ Status measure_views(EstimatorState& state, std::uint64_t seed, StageClock& cloc
   return extract_volumes(pair, state.configuration, state.memory.extraction, clock, views);
 }
 
+void report_keypoints(const EstimatorState& state, MeasurementReport& report) {
+  for (std::size_t i = 0; i < 2; ++i) {
+    report.keypoints[i] = static_cast<int>(state.memory.views[i].keypoints.size());
+    report.keypoints_found[i] = static_cast<int>(state.memory.views[i].keypoints_found);
+  }
+}
+
+Status check_views(const EstimatorState& state) {
+  if (state.views > 0 && !state.views_status.ok()) return state.views_status;
+  return state.views == 2 ? StatusCode::ok : StatusCode::frame_missing;
+}
+
+void run_paper(EstimatorState& state, std::uint64_t seed, StageClock& clock, Measurement& measurement) {
+  state.memory.extraction.items.clear();
+  show_pictures(state, measurement.views);
+  measurement.status = measure_views(state, seed, clock, measurement);
+  measurement.items = state.memory.extraction.items.items();
+}
+
 }  // namespace
 
 void run_measurement(EstimatorState& state, std::uint64_t seed, StageClock& clock, Measurement& measurement) {
-  const Configuration& configuration = state.configuration;
-  if (configuration.profile == Profile::best) {
-    if (state.views > 0 && !state.views_status.ok()) {
-      measurement.status = state.views_status;
-    } else if (state.views != 2) {
-      measurement.status = StatusCode::frame_missing;
-    } else {
-      run_best(state.best, configuration, seed, clock, measurement);
-    }
-    return;
-  }
-  state.memory.extraction.items.clear();
-  for (int i = 0; i < 2; ++i) {
-    const auto k = static_cast<std::size_t>(i);
-    measurement.report.keypoints[k] = static_cast<int>(state.view(i).keypoints.size());
-    measurement.report.keypoints_found[k] = static_cast<int>(state.view(i).keypoints_found);
-  }
-  if (state.views > 0 && !state.views_status.ok()) {
-    measurement.status = state.views_status;
-  } else if (state.views != 2) {
-    measurement.status = StatusCode::frame_missing;
+  const bool is_best = state.configuration.profile == Profile::best;
+  if (!is_best) report_keypoints(state, measurement.report);
+  measurement.status = check_views(state);
+  if (!measurement.status.ok()) return;
+  if (is_best) {
+    run_best(state.best, state.configuration, seed, clock, measurement);
   } else {
-    show_pictures(state, measurement.views);
-    measurement.status = measure_views(state, seed, clock, measurement);
+    run_paper(state, seed, clock, measurement);
   }
-  measurement.items = state.memory.extraction.items.items();
 }
 
 }  // namespace traygauge
