@@ -3,13 +3,6 @@
 #include <cmath>
 
 namespace traygauge {
-namespace {
-
-bool touches_edge(const PixelBox& box, int width, int height) {
-  return !box.empty() && (box.left == 0 || box.top == 0 || box.right == width || box.bottom == height);
-}
-
-}  // namespace
 
 Status check_sizes(const FrameView& frame, ImageView<const std::uint8_t> labels, const LensModel& lens,
                    const EstimatorLimits& limits) {
@@ -22,18 +15,17 @@ Status check_sizes(const FrameView& frame, ImageView<const std::uint8_t> labels,
                                                                       : StatusCode::labels_size_mismatch;
 }
 
-Status check_labels(const LabelRegions& regions, ImageView<const std::uint8_t> labels) {
+Status check_labels(const LabelRegions& regions) {
   bool has_dish = false;
   bool has_food = false;
   for (std::size_t value = kDishLabel; value <= kLastFurtherDishLabel; ++value) {
     const auto label = static_cast<std::uint8_t>(value);
-    if (regions.pixels[value] == 0 || (!is_dish(label) && !is_item(label))) continue;
-    has_dish = has_dish || is_dish(label) || is_item(label);
+    if (regions.pixels[value] == 0) continue;
+    has_dish = has_dish || is_dish(label);
     has_food = has_food || is_item(label);
   }
-  if (!has_dish) return StatusCode::no_dish_label;
-  if (!has_food) return StatusCode::no_food_label;
-  return touches_edge(regions.dish, labels.width, labels.height) ? StatusCode::dish_cut_off : StatusCode::ok;
+  if (!has_food) return has_dish ? StatusCode::no_food_label : StatusCode::no_dish_label;
+  return regions.touches_edge(regions.dish) ? StatusCode::dish_cut_off : StatusCode::ok;
 }
 
 Status check_angle(double relative_angle_deg, const ViewGeometryParams& params) {

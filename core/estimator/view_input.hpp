@@ -18,7 +18,7 @@ Status check_sizes(const FrameView& frame, ImageView<const std::uint8_t> labels,
                    const EstimatorLimits& limits);
 
 // no_dish_label, no_food_label, or dish_cut_off when a dish touches the picture's edge.
-Status check_labels(const LabelRegions& regions, ImageView<const std::uint8_t> labels);
+Status check_labels(const LabelRegions& regions);
 
 // views_too_close or views_too_far_apart.
 Status check_angle(double relative_angle_deg, const ViewGeometryParams& params);

@@ -14,7 +14,7 @@ Status prepare_best_view(const FrameView& frame, const Configuration& configurat
     return status;
   }
   view.regions = measure_regions(view.labels);
-  if (const Status status = check_labels(view.regions, view.labels); !status.ok()) return status;
+  if (const Status status = check_labels(view.regions); !status.ok()) return status;
 
   const ImageView<std::uint8_t> gray{view.gray_storage.data, frame.width, frame.height};
   convert_to_gray(frame, gray);

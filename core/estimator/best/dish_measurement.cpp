@@ -20,11 +20,6 @@ PixelBox box_of(const LabelRegions& regions, const LabelSet& labels) {
   return box;
 }
 
-bool touches_edge(const PixelBox& box, const ImageView<const std::uint8_t>& labels) {
-  return !box.empty() &&
-         (box.left == 0 || box.top == 0 || box.right == labels.width || box.bottom == labels.height);
-}
-
 std::array<StoredView, 2> stored_views(const ViewPair& views, const SceneGeometry& geometry,
                                        const LabelSet& labels) {
   std::array<StoredView, 2> stored;
@@ -138,7 +133,7 @@ void measure_dish(const ViewPair& views, const SceneGeometry& geometry, std::siz
   const JointDishResult& placed = geometry.joint.dishes[index];
   if (!placed.status.ok()) return refuse(placed.status);
   for (const BestView* view : views) {
-    if (touches_edge(box_of(view->regions, dish.labels), view->labels))
+    if (view->regions.touches_edge(box_of(view->regions, dish.labels)))
       return refuse(StatusCode::dish_cut_off);
   }
   const DishModel& model = dish.candidates[static_cast<std::size_t>(placed.placed.candidate)];
