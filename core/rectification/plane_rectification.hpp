@@ -17,6 +17,7 @@
 #include "core/image/camera.hpp"
 #include "core/image_view/image_view.hpp"
 #include "core/segmentation/label_regions.hpp"
+#include "core/segmentation/label_set.hpp"
 #include "core/surface/surface_grid.hpp"
 
 namespace traygauge {
@@ -45,8 +46,8 @@ struct StoredView {
 // Which labels belong to the dish that is measured: the label to write for each of the picture, 0 for others.
 using LabelTable = std::array<std::uint8_t, 256>;
 
-// The dish `dish_label` with the items 2 … 199 on it.
-LabelTable labels_on_dish(std::uint8_t dish_label);
+// Of one dish with what lies on it: items keep their labels, the dish becomes kDishLabel.
+LabelTable labels_on_dish(const LabelSet& on_dish);
 
 // A row in the plane, mm of the table frame: origin + column * step.
 struct PlaneRow {

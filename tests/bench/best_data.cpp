@@ -81,8 +81,8 @@ bool BestData::sample_views() {
   OwnedWorkspace<TwoViewSurfaceWorkspace> workspace(params);
   std::array<SurfaceGrid, 2> grids;
   TwoViewSurfaceReport report;
-  if (!reconstruct_surface(stored(), labels_on_dish(kDishLabel), scene.dish.bottom_height_mm, top_mm, params,
-                           *workspace, grids, report)
+  if (!reconstruct_surface(stored(), labels_on_dish(labels_of_single_dish()), scene.dish.bottom_height_mm,
+                           top_mm, params, *workspace, grids, report)
            .ok()) {
     return false;
   }

@@ -30,7 +30,7 @@ std::array<cv::Mat, 2> sample_maps(const BestData& data, const PlaneRectificatio
 // Ours works out where the samples lie, and averages where it reduces; the peer does neither.
 Comparison compare_sampling(const BestData& data) {
   const PlaneRectificationParams& params = data.configuration.best.surface.rectification;
-  const LabelTable kept = labels_on_dish(kDishLabel);
+  const LabelTable kept = labels_on_dish(labels_of_single_dish());
   const double bottom_mm = data.scene.dish.bottom_height_mm;
   const cv::Mat& like = data.views[0].sampled;
   const auto rows = std::make_shared<std::vector<PlaneRow>>(static_cast<std::size_t>(params.max_rows));
@@ -133,9 +133,9 @@ Comparison compare_surface(const BestData& data) {
                      workspace = std::make_shared<OwnedWorkspace<TwoViewSurfaceWorkspace>>(params)] {
     std::array<SurfaceGrid, 2> grids;
     TwoViewSurfaceReport report;
-    const Status status =
-        reconstruct_surface(data.stored(), labels_on_dish(kDishLabel), data.scene.dish.bottom_height_mm,
-                            data.top_mm, params, **workspace, grids, report);
+    const Status status = reconstruct_surface(data.stored(), labels_on_dish(labels_of_single_dish()),
+                                              data.scene.dish.bottom_height_mm, data.top_mm, params,
+                                              **workspace, grids, report);
     return status.ok() ? 50.0 * (report.confirmed[0] + report.confirmed[1]) : 0.0;
   };
   const auto peer = [&data, matchers = std::array{make_matcher(data, false, cv::StereoSGBM::MODE_SGBM_3WAY),

@@ -30,15 +30,6 @@ std::array<StoredView, 2> stored_views(const ViewPair& views, const SceneGeometr
   return stored;
 }
 
-LabelTable table_of(const DishOnTray& dish) {
-  LabelTable table{};
-  for (int value = 0; value < 256; ++value) {
-    const auto label = static_cast<std::uint8_t>(value);
-    if (dish.labels.contains(label)) table[label] = label == dish.label ? kDishLabel : label;
-  }
-  return table;
-}
-
 // Height of the tallest sparse point on the dish, in the table frame; the bottom's without any.
 double tallest_track_mm(const SceneGeometry& geometry, const LabelSet& labels, double bottom_height_mm) {
   const TableCameras& cameras = geometry.joint.camera_from_table;
@@ -152,8 +143,8 @@ void measure_dish(const ViewPair& views, const SceneGeometry& geometry, std::siz
                bottom_mm + best.pipeline.min_top_mm);
   std::array<SurfaceGrid, 2> grids;
   TwoViewSurfaceReport dense;
-  Status status = reconstruct_surface(stored_views(views, geometry, dish.labels), table_of(dish), bottom_mm,
-                                      top_mm, best.surface, workspace.surface, grids, dense);
+  Status status = reconstruct_surface(stored_views(views, geometry, dish.labels), labels_on_dish(dish.labels),
+                                      bottom_mm, top_mm, best.surface, workspace.surface, grids, dense);
   if (!status.ok()) return refuse(status);
   report.rectified_rows = dense.rows;
   report.rectified_columns = dense.columns;

@@ -79,7 +79,7 @@ struct Scene {
     }
   }
   Status build(PlaneRectification& grid, const PlaneRectificationParams& params = {}) {
-    return grid.build(views, labels_on_dish(kDishLabel), kPlaneMm, params, rows);
+    return grid.build(views, labels_on_dish(labels_of_single_dish()), kPlaneMm, params, rows);
   }
 };
 
@@ -128,7 +128,7 @@ TEST(PlaneRectification, HoldsTheDishOfBothViews) {
   for (int v = 0; v < 2; ++v) {
     const auto i = static_cast<std::size_t>(v);
     cv::Mat1b labels(grid.rows(), grid.columns());
-    grid.sample_labels(v, scene.views[i], labels_on_dish(kDishLabel),
+    grid.sample_labels(v, scene.views[i], labels_on_dish(labels_of_single_dish()),
                        {labels.data, labels.cols, labels.rows});
     const double area_mm2 = cv::countNonZero(labels) * grid.column_step_mm() * grid.row_step_mm();
     EXPECT_NEAR(area_mm2 / (CV_PI * kDishRadiusMm * kDishRadiusMm), 1.0, 0.03);

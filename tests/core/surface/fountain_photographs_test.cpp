@@ -98,8 +98,8 @@ class Fountain : public ::testing::Test {
     std::array<SurfaceGrid, 2> grids;
     TwoViewSurfaceReport report;
     const Status status =
-        reconstruct_surface({pair[0].stored(), pair[1].stored()}, labels_on_dish(kDishLabel), kGroundMm,
-                            kTopMm, params, *workspace, grids, report);
+        reconstruct_surface({pair[0].stored(), pair[1].stored()}, labels_on_dish(labels_of_single_dish()),
+                            kGroundMm, kTopMm, params, *workspace, grids, report);
     EXPECT_TRUE(status.ok()) << name(status.code());
     if (!status.ok()) return {};
     const cv::Mat1f depth_mm = testing::depth_map(grids[0], pair[0], 2);

@@ -77,9 +77,9 @@ class Temple : public ::testing::TestWithParam<std::size_t> {
     std::array<SurfaceGrid, 2> grids;
     TwoViewSurfaceReport report;
     const Photograph& middle = photographs_[kMiddle];
-    const Status status =
-        reconstruct_surface({middle.stored(), photographs_[other].stored()}, labels_on_dish(kDishLabel), 0.0,
-                            params.highest_mm, params, *workspace, grids, report);
+    const Status status = reconstruct_surface({middle.stored(), photographs_[other].stored()},
+                                              labels_on_dish(labels_of_single_dish()), 0.0, params.highest_mm,
+                                              params, *workspace, grids, report);
     EXPECT_TRUE(status.ok()) << name(status.code());
     Surface surface;
     if (!status.ok()) return surface;

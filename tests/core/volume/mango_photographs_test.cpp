@@ -124,9 +124,9 @@ class Mango : public ::testing::Test {
     std::array<SurfaceGrid, 2> grids;
     TwoViewSurfaceReport report;
     MangoVolume result;
-    result.status =
-        reconstruct_surface({photographs[0].stored(), photographs[1].stored()}, labels_on_dish(kDishLabel),
-                            0.0, kTopMm, surface_params_, *surface_space_, grids, report);
+    result.status = reconstruct_surface({photographs[0].stored(), photographs[1].stored()},
+                                        labels_on_dish(labels_of_single_dish()), 0.0, kTopMm, surface_params_,
+                                        *surface_space_, grids, report);
     if (!result.status.ok()) return result;
     result.status = measurement_.run(grids, page_);
     result.volume = measurement_.item(kMango);
