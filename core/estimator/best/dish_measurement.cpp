@@ -81,21 +81,6 @@ StatusCode judge_item(const ViewPair& views, std::uint8_t label, const HeightVol
   return volume.volume_ml > 0.0 ? StatusCode::ok : StatusCode::item_below_dish;
 }
 
-Vec3 centre_of(const HeightMap& map, std::uint8_t label) {
-  Vec3 sum = Vec3::Zero();
-  int count = 0;
-  for (int y = 0; y < map.cells.height; ++y) {
-    for (int x = 0; x < map.cells.width; ++x) {
-      const HeightCell& cell = map.cells.at(x, y);
-      if (cell.label != label || cell.kind == CellKind::unseen) continue;
-      const Vec2 place = map.centre_mm(x, y);
-      sum += Vec3(place.x(), place.y(), cell.z_mm);
-      ++count;
-    }
-  }
-  return count > 0 ? Vec3(sum / count) : sum;
-}
-
 template <class Action>
 void for_each_item(const ViewPair& views, const DishOnTray& dish, Action&& action) {
   for (int value = kFirstItemLabel; value <= kLastItemLabel; ++value) {
@@ -186,7 +171,7 @@ void measure_dish(const ViewPair& views, const SceneGeometry& geometry, std::siz
     item.area_mm2 = volume.area_mm2;
     item.mean_height_mm = volume.mean_height_mm;
     item.max_height_mm = volume.max_height_mm;
-    const UncertaintyInput input{volume, centre_of(map, label), height_per_px_mm, dense.column_step_mm};
+    const UncertaintyInput input{volume, height_per_px_mm, dense.column_step_mm};
     item.sigma_ml = estimate_sigma_ml(input, geometry.joint.camera_from_table, geometry.joint.covariance,
                                       best.uncertainty);
     workspace.items.push_back(item);

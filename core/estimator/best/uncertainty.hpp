@@ -1,7 +1,6 @@
 // How sure a volume is, from what was measured.
 #pragma once
 
-#include "core/base/geometry.hpp"
 #include "core/pose/joint_refinement.hpp"
 #include "core/volume/height_volume.hpp"
 
@@ -23,7 +22,6 @@ struct UncertaintyParams {
 // What an item's uncertainty follows from.
 struct UncertaintyInput {
   HeightVolume volume;
-  Vec3 centre_mm = Vec3::Zero();  // of the item's surface, table frame
   double height_per_px_mm = 0.0;  // of disparity
   double px_mm = 0.0;             // of the samples, on the dish
 };
