@@ -23,8 +23,8 @@
 namespace traygauge {
 
 struct PlaneRectificationParams {
-  int max_samples = 131072;  // 2^17 of the grid around the dish (paper III-B-2 resizes to a fixed dish size):
-                             // time and III-B-2, "resized to a fixed dish size")
+  int max_samples = 131072;  // of the grid around the dish (paper III-B-2: "resized to a fixed dish size");
+                             // time grows with them
   int max_rows = 768;        // that tables are kept for
   double aspect = 1.0;       // row spacing over column spacing
   int margin_samples = 8;    // around the dish: a census window, so that rims match
@@ -82,9 +82,8 @@ class PlaneRectification {
   SurfacePoint point(int row, double first_column, double second_column, int view) const;
 
   // `target` is columns() × rows(). The picture averaged over each sample; 0 outside of the picture.
-  void sample_gray(int view, const StoredView& source, ImageView<std::uint8_t> target) const;
-  void sample_labels(int view, const StoredView& source, const LabelTable& kept,
-                     ImageView<std::uint8_t> target) const;
+  void sample_gray(const StoredView& source, ImageView<std::uint8_t> target) const;
+  void sample_labels(const StoredView& source, const LabelTable& kept, ImageView<std::uint8_t> target) const;
 
  private:
   static constexpr std::size_t index(int i) { return static_cast<std::size_t>(i); }

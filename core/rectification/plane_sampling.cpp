@@ -131,9 +131,7 @@ void sample_block(ImageView<const std::uint8_t> picture, const Positions& positi
 
 }  // namespace
 
-void PlaneRectification::sample_gray(int view, const StoredView& source,
-                                     ImageView<std::uint8_t> target) const {
-  static_cast<void>(view);
+void PlaneRectification::sample_gray(const StoredView& source, ImageView<std::uint8_t> target) const {
   Positions positions;
   const auto position = [&](double row, double column) {
     const Vec3 ray = source.camera_from_table * plane_point(row, column);
@@ -156,9 +154,8 @@ void PlaneRectification::sample_gray(int view, const StoredView& source,
   }
 }
 
-void PlaneRectification::sample_labels(int view, const StoredView& source, const LabelTable& kept,
+void PlaneRectification::sample_labels(const StoredView& source, const LabelTable& kept,
                                        ImageView<std::uint8_t> target) const {
-  static_cast<void>(view);
   Positions positions;
   for (int r = 0; r < rows(); ++r) {
     const CameraRow line = row_in_camera(row(r), source.camera_from_table, plane_height_mm_, column_step_mm_);

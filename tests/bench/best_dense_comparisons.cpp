@@ -40,8 +40,8 @@ Comparison compare_sampling(const BestData& data) {
     const std::array<StoredView, 2> views = data.stored();
     if (!grid.build(views, kept, bottom_mm, params, *rows).ok()) return 0.0;
     for (std::size_t i = 0; i < 2; ++i) {
-      grid.sample_gray(static_cast<int>(i), views[i], target_of(gray));
-      grid.sample_labels(static_cast<int>(i), views[i], kept, target_of(labels));
+      grid.sample_gray(views[i], target_of(gray));
+      grid.sample_labels(views[i], kept, target_of(labels));
     }
     return static_cast<double>(gray.total());
   };

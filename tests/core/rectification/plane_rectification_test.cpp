@@ -125,10 +125,9 @@ TEST(PlaneRectification, HoldsTheDishOfBothViews) {
   Scene scene({-60.0, -250.0, 480.0}, {80.0, -230.0, 430.0});
   PlaneRectification grid;
   ASSERT_TRUE(scene.build(grid).ok());
-  for (int v = 0; v < 2; ++v) {
-    const auto i = static_cast<std::size_t>(v);
+  for (const StoredView& view : scene.views) {
     cv::Mat1b labels(grid.rows(), grid.columns());
-    grid.sample_labels(v, scene.views[i], labels_on_dish(labels_of_single_dish()),
+    grid.sample_labels(view, labels_on_dish(labels_of_single_dish()),
                        {labels.data, labels.cols, labels.rows});
     const double area_mm2 = cv::countNonZero(labels) * grid.column_step_mm() * grid.row_step_mm();
     EXPECT_NEAR(area_mm2 / (CV_PI * kDishRadiusMm * kDishRadiusMm), 1.0, 0.03);
@@ -148,10 +147,9 @@ TEST(PlaneRectification, SamplesThroughTheLens) {
   }
   PlaneRectification grid;
   ASSERT_TRUE(scene.build(grid).ok());
-  for (int v = 0; v < 2; ++v) {
-    const StoredView& view = scene.views[static_cast<std::size_t>(v)];
+  for (const StoredView& view : scene.views) {
     cv::Mat1b sampled(grid.rows(), grid.columns());
-    grid.sample_gray(v, view, {sampled.data, sampled.cols, sampled.rows});
+    grid.sample_gray(view, {sampled.data, sampled.cols, sampled.rows});
     for (int y = 0; y < sampled.rows; y += 7) {
       for (int x = 0; x < sampled.cols; x += 5) {
         const cv::Point2d at = project(view.lens, view.camera_from_table, grid.plane_point(y, x));
