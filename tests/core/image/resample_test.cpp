@@ -8,7 +8,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "core/base/random.hpp"
-#include "picture.hpp"
+#include "tests/support/pictures.hpp"
 
 namespace traygauge {
 namespace {

@@ -11,13 +11,12 @@
 #include "core/matching/point_tracking.hpp"
 #include "tests/core/matching/workspace_block.hpp"
 #include "tests/support/capture_truth.hpp"
+#include "tests/support/pictures.hpp"
 
 namespace traygauge {
 namespace {
 
-ImageView<const std::uint8_t> view_of(const cv::Mat& mat) {
-  return {mat.data, mat.cols, mat.rows, static_cast<std::ptrdiff_t>(mat.step[0])};
-}
+using testing::view_of;
 
 Pose world_from_table(const testing::CaptureTruth& capture, double thickness_mm) {
   const std::vector<Vec3>& corners = capture.card_corners_mm;  // top left, then clockwise

@@ -4,12 +4,12 @@
 
 #include <opencv2/imgproc.hpp>
 
+#include "tests/support/pictures.hpp"
+
 namespace traygauge {
 namespace {
 
-ImageView<const std::uint8_t> view_of(const cv::Mat& labels) {
-  return {labels.data, labels.cols, labels.rows, static_cast<std::ptrdiff_t>(labels.step[0])};
-}
+using testing::view_of;
 
 // Discs of random labels; OpenCV counts and boxes them.
 cv::Mat random_labels(cv::RNG& rng, int width, int height) {
