@@ -209,10 +209,6 @@ std::map<int, double> integrate(const Rectified& pair, const cv::Mat& points, co
 
 }  // namespace
 
-cv::Matx33d camera_matrix(const PinholeCamera& camera) {
-  return {camera.fx_px, 0.0, camera.cx_px, 0.0, camera.fy_px, camera.cy_px, 0.0, 0.0, 1.0};
-}
-
 cv::Matx33d rotation_matrix(const Mat3& r) {
   return {r(0, 0), r(0, 1), r(0, 2), r(1, 0), r(1, 1), r(1, 2), r(2, 0), r(2, 1), r(2, 2)};
 }
@@ -226,7 +222,7 @@ cv::Rect as_rect(const PixelBox& box) {
 }
 
 OpenCvLens::OpenCvLens(const LensModel& lens)
-    : camera(camera_matrix(lens.pinhole)), distortion{lens.k1, lens.k2, lens.p1, lens.p2, lens.k3} {}
+    : camera(testing::camera_matrix(lens.pinhole)), distortion(testing::distortion_of(lens)) {}
 
 OpenCvStereoInput OpenCvStereoInput::swapped() const {
   OpenCvStereoInput other{{gray[1], gray[0]},

@@ -10,6 +10,7 @@
 #include "core/surface/dish_outline.hpp"
 #include "tests/core/surface/block.hpp"
 #include "tests/core/surface/capture_scene.hpp"
+#include "tests/support/cameras.hpp"
 
 namespace traygauge {
 namespace {
@@ -25,13 +26,10 @@ DishModel model_of(double width_mm, double depth_mm, double edge_mm) {
   return model;
 }
 
-// A camera so many degrees off the vertical, looking at the origin from 500 mm.
+// Looking at the origin from 500 mm.
 Pose camera_at(double tilt_deg, double azimuth_deg) {
   const double degree = std::numbers::pi / 180.0;
-  const Mat3 down = Eigen::AngleAxisd(std::numbers::pi, Vec3::UnitX()).toRotationMatrix();
-  const Mat3 tilt = Eigen::AngleAxisd(tilt_deg * degree, Vec3::UnitX()).toRotationMatrix();
-  const Mat3 turn = Eigen::AngleAxisd(azimuth_deg * degree, Vec3::UnitZ()).toRotationMatrix();
-  return {down * tilt * turn, Vec3(0.0, 0.0, 500.0)};
+  return testing::camera_above(tilt_deg * degree, azimuth_deg * degree, 500.0);
 }
 
 TableCameras two_cameras() {
@@ -178,11 +176,7 @@ TEST(RimProjection, DerivativesAreTheNumericOnes) {
 
 // A label picture sampled at pixel centres, with a lens.
 TEST(DishOutline, LiesOnTheDishsEdgeAndLeavesItsFoodOut) {
-  LensModel lens;
-  lens.width = 800;
-  lens.height = 600;
-  lens.pinhole = {700.0, 700.0, 395.0, 305.0};
-  lens.k1 = -0.08;
+  const LensModel lens = testing::phone_lens(0.5);
   const double radius = 0.3;
   cv::Mat1b labels(lens.height, lens.width, std::uint8_t{0});
   for (int y = 0; y < labels.rows; ++y) {
