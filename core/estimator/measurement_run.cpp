@@ -161,13 +161,14 @@ void run_paper(EstimatorState& state, std::uint64_t seed, StageClock& clock, Mea
 
 }  // namespace
 
-void run_measurement(EstimatorState& state, std::uint64_t seed, StageClock& clock, Measurement& measurement) {
+void run_measurement(EstimatorState& state, std::uint64_t seed, StageTap* tap, StageClock& clock,
+                     Measurement& measurement) {
   const bool is_best = state.configuration.profile == Profile::best;
   if (!is_best) report_keypoints(state, measurement.report);
   measurement.status = check_views(state);
   if (!measurement.status.ok()) return;
   if (is_best) {
-    run_best(state.best, state.configuration, seed, clock, measurement);
+    run_best(state.best, state.configuration, seed, tap, clock, measurement);
   } else {
     run_paper(state, seed, clock, measurement);
   }

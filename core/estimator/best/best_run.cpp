@@ -60,8 +60,8 @@ bool is_dish_guessed(const SceneGeometry& geometry) {
 
 }  // namespace
 
-void run_best(BestMemory& memory, const Configuration& configuration, std::uint64_t seed, StageClock& clock,
-              Measurement& measurement) {
+void run_best(BestMemory& memory, const Configuration& configuration, std::uint64_t seed, StageTap* tap,
+              StageClock& clock, Measurement& measurement) {
   const bool reversed = works_in_reverse(memory);
   const ViewPair views = {&memory.views[reversed ? 1 : 0], &memory.views[reversed ? 0 : 1]};
   DishMeasurementWorkspace dish = memory.dish;
@@ -77,6 +77,10 @@ void run_best(BestMemory& memory, const Configuration& configuration, std::uint6
   measurement.status =
       find_geometry(views, configuration, random, memory.geometry, clock, measurement.report, geometry);
   if (!measurement.status.ok()) return;
+  if (tap != nullptr) {
+    tap->on_order(measurement.views.reference_view);
+    tap->on_geometry(geometry.joint, std::span(geometry.dishes).first(geometry.dish_count));
+  }
   report_pose(geometry, reversed, measurement);
   warn_about_angles(views[0]->arm_angle_deg, views[1]->arm_angle_deg, configuration.geometry, measurement);
   measurement.warn(Warning::dish_guessed, is_dish_guessed(geometry));
@@ -85,7 +89,7 @@ void run_best(BestMemory& memory, const Configuration& configuration, std::uint6
                            : check_angle(measurement.relative_angle_deg, configuration.geometry);
   if (!measurement.status.ok()) return;
   for (std::size_t d = 0; d < geometry.dish_count; ++d) {
-    measure_dish(views, geometry, d, configuration, dish, clock, measurement.report);
+    measure_dish(views, geometry, d, configuration, dish, tap, clock, measurement.report);
   }
   if (measurement.report.dish_index >= 0) {
     const auto index = static_cast<std::size_t>(measurement.report.dish_index);

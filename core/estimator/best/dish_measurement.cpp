@@ -93,8 +93,8 @@ void for_each_item(const ViewPair& views, const DishOnTray& dish, Action&& actio
 }  // namespace
 
 void measure_dish(const ViewPair& views, const SceneGeometry& geometry, std::size_t index,
-                  const Configuration& configuration, DishMeasurementWorkspace& workspace, StageClock& clock,
-                  MeasurementReport& report) {
+                  const Configuration& configuration, DishMeasurementWorkspace& workspace, StageTap* tap,
+                  StageClock& clock, MeasurementReport& report) {
   const BestParams& best = configuration.best;
   const DishOnTray& dish = geometry.dishes[index];
   const auto refuse = [&](Status status) {
@@ -136,6 +136,7 @@ void measure_dish(const ViewPair& views, const SceneGeometry& geometry, std::siz
   report.disparity_range = dense.disparity_range;
   report.matched_share = 0.5 * (dense.confirmed[0] + dense.confirmed[1]);
 
+  if (tap != nullptr) tap->on_surfaces(geometry.joint.camera_from_table, grids);
   report.label_agreement =
       measure_food_agreement(grids, views, geometry.joint.camera_from_table, best.agreement);
   if (report.label_agreement < best.agreement.min_share) return refuse(StatusCode::labels_inconsistent);
