@@ -15,6 +15,11 @@ namespace {
 // Path costs stay below worst cost + large penalty; a pad above that never wins and never overflows.
 constexpr std::uint8_t kPadCost = 200;
 constexpr int kWorstCost = 63;
+constexpr int kCensusBits = 31;
+static_assert(kCensusBits + kMaxLabelPenalty <= kWorstCost);
+static_assert(kPadCost > kWorstCost + kMaxLargePenalty && kPadCost + kMaxSmallStepPenalty <= 255);
+static_assert(2 * (kWorstCost + kMaxLargePenalty) <= 255);     // two path costs are added as bytes
+static_assert(8 * (kWorstCost + kMaxLargePenalty) < 1 << 10);  // eight leave room for the lane
 
 ByteLanes least(ByteLanes a, ByteLanes b) {
   return a < b ? a : b;
