@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/estimator/feature_preparation.hpp"
+#include "core/estimator/parameters.hpp"
 
 namespace traygauge {
 namespace {
@@ -34,6 +35,28 @@ bool is_plausible(const EstimatorLimits& limits) {
          is_within(limits.max_working_side_px, 1, kMaxSide);
 }
 
+// Takes every parameter with a name, and notes whether all lie in their ranges.
+struct RangeCheck {
+  bool all_hold = true;
+
+  template <class Number>
+  void operator()(const char*, const Number& value, const ParameterRange& range) {
+    all_hold = all_hold && range.contains(value);
+  }
+  template <class Enum>
+  void operator()(const char*, const Enum& value, const ParameterChoices& choices) {
+    all_hold = all_hold && static_cast<std::size_t>(value) < choices.count();
+  }
+  void operator()(const char*, bool) {}
+};
+
+bool are_parameters_within_range(const Configuration& configuration) {
+  RangeCheck check;
+  visit_shared_parameters(configuration, check);
+  visit_parameters_of(configuration.profile, configuration, check);
+  return check.all_hold;
+}
+
 // Profile paper measures trays with one dish.
 bool is_only_dish(const DishModel& dish) {
   return dish.label == kDishLabel;
@@ -56,6 +79,7 @@ Status validate(const Configuration& configuration) {
     if (!status.ok()) return status;
   }
   if (const Status status = validate(configuration.dishes); !status.ok()) return status;
+  if (!are_parameters_within_range(configuration)) return StatusCode::invalid_configuration;
   if (configuration.profile == Profile::best) return StatusCode::ok;
   return std::all_of(configuration.dishes.begin(), configuration.dishes.end(), is_only_dish)
              ? StatusCode::ok

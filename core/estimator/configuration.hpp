@@ -133,7 +133,8 @@ struct Configuration {
   BestParams best;
 };
 
-// invalid_configuration when a value lies outside its range; surf_not_built in a library without SURF.
+// invalid_configuration when a value lies outside its range (core/estimator/parameters.hpp); surf_not_built
+// in a library without SURF.
 Status validate(const Configuration& configuration);
 
 }  // namespace traygauge

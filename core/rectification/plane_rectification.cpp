@@ -83,7 +83,7 @@ Status PlaneRectification::build(const std::array<StoredView, 2>& views, const L
                                  double plane_height_mm, const PlaneRectificationParams& params,
                                  std::span<PlaneRow> rows) {
   plane_height_mm_ = plane_height_mm;
-  max_samples_per_axis_ = params.max_samples_per_axis;
+  max_samples_per_axis_ = std::clamp(params.max_samples_per_axis, 1, kMaxSamplesPerAxis);
   for (std::size_t v = 0; v < 2; ++v) {
     if (!is_usable(views[v])) return StatusCode::rectification_failed;
     camera_mm_[v] = camera_centre_mm(views[v].camera_from_table);

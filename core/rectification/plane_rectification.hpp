@@ -22,6 +22,8 @@
 
 namespace traygauge {
 
+inline constexpr int kMaxSamplesPerAxis = 4;
+
 struct PlaneRectificationParams {
   int max_samples = 131072;  // of the grid around the dish (paper III-B-2: "resized to a fixed dish size");
                              // time grows with them
@@ -30,7 +32,7 @@ struct PlaneRectificationParams {
   int margin_samples = 8;    // around the dish: a census window, so that rims match
   double max_fan = 4.0;      // farthest over nearest sample, from the meeting point of the rows; beyond, the
                              // views are one behind the other and show no parallax
-  int max_samples_per_axis = 3;  // of a picture, averaged for one sample of the grid
+  int max_samples_per_axis = 3;  // of a picture, averaged for one sample of the grid; to kMaxSamplesPerAxis
   int outline_step_px = 4;       // picture rows between those whose dish pixels set the grid's extent
 };
 

@@ -10,7 +10,7 @@ namespace traygauge {
 namespace {
 
 constexpr int kBlock = 64;  // samples at a time
-constexpr int kMaxSubSamples = 16;
+constexpr int kMaxSubSamples = kMaxSamplesPerAxis * kMaxSamplesPerAxis;
 constexpr int kFractionBits = 7;  // of a position; weights then have 14 bits
 constexpr int kUnit = 1 << kFractionBits;
 

@@ -10,6 +10,12 @@
 namespace traygauge {
 namespace {
 
+constexpr int kCensusBits = 31;
+static_assert(kCensusBits + kMaxLabelPenalty <= kWorstCost);
+static_assert(kPadCost > kWorstCost + kMaxLargePenalty && kPadCost + kMaxSmallStepPenalty <= 255);
+static_assert(2 * (kWorstCost + kMaxLargePenalty) <= 255);     // two path costs are added as bytes
+static_assert(8 * (kWorstCost + kMaxLargePenalty) < 1 << 10);  // eight leave room for the lane
+
 template <int kChunks>
 class Matcher {
  public:

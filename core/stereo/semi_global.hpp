@@ -23,6 +23,11 @@ struct SemiGlobalParams {
   bool diagonal_paths = false;   // eight paths instead of four: slower, and no better within bands
 };
 
+// Costs are bytes: beyond these they overflow.
+inline constexpr int kMaxSmallStepPenalty = 50;
+inline constexpr int kMaxLargePenalty = 64;
+inline constexpr int kMaxLabelPenalty = 32;
+
 inline constexpr int kBandLanes = 16;     // disparities in a register
 inline constexpr int kMaxBandLanes = 64;  // widest band
 inline constexpr int kBandPadding = 16;   // of path costs, either side

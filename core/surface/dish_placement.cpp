@@ -236,7 +236,7 @@ double robust_scale_px(const DishOutlines& outlines, const TableCameras& cameras
   std::sort(magnitudes_px.begin(), magnitudes_px.end());
   const double sigma_px = kMedianToSigma * magnitudes_px[count / 2];
   const double scale_px =
-      std::clamp(kScaleSigmas * sigma_px, params.min_robust_scale_px, params.max_robust_scale_px);
+      std::max(std::min(kScaleSigmas * sigma_px, params.max_robust_scale_px), params.min_robust_scale_px);
   double squares = 0.0;
   for (const double magnitude_px : magnitudes_px) {
     if (magnitude_px > scale_px) break;

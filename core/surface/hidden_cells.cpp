@@ -72,7 +72,8 @@ float grazing_slope(double sight_slope, const HeightMapParams& params) {
   const double sine = std::clamp(params.jump_cosine, 0.0, 0.9);
   const double tangent = sine / std::sqrt(1.0 - sine * sine);
   const double slope = (sight_slope - tangent) / (1.0 + sight_slope * tangent);
-  return static_cast<float>(std::clamp(slope, params.min_flank_threshold, params.max_flank_threshold));
+  return static_cast<float>(
+      std::max(std::min(slope, params.max_flank_threshold), params.min_flank_threshold));
 }
 
 class HiddenFill {

@@ -264,8 +264,7 @@ Status reconstruct_surface(const std::array<StoredView, 2>& views, const LabelTa
   const double highest_mm = std::clamp(top_height_mm - bottom_height_mm, 5.0, params.highest_mm);
   const DisparityRange range = height_range(grid, params.min_height_mm, highest_mm);
   report = {grid.rows(), grid.columns(), grid.column_step_mm(), range, {}};
-  const int levels = std::clamp(params.levels, 1, kMaxSurfaceLevels);
-  const int finest = std::clamp(params.finest_level, 0, levels - 1);
+  const auto [levels, finest] = SurfaceLevels(params);
   if ((range.count() >> (levels - 1)) + 4 > kMaxBandLanes) return StatusCode::disparity_range_too_large;
 
   for (std::size_t v = 0; v < 2; ++v) sample_view(grid, views[v], kept, levels, workspace.views[v]);

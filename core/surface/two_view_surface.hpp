@@ -35,6 +35,26 @@ struct TwoViewSurfaceParams {
   SurfaceRefinementParams refinement;
 };
 
+// The pyramid that is matched, coarsest level last.
+struct SurfaceLevels {
+  int count = 1;
+  int finest = 0;
+
+  constexpr explicit SurfaceLevels(const TwoViewSurfaceParams& params)
+      : count(params.levels < 1                   ? 1
+              : params.levels > kMaxSurfaceLevels ? kMaxSurfaceLevels
+                                                  : params.levels),
+        finest(params.finest_level < 0        ? 0
+               : params.finest_level >= count ? count - 1
+                                              : params.finest_level) {}
+};
+
+// Of a level at most; halving rounds up.
+constexpr int max_level_samples(const TwoViewSurfaceParams& params, int level) {
+  const int samples = params.rectification.max_samples >> (2 * level);
+  return level == 0 ? samples : samples + ((params.max_columns + params.rectification.max_rows) >> level) + 2;
+}
+
 struct TwoViewSurfaceWorkspace {
   struct View {
     std::array<ImageView<std::uint8_t>, kMaxSurfaceLevels> gray;  // memory of the caps; sizes as sampled
@@ -60,7 +80,10 @@ struct TwoViewSurfaceWorkspace {
   template <class Allocator>
   constexpr void allocate(Allocator& arena, const TwoViewSurfaceParams& params) {
     const auto samples = static_cast<std::size_t>(params.rectification.max_samples);
-    const std::size_t pyramid = samples + samples / 2;  // 4/3, and what rounding up adds
+    const SurfaceLevels levels(params);
+    std::size_t pyramid = 0;
+    for (int level = 0; level < levels.count; ++level)
+      pyramid += static_cast<std::size_t>(max_level_samples(params, level));
     for (View& view : views) {
       view.gray_storage = arena.template take<std::uint8_t>(pyramid);
       view.label_storage = arena.template take<std::uint8_t>(pyramid);
@@ -77,9 +100,9 @@ struct TwoViewSurfaceWorkspace {
     }
     census_mask = arena.template take<std::uint32_t>(samples);
     first_disparity = arena.template take<std::int16_t>(samples);
-    const int finest = params.rectification.max_samples >> (2 * params.finest_level);
-    semi_global.allocate(arena, params.max_columns,
-                         finest * params.band_lanes * (params.finest_level > 0 ? 2 : 1));
+    const int of_bands = max_level_samples(params, levels.finest) * params.band_lanes;
+    const int of_coarsest = max_level_samples(params, levels.count - 1) * kMaxBandLanes;
+    semi_global.allocate(arena, params.max_columns, of_bands > of_coarsest ? of_bands : of_coarsest);
     const std::size_t matched = arena.mark();
     arena.rewind(shared);
     refinement.allocate(arena, params.max_columns, params.rectification.max_samples);

@@ -1,6 +1,7 @@
 #!/bin/sh
 # What each open parameter does to the result: one change at a time over a set of captures with truth.
-# Usage: sensitivity.sh PROGRAM SET [SEEDS [NAME=VALUE…]]; without changes named, those listed below. Prints a Markdown row for each.
+# Usage: sensitivity.sh PROGRAM SET [SEEDS [NAME=VALUE…]]; without changes named, those of profile paper listed below.
+# Names that begin with "best." are measured with profile best. Prints a Markdown row for each.
 set -eu
 program=$1
 set_folder=$2
@@ -46,5 +47,8 @@ measure() {
       print " |"
     }' "$folder/captures.csv"
 }
-measure "as it is"
-for change in ${*:-$changes}; do measure "$change" --set "$change"; done
+set -- ${*:-$changes}
+profile=paper
+case $1 in best.*) profile=best ;; esac
+measure "as it is" --profile $profile
+for change in "$@"; do measure "$change" --profile $profile --set "$change"; done

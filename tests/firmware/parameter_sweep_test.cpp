@@ -1,0 +1,217 @@
+// Whatever value a parameter may have, a measurement ends: with numbers or with a status.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+#include <random>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+#include "core/base/random.hpp"
+#include "core/estimator/estimator.hpp"
+#include "core/estimator/parameters.hpp"
+#include "core/features/has_surf.hpp"
+#include "firmware/base/aligned_block.hpp"
+#include "firmware/config/profile.hpp"
+#include "firmware/measure/pair_setup.hpp"
+#include "simulator/capture/capture.hpp"
+
+namespace traygauge {
+namespace {
+
+// A parameter as a number; its type holds whole or real numbers from `least` to `most`.
+struct Slot {
+  std::string name;
+  double value = 0.0;
+  ParameterRange range;
+  bool is_whole = true;
+  double least = 0.0;
+  double most = 1.0;
+};
+
+// Gives every parameter the value that `change` returns for it.
+template <class Change>
+class Changer {
+ public:
+  explicit Changer(Change change) : change_(change) {}
+
+  template <class Number>
+  void operator()(const char* name, Number& field, const ParameterRange& range) {
+    using Limits = std::numeric_limits<Number>;
+    field = static_cast<Number>(
+        change_(Slot{name, static_cast<double>(field), range, Limits::is_integer,
+                     static_cast<double>(Limits::lowest()), static_cast<double>(Limits::max())}));
+  }
+  template <class Enum>
+  void operator()(const char* name, Enum& field, const ParameterChoices& choices) {
+    const ParameterRange range{0.0, static_cast<double>(choices.count() - 1)};
+    field = static_cast<Enum>(change_(Slot{name, static_cast<double>(field), range, true, 0.0, 255.0}));
+  }
+  void operator()(const char* name, bool& field) {
+    field = change_(Slot{name, field ? 1.0 : 0.0, {0.0, 1.0}}) > 0.5;
+  }
+
+ private:
+  Change change_;
+};
+
+template <class Change>
+void change_parameters(Configuration& configuration, Change change) {
+  Changer<Change> changer(change);
+  visit_shared_parameters(configuration, changer);
+  visit_parameters_of(configuration.profile, configuration, changer);
+}
+
+int count_parameters(Configuration configuration) {
+  int count = 0;
+  change_parameters(configuration, [&](const Slot& slot) {
+    ++count;
+    return slot.value;
+  });
+  return count;
+}
+
+double whole(double value, const ParameterRange& range) {
+  return range.step > 0.0 ? std::floor(value / range.step) * range.step : std::floor(value);
+}
+
+// Either end, or any value between; large ranges by their ratio.
+double draw(const Slot& slot, Random& random) {
+  const ParameterRange& range = slot.range;
+  switch (random.below(3)) {
+    case 0:
+      return range.low;
+    case 1:
+      return range.high;
+    default:
+      break;
+  }
+  const bool by_ratio = range.low > 0.0 && range.high > 100.0 * range.low;
+  const double value = by_ratio ? range.low * std::pow(range.high / range.low, random.uniform())
+                                : range.low + random.uniform() * (range.high - range.low);
+  return slot.is_whole ? std::max(whole(value, range), range.low) : value;
+}
+
+class ParameterSweep : public testing::TestWithParam<Profile> {
+ protected:
+  static void SetUpTestSuite() {
+    const std::string folder = TRAYGAUGE_SOURCE_DIR "/simulator/demo/fish_and_potatoes";
+    capture_ = new Capture(read_capture(folder));
+    setup_ = new PairSetup(set_up_pair(*capture_, {0, 1}, capture_->dishes));
+    views_ = new std::array<LoadedView, 2>{load_view(capture_->views[0]), load_view(capture_->views[1])};
+  }
+  static void TearDownTestSuite() {
+    delete views_;
+    delete setup_;
+    delete capture_;
+  }
+
+  void SetUp() override {
+    if (GetParam() == Profile::paper && !has_surf()) GTEST_SKIP() << "profile paper is not in this build";
+    if (const char* given = std::getenv("TRAYGAUGE_SEED")) seed_ = std::strtoull(given, nullptr, 10);
+    RecordProperty("seed", std::to_string(seed_));
+  }
+
+  static Configuration configuration() {
+    Configuration parameters;
+    parameters.profile = GetParam();
+    return configure(*setup_, parameters);
+  }
+
+  // Measures, and looks at what is said to be measured.
+  void measure(const Configuration& configuration, const std::string& what) {
+    SCOPED_TRACE(what + " (TRAYGAUGE_SEED=" + std::to_string(seed_) + ")");
+    ASSERT_TRUE(validate(configuration).ok());
+    const std::size_t bytes = required_bytes(configuration);
+    ASSERT_LT(bytes, std::size_t{4} << 30U);
+    const AlignedBlock block(bytes);
+    Estimator estimator(block.bytes(), configuration);
+    for (const LoadedView& view : *views_) {
+      ViewInput input;
+      input.frame = view.picture.frame();
+      input.labels = view.labels.gray();
+      if (!estimator.add_view(input).ok()) break;
+    }
+    const Measurement& measurement = estimator.estimate(1);
+    for (const ItemResult& item : measurement.items) {
+      if (item.status != StatusCode::ok) continue;
+      ++volumes_;
+      EXPECT_TRUE(std::isfinite(item.volume_ml) && std::isfinite(item.sigma_ml));
+      EXPECT_LT(std::abs(item.volume_ml), 20'000.0);
+    }
+  }
+
+  std::uint64_t seed_ = std::random_device{}();
+  int volumes_ = 0;
+
+  static inline Capture* capture_ = nullptr;
+  static inline PairSetup* setup_ = nullptr;
+  static inline std::array<LoadedView, 2>* views_ = nullptr;
+};
+
+INSTANTIATE_TEST_SUITE_P(Both, ParameterSweep, testing::Values(Profile::best, Profile::paper),
+                         [](const auto& profile) { return std::string(name(profile.param)); });
+
+TEST_P(ParameterSweep, OneAtATime) {
+  Random random(seed_);
+  const int count = count_parameters(configuration());
+  for (int i = 0; i < count; ++i) {
+    Configuration changed = configuration();
+    int at = 0;
+    std::string what;
+    change_parameters(changed, [&](const Slot& slot) {
+      if (at++ != i) return slot.value;
+      const double drawn = draw(slot, random);
+      what = slot.name + "=" + std::to_string(drawn);
+      return drawn;
+    });
+    measure(changed, what);
+  }
+  EXPECT_GT(volumes_, count);  // two items; most parameters alone spoil neither
+}
+
+TEST_P(ParameterSweep, SeveralAtOnce) {
+  constexpr int kDraws = 40;
+  constexpr double kShare = 0.1;
+  Random random(seed_);
+  for (int i = 0; i < kDraws; ++i) {
+    Configuration changed = configuration();
+    std::string what;
+    change_parameters(changed, [&](const Slot& slot) {
+      if (random.uniform() > kShare) return slot.value;
+      const double drawn = draw(slot, random);
+      what += slot.name + "=" + std::to_string(drawn) + " ";
+      return drawn;
+    });
+    measure(changed, what);
+  }
+}
+
+TEST_P(ParameterSweep, BeyondTheRangeNothingIsMeasured) {
+  const int count = count_parameters(configuration());
+  for (int i = 0; i < count; ++i) {
+    for (const int which : {0, 1, 2, 3}) {
+      Configuration changed = configuration();
+      int at = 0;
+      std::string what;
+      change_parameters(changed, [&](const Slot& slot) {
+        if (at++ != i) return slot.value;
+        const double wrong = which == 0   ? slot.range.low - 1.0
+                             : which == 1 ? slot.range.high + 1.0
+                             : which == 2 ? 1e9
+                                          : std::numeric_limits<double>::quiet_NaN();
+        const bool fits = which == 3 ? !slot.is_whole : wrong >= slot.least && wrong <= slot.most;
+        if (!fits || slot.range.contains(wrong)) return slot.value;
+        what = slot.name + "=" + std::to_string(wrong);
+        return wrong;
+      });
+      if (what.empty()) continue;
+      EXPECT_EQ(validate(changed).code(), StatusCode::invalid_configuration) << what;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace traygauge
