@@ -5,6 +5,7 @@
 
 #include "core/estimator/best/food_agreement.hpp"
 #include "core/estimator/best/uncertainty.hpp"
+#include "core/surface/known_dish.hpp"
 #include "core/surface/triangulation.hpp"
 
 namespace traygauge {
@@ -128,23 +129,27 @@ void measure_dish(const ViewPair& views, const SceneGeometry& geometry, std::siz
                bottom_mm + best.pipeline.min_top_mm);
   std::array<SurfaceGrid, 2> grids;
   TwoViewSurfaceReport dense;
-  Status status = reconstruct_surface(stored_views(views, geometry, dish.labels), labels_on_dish(dish.labels),
-                                      bottom_mm, top_mm, best.surface, workspace.surface, grids, dense);
+  InnerSurface inner;
+  Status status = place_inner_surface(model, placed.placed.place, inner);
+  if (!status.ok()) return refuse(status);
+  status = reconstruct_surface(stored_views(views, geometry, dish.labels), labels_on_dish(dish.labels),
+                               bottom_mm, top_mm, best.surface, workspace.surface, grids, dense);
   if (!status.ok()) return refuse(status);
   report.rectified_rows = dense.rows;
   report.rectified_columns = dense.columns;
   report.disparity_range = dense.disparity_range;
   report.matched_share = 0.5 * (dense.confirmed[0] + dense.confirmed[1]);
 
+  for (std::size_t v = 0; v < 2; ++v) {
+    TwoViewSurfaceWorkspace::View& view = workspace.surface.views[v];
+    settle_dish_samples(inner, grids[v], view.points, view.evidence);
+  }
   if (tap != nullptr) tap->on_surfaces(geometry.joint.camera_from_table, grids);
   report.label_agreement =
       measure_food_agreement(grids, views, geometry.joint.camera_from_table, best.agreement);
   if (report.label_agreement < best.agreement.min_share) return refuse(StatusCode::labels_inconsistent);
 
   clock.enter(Stage::surface);
-  InnerSurface inner;
-  status = place_inner_surface(model, placed.placed.place, inner);
-  if (!status.ok()) return refuse(status);
   HeightMapWorkspace maps = workspace.height_map;
   maps.first = workspace.cells;
   HeightMap map;
@@ -155,7 +160,7 @@ void measure_dish(const ViewPair& views, const SceneGeometry& geometry, std::siz
   workspace.surfaces.push_back({dish.label, map, inner});
 
   clock.enter(Stage::volume);
-  level_liquid(inner, best.liquid, workspace.liquid, map);
+  level_liquid(grids, inner, best.liquid, workspace.liquid, map);
   status = integrate_height_map(map, inner, best.volume, workspace.volume);
   if (!status.ok()) return refuse(status);
   close_overhangs(grids, map, inner, best.overhang, workspace.volume.items);

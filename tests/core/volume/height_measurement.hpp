@@ -26,7 +26,7 @@ struct HeightMeasurement {
              const HeightMapParams& params = {}) {
     const Status built = build_height_map(views, dish, params, *map_space, map);
     if (!built.ok()) return built;
-    liquid = level_liquid(dish, {}, *liquid_space, map);
+    liquid = level_liquid(views, dish, {}, *liquid_space, map);
     const Status integrated = integrate_height_map(map, dish, {}, *volume_space);
     close_overhangs(views, map, dish, overhang, volume_space->items);
     return integrated;
