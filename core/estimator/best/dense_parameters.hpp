@@ -96,7 +96,7 @@ void visit_volume_parameters(Params& best, Visit&& visit) {
   using Range = ParameterRange;
   visit("best.volume.max_height_ignored_mm2", best.volume.max_height_ignored_mm2, Range{0, 1e5});
   visit("best.overhang.min_undercut_share", best.overhang.min_undercut_share, Range{0, 1000});
-  visit("best.overhang.equator_share", best.overhang.equator_share, Range{0, 1});
+  visit("best.overhang.column_over_closed", best.overhang.column_over_closed, Range{1, 10});
   visit("best.overhang.min_undercut_mm2", best.overhang.min_undercut_mm2, Range{0, 1e6});
   visit("best.agreement.min_share", best.agreement.min_share, Range{0, 1});
   visit("best.agreement.step", best.agreement.step, Range{1, 64});

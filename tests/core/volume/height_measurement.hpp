@@ -23,7 +23,7 @@ struct HeightMeasurement {
   OverhangParams overhang{.min_undercut_share = 0.2};  // true depth shows all of an undercut
 
   Status run(std::span<const SurfaceGrid> views, const InnerSurface& dish,
-             const HeightMapParams& params = {}) {
+             const HeightMapParams& params = {.hidden_steepness = 1.0}) {
     const Status built = build_height_map(views, dish, params, *map_space, map);
     if (!built.ok()) return built;
     liquid = level_liquid(views, dish, {}, *liquid_space, map);
