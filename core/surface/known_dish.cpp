@@ -8,7 +8,7 @@ namespace traygauge {
 namespace {
 
 constexpr double kToleranceMm = 0.02;
-constexpr int kMaxSteps = 10;
+constexpr int kMaxSteps = 20;  // lines along a steep wall take up to 14
 
 }  // namespace
 

@@ -10,7 +10,8 @@
 namespace traygauge {
 
 // Height over the table at which the line of sight from `eye_mm`, that runs so far over the table for every
-// mm it falls, comes down to `dish`; to 0.02 mm.
+// mm it falls, comes down to within 0.02 mm of the dish's height. A line that clips a crest by less than half
+// a mm may pass it.
 double settled_height_mm(const InnerSurface& dish, const Vec3& eye_mm, const Vec2& run_per_mm);
 
 // Moves the points labelled kDishLabel along their lines of sight down to `dish`. `points` and `evidence` are

@@ -33,6 +33,9 @@ void StageSubstitution::on_order(int first_view) {
 }
 
 void StageSubstitution::on_geometry(JointResult& joint, std::span<const DishOnTray> dishes) {
+  const bool moves_cameras =
+      is_replaced(TrueStage::pose) || is_replaced(TrueStage::scale) || is_replaced(TrueStage::table);
+  if (!moves_cameras && !is_replaced(TrueStage::place)) return;  // to the last bit
   TableCameras& cameras = joint.camera_from_table;
   const TableCameras found = cameras;
   const Pose motion = second_from_first(found);
