@@ -64,13 +64,10 @@ bool is_only_dish(const DishModel& dish) {
 
 }  // namespace
 
-Status validate(const Configuration& configuration) {
+Status validate_apart_from_dishes(const Configuration& configuration) {
   if (const Status status = validate(configuration.lens); !status.ok()) return status;
   if (!is_plausible(configuration.card) || !is_plausible(configuration.limits))
     return StatusCode::invalid_configuration;
-  if (configuration.dishes.empty() || configuration.dishes.size() > kMaxDishCandidates) {
-    return StatusCode::invalid_configuration;
-  }
   if (configuration.profile == Profile::paper) {
     if (const Status status = validate_feature_search(configuration); !status.ok()) return status;
   }
@@ -78,8 +75,15 @@ Status validate(const Configuration& configuration) {
                               validate(configuration.stereo)}) {
     if (!status.ok()) return status;
   }
+  return are_parameters_within_range(configuration) ? StatusCode::ok : StatusCode::invalid_configuration;
+}
+
+Status validate(const Configuration& configuration) {
+  if (configuration.dishes.empty() || configuration.dishes.size() > kMaxDishCandidates) {
+    return StatusCode::invalid_configuration;
+  }
+  if (const Status status = validate_apart_from_dishes(configuration); !status.ok()) return status;
   if (const Status status = validate(configuration.dishes); !status.ok()) return status;
-  if (!are_parameters_within_range(configuration)) return StatusCode::invalid_configuration;
   if (configuration.profile == Profile::best) return StatusCode::ok;
   return std::all_of(configuration.dishes.begin(), configuration.dishes.end(), is_only_dish)
              ? StatusCode::ok

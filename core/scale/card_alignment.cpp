@@ -18,6 +18,8 @@ struct Candidate {
   double correlation = -1.0;
 };
 
+using Finalists = std::array<Candidate, 2>;
+
 void sort_by_correlation(std::span<Candidate> candidates) {
   std::sort(candidates.begin(), candidates.end(),
             [](const Candidate& a, const Candidate& b) { return a.correlation > b.correlation; });
@@ -29,8 +31,8 @@ class Search {
   Search(CardRefinement& refinement, const CardModelSize& size, const CardAlignmentParams& params)
       : refinement_(refinement), size_(size), params_(params) {}
 
-  // The best pose of an outline after the coarse stage.
-  Candidate best_of(const CardOutline& outline) {
+  // The two best poses of an outline after the coarse stage; −1 where there is none.
+  Finalists best_of(const CardOutline& outline) {
     std::array<Candidate, kPosesPerOutline> storage;
     const std::span<Candidate> all(storage.data(), rate_poses(outline, storage));
     sort_by_correlation(all);
@@ -41,23 +43,38 @@ class Search {
       refine(params_.coarse_blur_px, CardSampling::sixteenth, params_.coarse_iterations, candidate);
     }
     sort_by_correlation(best);
-    return best.empty() ? Candidate{} : best[0];
+    Finalists finalists;
+    std::copy_n(best.begin(), std::min(best.size(), finalists.size()), finalists.begin());
+    return finalists;
   }
 
   // The same when one side at a time is not the card's.
-  Candidate best_without_a_side(const CardOutline& outline) {
-    Candidate best;
+  Finalists best_without_a_side(const CardOutline& outline) {
+    Finalists best;
     for (std::size_t side = 0; side < 4; ++side) {
       for (const bool is_wide : {false, true}) {
         const double opposite_mm = is_wide ? size_.width_mm : size_.height_mm;
         const double beside_mm = is_wide ? size_.height_mm : size_.width_mm;
         CardOutline completed;
         if (!complete_outline(outline, side, opposite_mm, beside_mm, completed)) continue;
-        const Candidate candidate = best_of(completed);
-        if (candidate.correlation > best.correlation) best = candidate;
+        const Finalists found = best_of(completed);
+        if (found[0].correlation > best[0].correlation) best = found;
       }
     }
     return best;
+  }
+
+  // The better one after the medium stage: at the coarse blur a card seen from afar fits its mirror pose
+  // nearly as well. Few pixels are enough to compare them.
+  Candidate choose(const Finalists& finalists) {
+    Candidate best = finalists[0];
+    refine(params_.medium_blur_px, CardSampling::quarter, params_.medium_iterations, best);
+    if (finalists[1].correlation < finalists[0].correlation - params_.max_mirror_lag) return best;
+    Candidate other = finalists[1];
+    refine(params_.medium_blur_px, CardSampling::sixteenth, params_.medium_iterations, other);
+    if (other.correlation <= best.correlation) return best;
+    refine(params_.medium_blur_px, CardSampling::quarter, params_.medium_iterations, other);
+    return other.correlation > best.correlation ? other : best;
   }
 
   // Refines at this blur and correlates again; a lost pose gets −1.
@@ -134,10 +151,10 @@ Status align_card(ImageView<const std::uint8_t> gray, ImageView<const std::uint8
 
   CardRefinement refinement(lens, pattern, params.refinement, picture);
   Search search(refinement, pattern.size, params);
-  Candidate candidate = search.best_of(outline);
-  if (candidate.correlation < params.min_correlation) candidate = search.best_without_a_side(outline);
-  if (candidate.correlation < params.min_correlation) return StatusCode::card_not_found;
-  search.refine(params.medium_blur_px, CardSampling::quarter, params.medium_iterations, candidate);
+  Finalists finalists = search.best_of(outline);
+  if (finalists[0].correlation < params.min_correlation) finalists = search.best_without_a_side(outline);
+  if (finalists[0].correlation < params.min_correlation) return StatusCode::card_not_found;
+  Candidate candidate = search.choose(finalists);
   if (candidate.correlation < params.min_correlation) return StatusCode::card_not_found;
 
   const Pose& pose = candidate.state.camera_from_table;

@@ -33,7 +33,10 @@ struct CardAlignmentParams {
   int medium_iterations = 4;
   int fine_iterations = 4;
   double max_correlation_lag = 0.25;  // of a first pose behind the best, to be refined as well
-  int max_samples = 32'000;           // of the fine stage; of a larger card every second row, and so on
+  // Of the mirror pose behind the best after the coarse stage, to be refined as well: they differ by 0.015
+  // and more in the captures, by nothing from afar.
+  double max_mirror_lag = 0.06;
+  int max_samples = 32'000;  // of the fine stage; of a larger card every second row, and so on
 
   double min_correlation = 0.5;    // of print and picture; wrong places stay below 0.3
   double min_visible_share = 0.5;  // of the card

@@ -11,6 +11,7 @@ namespace traygauge {
 namespace {
 
 constexpr int kSupportBins = 32;  // along a side
+constexpr double kFlat = 1e-12;   // in rays²: two sides on one line, that rounding has bent inwards
 
 double cross(const Vec2& a, const Vec2& b) {
   return a.x() * b.y() - a.y() * b.x();
@@ -110,8 +111,8 @@ bool remove_cheapest_side(std::span<Vec2> hull) {
     if (!(cross(begin - before, after - end) > 0.0)) continue;  // the neighbours diverge
     if (!intersect(line_through(before, begin), line_through(end, after), crossing)) continue;
     const double added = cross(crossing - begin, end - crossing);
-    if (added < 0.0 || added >= least) continue;
-    least = added;
+    if (added < -kFlat || added >= least) continue;
+    least = std::max(added, 0.0);
     cheapest = i;
     joint = crossing;
   }

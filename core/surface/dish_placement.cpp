@@ -20,29 +20,6 @@ double information(double sigma) {
   return 1.0 / (sigma * sigma);
 }
 
-// The ellipse through both outlines laid on the level `height_mm`.
-bool guess_place(const DishOutlines& outlines, const TableCameras& cameras, double height_mm,
-                 std::size_t step, DishPlacementWorkspace& workspace, DishPlace& place) {
-  workspace.points_mm.clear();
-  for (std::size_t view = 0; view < 2; ++view) {
-    const Vec3 centre_mm = camera_centre_mm(cameras[view]);
-    for (std::size_t i = 0; i < outlines[view].size(); i += step) {
-      const Vec2& ray = outlines[view][i];
-      const Vec3 direction = cameras[view].rotation.transpose() * ray.homogeneous();
-      const double depth = (height_mm - centre_mm.z()) / direction.z();
-      if (std::isfinite(depth) && depth > 0.0) workspace.points_mm.push_back(centre_mm + depth * direction);
-    }
-  }
-  RimEllipse ellipse;
-  const Plane level{Vec3::UnitZ(), height_mm};
-  if (!fit_rim_size(workspace.points_mm.items(), level, ellipse).ok()) return false;
-  place.centre_mm = ellipse.centre_mm.head<2>();
-  place.azimuth_rad = std::atan2(ellipse.axes[0].y(), ellipse.axes[0].x());
-  place.edge_height_mm = height_mm;
-  place.size_mm = ellipse.size_mm;
-  return as_vector(place).allFinite();
-}
-
 // About a described dish, as far as the choice would let another differ from it.
 PlacePrior prior_of_measurement(const DishPlace& described, const DishPlacementParams& params) {
   PlacePrior prior{as_vector(described), PlaceVector::Zero()};
@@ -197,6 +174,28 @@ class DishPlacement {
 };
 
 }  // namespace
+
+bool guess_place(const DishOutlines& outlines, const TableCameras& cameras, double height_mm,
+                 std::size_t step, DishPlacementWorkspace& workspace, DishPlace& place) {
+  workspace.points_mm.clear();
+  for (std::size_t view = 0; view < 2; ++view) {
+    const Vec3 centre_mm = camera_centre_mm(cameras[view]);
+    for (std::size_t i = 0; i < outlines[view].size(); i += step) {
+      const Vec2& ray = outlines[view][i];
+      const Vec3 direction = cameras[view].rotation.transpose() * ray.homogeneous();
+      const double depth = (height_mm - centre_mm.z()) / direction.z();
+      if (std::isfinite(depth) && depth > 0.0) workspace.points_mm.push_back(centre_mm + depth * direction);
+    }
+  }
+  RimEllipse ellipse;
+  const Plane level{Vec3::UnitZ(), height_mm};
+  if (!fit_rim_size(workspace.points_mm.items(), level, ellipse).ok()) return false;
+  place.centre_mm = ellipse.centre_mm.head<2>();
+  place.azimuth_rad = std::atan2(ellipse.axes[0].y(), ellipse.axes[0].x());
+  place.edge_height_mm = height_mm;
+  place.size_mm = ellipse.size_mm;
+  return as_vector(place).allFinite();
+}
 
 double edge_height_mm(const DishModel& model) {
   return model.profile_size > 0 ? model.profile_points[0].height_mm : model.rim_height_mm;

@@ -65,6 +65,11 @@ struct DishPlacementWorkspace {
   }
 };
 
+// The ellipse through both outlines laid on the level `height_mm`; of every `step` points one is read. False
+// when they lie on none.
+bool guess_place(const DishOutlines& outlines, const TableCameras& cameras, double height_mm,
+                 std::size_t step, DishPlacementWorkspace& workspace, DishPlace& place);
+
 // The height of the edge that the outline shows.
 double edge_height_mm(const DishModel& model);
 

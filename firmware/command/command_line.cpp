@@ -7,6 +7,7 @@
 #include <string>
 
 #include "firmware/base/exit_status.hpp"
+#include "firmware/enrol/enrol_command.hpp"
 #include "firmware/evaluate/evaluate_command.hpp"
 #include "firmware/measure/measure_command.hpp"
 #include "firmware/memory/memory_command.hpp"
@@ -33,6 +34,7 @@ int report_parse(const CLI::App& app, const CLI::ParseError& problem, std::ostre
 struct Options {
   MeasureOptions measure;
   EvaluateOptions evaluate;
+  EnrolOptions enrol;
   MemoryOptions memory;
   StationCommand station;
 };
@@ -40,6 +42,7 @@ struct Options {
 int run_command(const CLI::App& app, const Options& options, std::ostream& out, std::ostream& error) {
   if (app.got_subcommand("measure")) return run_measure(options.measure, out, error);
   if (app.got_subcommand("evaluate")) return run_evaluate(options.evaluate, out, error);
+  if (app.got_subcommand("enrol-dish")) return run_enrol(options.enrol, out);
   if (app.got_subcommand("station")) {
     return run_station(options.station, open_recorded_captures, stop_on_signals(), out, error);
   }
@@ -56,6 +59,7 @@ int run_command_line(int argument_count, const char* const* arguments, std::ostr
   Options options;
   add_measure_command(app, options.measure);
   add_evaluate_command(app, options.evaluate);
+  add_enrol_command(app, options.enrol);
   add_memory_command(app, options.memory);
   add_station_command(app, options.station);
   try {

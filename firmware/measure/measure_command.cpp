@@ -28,14 +28,6 @@ bool parse_whole(const std::string& text, Number& number) {
   return problem == std::errc() && stop == end;
 }
 
-void require_labels(const Capture& capture, const std::array<int, 2>& pair) {
-  for (const int i : pair) {
-    if (capture.views[static_cast<std::size_t>(i)].labels) continue;
-    throw InputError({capture.file, "views[" + std::to_string(i) + "].labels"}, "a label picture", "nothing",
-                     "outline dish and food; this version does not find them by itself");
-  }
-}
-
 // Whether a result could be stored at all is known before the work is done.
 void check_output(const std::string& file) {
   if (file.empty()) return;
@@ -102,6 +94,14 @@ void check_label_source(const std::string& source) {
         "--labels auto is not part of this version; outline the food in label pictures (labels_N.png)");
   }
   throw UsageError("--labels: expected given, found " + printable(source));
+}
+
+void require_labels(const Capture& capture, const std::array<int, 2>& pair) {
+  for (const int i : pair) {
+    if (capture.views[static_cast<std::size_t>(i)].labels) continue;
+    throw InputError({capture.file, "views[" + std::to_string(i) + "].labels"}, "a label picture", "nothing",
+                     "outline dish and food; this version does not find them by itself");
+  }
 }
 
 std::array<int, 2> choose_pair(const std::string& typed, const Capture& capture) {

@@ -34,6 +34,9 @@ int run_measure(const MeasureOptions& options, std::ostream& out, std::ostream& 
 // The pair that `typed` ("A,B") names; without it the first of the capture's, else 0 and 1.
 std::array<int, 2> choose_pair(const std::string& typed, const Capture& capture);
 
+// Throws InputError unless both views have label pictures.
+void require_labels(const Capture& capture, const std::array<int, 2>& pair);
+
 // UsageError unless this version has the source of labels; empty: the default.
 void check_label_source(const std::string& source);
 

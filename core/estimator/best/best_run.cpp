@@ -24,14 +24,6 @@ Vec3 dish_on_table(const SceneGeometry& geometry) {
   return Vec3::Zero();
 }
 
-double relative_angle_deg(const SceneGeometry& geometry) {
-  const Vec3 dish = dish_on_table(geometry);
-  const TableCameras& cameras = geometry.joint.camera_from_table;
-  const Vec3 first = (camera_centre_mm(cameras[0]) - dish).normalized();
-  const Vec3 second = (camera_centre_mm(cameras[1]) - dish).normalized();
-  return std::acos(std::clamp(first.dot(second), -1.0, 1.0)) * 180.0 / std::numbers::pi;
-}
-
 // The camera did not move against the card, as far as a card can tell.
 bool is_same_place(const SceneGeometry& geometry) {
   constexpr double kSamePlaceMm = 1.0;
@@ -44,7 +36,8 @@ void report_pose(const SceneGeometry& geometry, bool reversed, Measurement& meas
   measurement.second_from_first = reversed ? motion.inverse() : motion;
   measurement.rotation_angle_deg =
       std::abs(Eigen::AngleAxisd(motion.rotation).angle()) * 180.0 / std::numbers::pi;
-  measurement.relative_angle_deg = relative_angle_deg(geometry);
+  measurement.relative_angle_deg =
+      angle_between_views_deg(geometry.joint.camera_from_table, dish_on_table(geometry));
   const Pose& reference = geometry.joint.camera_from_table[0];
   const Vec3 up = reference.rotation.col(2);
   measurement.views.table = {up, up.dot(reference.translation)};

@@ -10,12 +10,23 @@ Status prepare_best_view(const FrameView& frame, const Configuration& configurat
                          const CardPattern& pattern, BestViewWorkspace& workspace, StageClock& clock,
                          BestView& view) {
   clock.enter(Stage::image);
+  if (const Status status = measure_labels(frame, configuration, view); !status.ok()) return status;
+  if (const Status status = check_labels(view.regions); !status.ok()) return status;
+  return prepare_labelled_view(frame, configuration, pattern, workspace, clock, view);
+}
+
+Status measure_labels(const FrameView& frame, const Configuration& configuration, BestView& view) {
   if (const Status status = check_sizes(frame, view.labels, view.lens, configuration.limits); !status.ok()) {
     return status;
   }
   view.regions = measure_regions(view.labels);
-  if (const Status status = check_labels(view.regions); !status.ok()) return status;
+  return StatusCode::ok;
+}
 
+Status prepare_labelled_view(const FrameView& frame, const Configuration& configuration,
+                             const CardPattern& pattern, BestViewWorkspace& workspace, StageClock& clock,
+                             BestView& view) {
+  clock.enter(Stage::image);
   const ImageView<std::uint8_t> gray{view.gray_storage.data, frame.width, frame.height};
   convert_to_gray(frame, gray);
   if (const Status status = check_exposure(gray, configuration.exposure); !status.ok()) return status;

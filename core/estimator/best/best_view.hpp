@@ -62,4 +62,10 @@ Status prepare_best_view(const FrameView& frame, const Configuration& configurat
                          const CardPattern& pattern, BestViewWorkspace& workspace, StageClock& clock,
                          BestView& view);
 
+// Its two halves, between which what is labelled may be checked: sizes and regions; all that follows.
+Status measure_labels(const FrameView& frame, const Configuration& configuration, BestView& view);
+Status prepare_labelled_view(const FrameView& frame, const Configuration& configuration,
+                             const CardPattern& pattern, BestViewWorkspace& workspace, StageClock& clock,
+                             BestView& view);
+
 }  // namespace traygauge

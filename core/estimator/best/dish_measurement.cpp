@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/estimator/best/dish_views.hpp"
 #include "core/estimator/best/food_agreement.hpp"
 #include "core/estimator/best/uncertainty.hpp"
 #include "core/surface/known_dish.hpp"
@@ -10,26 +11,6 @@
 
 namespace traygauge {
 namespace {
-
-// Box of everything that has one of `labels`.
-PixelBox box_of(const LabelRegions& regions, const LabelSet& labels) {
-  PixelBox box;
-  for (int value = 0; value < 256; ++value) {
-    const auto label = static_cast<std::uint8_t>(value);
-    if (labels.contains(label)) box = united(box, regions.boxes[label]);
-  }
-  return box;
-}
-
-std::array<StoredView, 2> stored_views(const ViewPair& views, const SceneGeometry& geometry,
-                                       const LabelSet& labels) {
-  std::array<StoredView, 2> stored;
-  for (std::size_t v = 0; v < 2; ++v) {
-    stored[v] = {views[v]->gray.levels[0], views[v]->labels, box_of(views[v]->regions, labels),
-                 views[v]->lens, geometry.joint.camera_from_table[v]};
-  }
-  return stored;
-}
 
 // Height of the tallest sparse point on the dish, in the table frame; the bottom's without any.
 double tallest_track_mm(const SceneGeometry& geometry, const LabelSet& labels, double bottom_height_mm) {
@@ -45,24 +26,6 @@ double tallest_track_mm(const SceneGeometry& geometry, const LabelSet& labels, d
     tallest_mm = std::max(tallest_mm, (cameras[0].inverse() * (depth_mm * ray)).z());
   }
   return tallest_mm;
-}
-
-Status place_inner_surface(const DishModel& model, const DishPlace& place, InnerSurface& inner) {
-  const Status status = inner.profile.set(model);
-  inner.place = {place.centre_mm, {std::cos(place.azimuth_rad), std::sin(place.azimuth_rad)}};
-  return status;
-}
-
-// Height by which a point in the middle of the dish's bottom rises for each sample of disparity.
-double height_per_sample_mm(const SceneGeometry& geometry, const DishPlace& place, double bottom_mm,
-                            double step_mm) {
-  const Vec3 point(place.centre_mm.x(), place.centre_mm.y(), bottom_mm);
-  Vec2 shift = Vec2::Zero();  // on the bottom's plane, for a mm of height
-  for (std::size_t v = 0; v < 2; ++v) {
-    const Vec3 sight = point - camera_centre_mm(geometry.joint.camera_from_table[v]);
-    shift += (v == 0 ? 1.0 : -1.0) * sight.head<2>() / -sight.z();
-  }
-  return step_mm / std::max(shift.norm(), 1e-3);
 }
 
 // Status of one item, once its dish was measured.
@@ -110,8 +73,7 @@ void measure_dish(const ViewPair& views, const SceneGeometry& geometry, std::siz
   const JointDishResult& placed = geometry.joint.dishes[index];
   if (!placed.status.ok()) return refuse(placed.status);
   for (const BestView* view : views) {
-    if (view->regions.touches_edge(box_of(view->regions, dish.labels)))
-      return refuse(StatusCode::dish_cut_off);
+    if (is_cut_off(*view, dish.labels)) return refuse(StatusCode::dish_cut_off);
   }
   const DishModel& model = dish.candidates[static_cast<std::size_t>(placed.placed.candidate)];
   report.rim_height_mm = placed.placed.place.edge_height_mm;
@@ -130,10 +92,12 @@ void measure_dish(const ViewPair& views, const SceneGeometry& geometry, std::siz
   std::array<SurfaceGrid, 2> grids;
   TwoViewSurfaceReport dense;
   InnerSurface inner;
-  Status status = place_inner_surface(model, placed.placed.place, inner);
+  inner.place = frame_of(placed.placed.place);
+  Status status = inner.profile.set(model);
   if (!status.ok()) return refuse(status);
-  status = reconstruct_surface(stored_views(views, geometry, dish.labels), labels_on_dish(dish.labels),
-                               bottom_mm, top_mm, best.surface, workspace.surface, grids, dense);
+  status = reconstruct_surface(stored_views(views, geometry.joint.camera_from_table, dish.labels),
+                               labels_on_dish(dish.labels), bottom_mm, top_mm, best.surface,
+                               workspace.surface, grids, dense);
   if (!status.ok()) return refuse(status);
   report.rectified_rows = dense.rows;
   report.rectified_columns = dense.columns;
@@ -164,8 +128,8 @@ void measure_dish(const ViewPair& views, const SceneGeometry& geometry, std::siz
   status = integrate_height_map(map, inner, best.volume, workspace.volume);
   if (!status.ok()) return refuse(status);
   close_overhangs(grids, map, inner, best.overhang, workspace.volume.items);
-  const double height_per_px_mm =
-      height_per_sample_mm(geometry, placed.placed.place, bottom_mm, dense.column_step_mm);
+  const double height_per_px_mm = height_per_sample_mm(
+      geometry.joint.camera_from_table, middle_of(placed.placed.place, bottom_mm), dense.column_step_mm);
   for_each_item(views, dish, [&](std::uint8_t label) {
     const HeightVolume& volume = workspace.volume.items[label];
     ItemResult item;

@@ -1,6 +1,8 @@
 #include "core/estimator/best/scene_geometry.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 
 #include "core/scale/card.hpp"
 #include "core/surface/dish_outline.hpp"
@@ -97,19 +99,29 @@ Status find_geometry(const ViewPair& views, const Configuration& configuration, 
   clock.enter(Stage::pose);
   status = trace_outlines(views, configuration, workspace, geometry);
   if (!status.ok()) return status;
-  std::array<JointDish, kMaxPlacedDishes> dishes;
-  for (std::size_t d = 0; d < geometry.dish_count; ++d) {
-    dishes[d] = {{workspace.outlines[d][0].items(), workspace.outlines[d][1].items()},
-                 geometry.dishes[d].candidates};
-  }
-  status = refine_jointly(
-      join(views, configuration.card, geometry.tracks, std::span(dishes).first(geometry.dish_count)),
-      best.joint, workspace.joint, geometry.joint);
+  status = refine_geometry(views, configuration.card, best.joint, workspace, geometry);
   report.inliers = geometry.joint.lines.inliers;
   report.inlier_threshold_px = best.joint.robust_sigmas * geometry.joint.lines.rms;
   report.pose_iterations = geometry.joint.iterations;
   report.rim_points = geometry.joint.rims.inliers;
   return status;
+}
+
+Status refine_geometry(const ViewPair& views, const ReferenceCard& card, const JointParams& params,
+                       SceneGeometryWorkspace& workspace, SceneGeometry& geometry) {
+  std::array<JointDish, kMaxPlacedDishes> dishes;
+  for (std::size_t d = 0; d < geometry.dish_count; ++d) {
+    dishes[d] = {{workspace.outlines[d][0].items(), workspace.outlines[d][1].items()},
+                 geometry.dishes[d].candidates};
+  }
+  return refine_jointly(join(views, card, geometry.tracks, std::span(dishes).first(geometry.dish_count)),
+                        params, workspace.joint, geometry.joint);
+}
+
+double angle_between_views_deg(const TableCameras& camera_from_table, const Vec3& point_mm) {
+  const Vec3 first = (camera_centre_mm(camera_from_table[0]) - point_mm).normalized();
+  const Vec3 second = (camera_centre_mm(camera_from_table[1]) - point_mm).normalized();
+  return std::acos(std::clamp(first.dot(second), -1.0, 1.0)) * 180.0 / std::numbers::pi;
 }
 
 }  // namespace traygauge

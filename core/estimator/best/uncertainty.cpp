@@ -22,22 +22,6 @@ Vec3 triangulate(const TableCameras& cameras, const std::array<Vec3, 2>& rays) {
   return normal.inverse() * right;
 }
 
-// Variance of the height of a point that both cameras see, mm².
-double height_variance(const Vec3& point_mm, const TableCameras& cameras, const JointMatrix& covariance) {
-  constexpr double kTurnRad = 1e-5;
-  constexpr double kShiftMm = 1e-3;
-  const std::array<Vec3, 2> rays = {cameras[0] * point_mm, cameras[1] * point_mm};
-  Eigen::Matrix<double, 12, 1> slope;
-  for (int i = 0; i < 12; ++i) {
-    const double size = i % 6 < 3 ? kTurnRad : kShiftMm;
-    TableCameras stepped = cameras;
-    auto& camera = stepped[i < 6 ? 0 : 1];
-    camera = moved(camera, size * Eigen::Matrix<double, 6, 1>::Unit(i % 6));
-    slope[i] = (triangulate(stepped, rays).z() - point_mm.z()) / size;
-  }
-  return slope.dot(covariance.topLeftCorner<12, 12>() * slope);
-}
-
 // Outline of an area, were it round: items are compact.
 double outline_mm(double area_mm2) {
   return 2.0 * std::sqrt(std::numbers::pi * area_mm2);
@@ -45,13 +29,28 @@ double outline_mm(double area_mm2) {
 
 }  // namespace
 
+double height_sigma_mm(const Vec3& point_mm, const TableCameras& camera_from_table,
+                       const JointMatrix& covariance) {
+  constexpr double kTurnRad = 1e-5;
+  constexpr double kShiftMm = 1e-3;
+  const std::array<Vec3, 2> rays = {camera_from_table[0] * point_mm, camera_from_table[1] * point_mm};
+  Eigen::Matrix<double, 12, 1> slope;
+  for (int i = 0; i < 12; ++i) {
+    const double size = i % 6 < 3 ? kTurnRad : kShiftMm;
+    TableCameras stepped = camera_from_table;
+    auto& camera = stepped[i < 6 ? 0 : 1];
+    camera = moved(camera, size * Eigen::Matrix<double, 6, 1>::Unit(i % 6));
+    slope[i] = (triangulate(stepped, rays).z() - point_mm.z()) / size;
+  }
+  return std::sqrt(std::max(0.0, slope.dot(covariance.topLeftCorner<12, 12>() * slope)));
+}
+
 double estimate_sigma_ml(const UncertaintyInput& input, const TableCameras& camera_from_table,
                          const JointMatrix& covariance, const UncertaintyParams& params) {
   const HeightVolume& item = input.volume;
   if (!(item.area_mm2 > 0.0)) return 0.0;
   const double volume_mm3 = kMm3PerMl * item.column_volume_ml;
-  const double cameras_mm =
-      std::sqrt(std::max(0.0, height_variance(item.centre_mm, camera_from_table, covariance)));
+  const double cameras_mm = height_sigma_mm(item.centre_mm, camera_from_table, covariance);
   const double matching_mm = params.disparity_bias_px * input.height_per_px_mm;
   const double edge_mm3 =
       outline_mm(item.area_mm2) * params.outline_px * input.px_mm * 0.5 * item.mean_height_mm;

@@ -26,6 +26,10 @@ struct UncertaintyInput {
   double px_mm = 0.0;             // of the samples, on the dish
 };
 
+// Standard deviation of the height of a point that both cameras see, as far as the cameras' covariance goes.
+double height_sigma_mm(const Vec3& point_mm, const TableCameras& camera_from_table,
+                       const JointMatrix& covariance);
+
 // Standard deviation of the volume, ml.
 double estimate_sigma_ml(const UncertaintyInput& input, const TableCameras& camera_from_table,
                          const JointMatrix& covariance, const UncertaintyParams& params);

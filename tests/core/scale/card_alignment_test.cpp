@@ -82,6 +82,30 @@ TEST_F(CardAlignmentTest, AnyPoseIsFound) {
   }
 }
 
+// From afar and nearly from above, upright in the picture.
+Pose far_pose(std::uint64_t seed) {
+  cv::RNG random(seed);
+  const double distance_mm = random.uniform(600.0, 800.0);
+  const double tilt_deg = random.uniform(8.0, 25.0);
+  return look_at_card(kCard, distance_mm, tilt_deg, random.uniform(0.0, 360.0), 0.0, {800.0, 600.0});
+}
+
+// From there a card looks much the same from the other side of its normal.
+TEST_F(CardAlignmentTest, TheMirrorPoseIsNotTakenForTheCards) {
+  for (std::uint64_t seed = 1; seed <= 60; ++seed) {
+    const Pose pose = far_pose(seed);
+    expect_close(noisy(pose, seed, 0.6), pose, 0.1, 0.5, "seed " + std::to_string(seed));
+  }
+}
+
+// Stairs of the label that line up put two sides of the hull on one line.
+TEST_F(CardAlignmentTest, SidesThatAreOneAreFoundAsOne) {
+  for (const std::uint64_t seed : {158U, 180U, 194U, 220U, 315U}) {
+    const Pose pose = far_pose(seed);
+    expect_close(noisy(pose, seed, 0.6), pose, 0.1, 0.5, "seed " + std::to_string(seed));
+  }
+}
+
 TEST_F(CardAlignmentTest, InformationMatchesTheScatterOfPoses) {
   CardAlignmentParams params;
   params.refinement.systematic_px = 0.0;  // the render has none

@@ -10,12 +10,16 @@
 #include "core/surface/dish_outline.hpp"
 #include "tests/core/surface/block.hpp"
 #include "tests/core/surface/capture_scene.hpp"
+#include "tests/core/surface/edge_outlines.hpp"
 #include "tests/support/cameras.hpp"
 
 namespace traygauge {
 namespace {
 
 using testing::Allocated;
+using testing::camera_at;
+using testing::outline_of;
+using testing::two_cameras;
 
 constexpr double kFocalPx = 1388.0;
 
@@ -24,33 +28,6 @@ DishModel model_of(double width_mm, double depth_mm, double edge_mm) {
   model.outer_size_mm = {width_mm, depth_mm};
   model.rim_height_mm = edge_mm;
   return model;
-}
-
-// Looking at the origin from 500 mm.
-Pose camera_at(double tilt_deg, double azimuth_deg) {
-  const double degree = std::numbers::pi / 180.0;
-  return testing::camera_above(tilt_deg * degree, azimuth_deg * degree, 500.0);
-}
-
-TableCameras two_cameras() {
-  return {camera_at(8.0, 20.0), camera_at(24.0, 50.0)};
-}
-
-// The edge, `drop` lower where it is seen from outside.
-std::vector<Vec2> outline_of(const DishPlace& place, const Pose& camera, int points = 300) {
-  std::vector<Vec2> rays;
-  const Vec3 centre = camera_centre_mm(camera);
-  for (int i = 0; i < points; ++i) {
-    const double angle = 2.0 * std::numbers::pi * i / points;
-    const Eigen::Rotation2Dd turn(place.azimuth_rad);
-    const Vec2 flat = place.centre_mm + turn * Vec2(0.5 * place.size_mm[0] * std::cos(angle),
-                                                    0.5 * place.size_mm[1] * std::sin(angle));
-    const Vec2 outward = turn * Vec2(std::cos(angle) / place.size_mm[0], std::sin(angle) / place.size_mm[1]);
-    const bool is_from_outside = outward.dot(centre.head<2>() - flat) > 0.0;
-    const double height = place.edge_height_mm - (is_from_outside ? place.edge_drop_mm : 0.0);
-    rays.emplace_back((camera * Vec3(flat.x(), flat.y(), height)).hnormalized());
-  }
-  return rays;
 }
 
 class Placement : public ::testing::Test {

@@ -2,6 +2,7 @@
 
 #include <array>
 
+#include "core/estimator/best/dish_survey.hpp"
 #include "core/estimator/memory_report.hpp"
 
 // Weak: a test program may link core beside it, for what is not played here.
@@ -96,6 +97,22 @@ TRAYGAUGE_FAKE const Measurement& Estimator::estimate(std::uint64_t seed, StageT
 
 TRAYGAUGE_FAKE void Estimator::reset() {
   fake_estimator().views.clear();
+}
+
+// Enrolment is not played: its tests run the real one.
+TRAYGAUGE_FAKE std::size_t survey_bytes(const Configuration&) {
+  return 1;
+}
+
+TRAYGAUGE_FAKE DishSurveyor::DishSurveyor(std::span<std::byte>, const Configuration&, const DishSurveyParams&)
+    : status_(StatusCode::invalid_configuration) {}
+
+TRAYGAUGE_FAKE Status DishSurveyor::add_view(const ViewInput&) {
+  return status_;
+}
+
+TRAYGAUGE_FAKE const DishSurvey& DishSurveyor::survey(std::uint64_t) {
+  return survey_;
 }
 
 }  // namespace traygauge

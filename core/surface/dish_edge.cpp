@@ -1,0 +1,111 @@
+#include "core/surface/dish_edge.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace traygauge {
+namespace {
+
+// Of a dish that nothing is known of: these keep the problem regular, no more.
+constexpr double kFreeAzimuthSigmaRad = 0.5;
+constexpr double kFreeHeightSigmaMm = 100.0;
+constexpr double kFreeSizeSigmaMm = 500.0;
+constexpr int kLeastViewPoints = 3;  // times those of placement: both views are needed to tell a height
+
+double information(double sigma) {
+  return 1.0 / (sigma * sigma);
+}
+
+PlacePrior free_prior(const DishPlace& place, const DishPlacementParams& params) {
+  PlacePrior prior{as_vector(place), PlaceVector::Zero()};
+  prior.mean[kPlaceDrop] = params.edge_drop_mm;
+  prior.information[kPlaceAzimuth] = information(kFreeAzimuthSigmaRad);
+  prior.information[kPlaceHeight] = information(kFreeHeightSigmaMm);
+  prior.information.segment<2>(kPlaceSize).setConstant(information(kFreeSizeSigmaMm));
+  prior.information[kPlaceDrop] = information(params.edge_drop_sigma_mm);
+  return prior;
+}
+
+class EdgeSearch {
+ public:
+  EdgeSearch(const DishOutlines& outlines, const TableCameras& cameras, const FocalsPx& focals_px,
+             const DishPlacementParams& placement, DishPlacementWorkspace& workspace)
+      : outlines_(outlines),
+        cameras_(cameras),
+        focals_px_(focals_px),
+        placement_(placement),
+        workspace_(workspace),
+        step_(outline_step(outlines, placement.max_view_points)) {}
+
+  // The level on which both outlines agree best.
+  bool find_level(const DishEdgeParams& params, DishPlace& best) const {
+    double least = kUnseenPlace;
+    const double step_mm = std::max(params.level_step_mm, 0.1);
+    for (double level_mm = params.lowest_mm; level_mm <= params.highest_mm; level_mm += step_mm) {
+      DishPlace place;
+      if (!guess_place(outlines_, cameras_, level_mm, step_, workspace_, place)) continue;
+      place.edge_drop_mm = placement_.edge_drop_mm;
+      const PlacePrior prior = free_prior(place, placement_);
+      const double cost = problem(prior, placement_.first_robust_scales_px[1]).cost(place);
+      if (!(cost < least)) continue;
+      least = cost;
+      best = place;
+    }
+    return least < kUnseenPlace;
+  }
+
+  // Robust least squares over all that the outlines fix.
+  void refine(DishPlace& place) const {
+    for (const double scale_px : placement_.first_robust_scales_px) fit(scale_px, place);
+    OutlineFit unused;
+    fit(robust_scale_px(outlines_, cameras_, focals_px_, place, placement_, workspace_, unused), place);
+  }
+
+  // Both views' points lie on the place.
+  bool agrees(const DishPlace& place) const {
+    for (std::size_t view = 0; view < 2; ++view) {
+      DishOutlines alone;
+      alone[view] = outlines_[view];
+      OutlineFit fit;
+      robust_scale_px(alone, cameras_, focals_px_, place, placement_, workspace_, fit);
+      if (fit.inliers < placement_.min_inlier_share * fit.points || fit.rms_px > placement_.max_rms_px)
+        return false;
+    }
+    return true;
+  }
+
+ private:
+  PlacementProblem problem(const PlacePrior& prior, double scale_px) const {
+    return {outlines_, cameras_, focals_px_, prior, placement_.point_sigma_px, scale_px, step_};
+  }
+  void fit(double scale_px, DishPlace& place) const {
+    LevenbergMarquardtParams search;
+    search.max_iterations = placement_.iterations;
+    const PlacePrior prior = free_prior(place, placement_);
+    minimise<kPlaceParameters>(problem(prior, scale_px), search, place);
+  }
+
+  const DishOutlines& outlines_;
+  const TableCameras& cameras_;
+  const FocalsPx& focals_px_;
+  const DishPlacementParams& placement_;
+  DishPlacementWorkspace& workspace_;
+  std::size_t step_;
+};
+
+}  // namespace
+
+Status measure_dish_edge(const DishOutlines& outlines, const TableCameras& cameras, const FocalsPx& focals_px,
+                         const DishPlacementParams& placement, const DishEdgeParams& params,
+                         DishPlacementWorkspace& workspace, DishPlace& place) {
+  place = {};
+  const auto least = static_cast<std::size_t>(std::max(placement.min_view_points, 1) * kLeastViewPoints);
+  if (outlines[0].size() < least || outlines[1].size() < least) return StatusCode::rim_not_found;
+  const EdgeSearch search(outlines, cameras, focals_px, placement, workspace);
+  if (!search.find_level(params, place)) return StatusCode::rim_not_found;
+  search.refine(place);
+  if (!as_vector(place).allFinite()) return StatusCode::rim_not_found;
+  return search.agrees(place) ? StatusCode::ok : StatusCode::labels_inconsistent;
+}
+
+}  // namespace traygauge

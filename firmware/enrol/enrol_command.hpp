@@ -1,0 +1,28 @@
+// `traygauge enrol-dish`.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <iosfwd>
+#include <string>
+
+namespace traygauge {
+
+// As typed; empty where not given.
+struct EnrolOptions {
+  std::string capture;
+  std::string style;
+  std::string out;
+  std::string pair;
+  std::string seed;
+  std::string config;
+  bool force = false;
+  bool json = false;
+};
+
+void add_enrol_command(CLI::App& app, EnrolOptions& options);
+
+// Returns the exit status: 0 when the dish was written, 1 when it was not measurable. Throws UsageError,
+// InputError, OutputError.
+int run_enrol(const EnrolOptions& options, std::ostream& out);
+
+}  // namespace traygauge
