@@ -30,9 +30,8 @@ struct Gap {
   int end;
 };
 
-// Where an item's gap reaches its border with the dish it has fallen from its last known height to this
-// share.
-void fill_gap(Disparity* row, const std::uint8_t* labels, int width, Gap gap, int one_surface,
+// The first view's camera stands towards the larger columns: that way lie the flanks that it alone sees.
+void fill_gap(Disparity* row, const std::uint8_t* labels, int width, Gap gap, int sign, int one_surface,
               const ConsistencyParams& params) {
   const bool item = is_item(labels[gap.first]);
   int left_at = 0;
@@ -41,11 +40,12 @@ void fill_gap(Disparity* row, const std::uint8_t* labels, int width, Gap gap, in
   int right = find_known(row, labels, width, gap.end - 1, 1, item, right_at);
   if (left == kNoDisparity && right == kNoDisparity) return;
   const bool at_border = left == kNoDisparity || right == kNoDisparity;
-  const auto fallen = [&](int known) {
-    return item && known > 0 ? static_cast<int>(params.border_share * known) : known;
+  const auto fallen = [&](int known, int side) {
+    const double share = side == sign ? params.own_border_share : params.far_border_share;
+    return item && known > 0 ? static_cast<int>(share * known) : known;
   };
-  if (left == kNoDisparity) left = fallen(right);
-  if (right == kNoDisparity) right = fallen(left);
+  if (left == kNoDisparity) left = fallen(right, -1);
+  if (right == kNoDisparity) right = fallen(left, 1);
   const int lower = std::min(left, right);
   const bool one = at_border || std::abs(left - right) <= one_surface;
   const double above_lower = one ? 1.0 : item ? params.chord_share : 0.0;
@@ -73,7 +73,7 @@ void keep_consistent(ImageView<const Disparity> own, ImageView<const Disparity> 
   }
 }
 
-void fill_gaps(ImageView<const std::uint8_t> labels, const ConsistencyParams& params,
+void fill_gaps(ImageView<const std::uint8_t> labels, int sign, const ConsistencyParams& params,
                ImageView<Disparity> disparity) {
   const int one_surface = static_cast<int>(std::lround(params.same_surface_px * kDisparityScale));
   for (int y = 0; y < disparity.height; ++y) {
@@ -87,7 +87,7 @@ void fill_gaps(ImageView<const std::uint8_t> labels, const ConsistencyParams& pa
       }
       int end = x + 1;  // of the gap
       while (end < disparity.width && label[end] == label[x] && row[end] == kNoDisparity) ++end;
-      fill_gap(row, label, disparity.width, {x, end}, one_surface, params);
+      fill_gap(row, label, disparity.width, {x, end}, sign, one_surface, params);
       x = end;
     }
   }

@@ -185,7 +185,7 @@ void prepare_surfaces(TwoViewSurfaceWorkspace& workspace, std::size_t level,
         trusted.at(x, y) = filtered.at(x >> level, y >> level) == kNoDisparity ? 0 : 1;
       }
     }
-    fill_gaps(views[v].labels[level], params.consistency, filtered);
+    fill_gaps(views[v].labels[level], v == 0 ? 1 : -1, params.consistency, filtered);
     extend_known(filtered);
     const ImageView<float> surface = as_picture(views[v].surface, full);
     const double scale = static_cast<double>(1 << level) / kDisparityScale;

@@ -26,9 +26,9 @@ Row keep(const Row& own, const Row& other, int sign, const ConsistencyParams& pa
   return kept;
 }
 
-Row fill(const Labels& labels, Row row, const ConsistencyParams& params = {}) {
+Row fill(const Labels& labels, Row row, const ConsistencyParams& params = {}, int sign = 1) {
   const auto width = static_cast<int>(row.size());
-  fill_gaps({labels.data(), width, 1}, params, {row.data(), width, 1});
+  fill_gaps({labels.data(), width, 1}, sign, params, {row.data(), width, 1});
   return row;
 }
 
@@ -171,7 +171,7 @@ TEST(FillGaps, OneSurfaceOrTwoIsDecidedByTheirDifference) {
 // Known up to column 0 or 5, the outline at column 5 or 0.
 TEST(FillGaps, HiddenFlanksFallTowardsTheOutline) {
   ConsistencyParams params;
-  params.border_share = 0.5;
+  params.own_border_share = params.far_border_share = 0.5;
   const Row right{px(20), px(18), px(16), px(14), px(12), px(3)};
   EXPECT_EQ(fill({2, 2, 2, 2, 2, 1}, {px(20), kNone, kNone, kNone, kNone, px(3)}, params), right);
   EXPECT_EQ(fill({1, 2, 2, 2, 2, 2}, {px(3), kNone, kNone, kNone, kNone, px(20)}, params),
@@ -183,6 +183,23 @@ TEST(FillGaps, HiddenFlanksFallTowardsTheOutline) {
   EXPECT_EQ(fill({2, 2, 2, 2, 2, 1}, {px(20), kNone, kNone, kNone, kNone, px(3)})[4],
             px(20) - px(20) * 7 / 10 * 4 / 5)
       << "to 0.3 of its height";
+}
+
+// The first view alone sees the flanks towards the larger columns, the second those towards the smaller.
+TEST(FillGaps, FlanksOnTheFarSideFallLess) {
+  ConsistencyParams params;
+  params.own_border_share = 0.0;
+  params.far_border_share = 1.0;
+  const Row own{px(20), px(15), px(10), px(5), px(3)};
+  const Row far{px(20), px(20), px(20), px(20), px(3)};
+  const Labels on_right{2, 2, 2, 2, 1};
+  const Labels on_left{1, 2, 2, 2, 2};
+  const Row known_left{px(20), kNone, kNone, kNone, px(3)};
+  const Row known_right{px(3), kNone, kNone, kNone, px(20)};
+  EXPECT_EQ(fill(on_right, known_left, params, 1), own);
+  EXPECT_EQ(fill(on_right, known_left, params, -1), far);
+  EXPECT_EQ(fill(on_left, known_right, params, -1), Row(own.rbegin(), own.rend()));
+  EXPECT_EQ(fill(on_left, known_right, params, 1), Row(far.rbegin(), far.rend()));
 }
 
 // Below the plane of disparity 0 there is nothing to fall to.
