@@ -204,12 +204,12 @@ Status Estimator::set_matches(std::span<const GivenMatch> matches,
   return StatusCode::ok;
 }
 
-const Measurement& Estimator::estimate(std::uint64_t seed) {
+const Measurement& Estimator::estimate(std::uint64_t seed, StageTap* tap) {
   measurement_ = {};
   measurement_.status = status_;
   if (!status_.ok()) return measurement_;
   StageClock clock = state_->preparation_clock;
-  run_measurement(*state_, seed, clock, measurement_);
+  run_measurement(*state_, seed, tap, clock, measurement_);
   clock.stop();
   measurement_.stage_ms = clock.stage_ms();
   measurement_.total_ms = clock.total_ms();

@@ -42,6 +42,7 @@ struct EstimatorState {
 };
 
 // From both prepared views to the volumes (paper Fig. 2). Fills everything but the times.
-void run_measurement(EstimatorState& state, std::uint64_t seed, StageClock& clock, Measurement& measurement);
+void run_measurement(EstimatorState& state, std::uint64_t seed, StageTap* tap, StageClock& clock,
+                     Measurement& measurement);
 
 }  // namespace traygauge

@@ -1,5 +1,7 @@
 #include "core/estimator/measurement.hpp"
 
+#include <algorithm>
+
 namespace traygauge {
 namespace {
 
@@ -43,6 +45,13 @@ const char* name(Warning warning) {
 }
 const char* sentence(Warning warning) {
   return kWarnings[static_cast<std::size_t>(warning)].sentence;
+}
+
+Status summarise(std::span<const ItemResult> items) {
+  const auto is_measured = [](const ItemResult& item) { return item.status == StatusCode::ok; };
+  const auto measured = std::count_if(items.begin(), items.end(), is_measured);
+  if (measured == static_cast<std::ptrdiff_t>(items.size())) return StatusCode::ok;
+  return measured > 0 ? StatusCode::partial : items.front().status;
 }
 
 }  // namespace traygauge

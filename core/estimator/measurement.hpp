@@ -69,6 +69,9 @@ struct ItemResult {
 
 inline constexpr std::size_t kMaxItems = 198;  // labels 2…199
 
+// ok when all items are, partial when some are, else the first one's status.
+Status summarise(std::span<const ItemResult> items);
+
 // What the pictures are like; see core/estimator/view_checks.hpp.
 struct PictureReport {
   std::array<double, 2> blur_px{};
@@ -95,14 +98,13 @@ struct MeasurementReport {
   double rim_height_mm = 0.0;  // measured, above the table
   double rim_rms_px = 0.0;     // profile best: of the outlines' points on the rim
   double rim_inlier_share = 0.0;
-  double food_agreement = 0.0;  // profile best: share of food whose label the other view confirms
-  int dish_index = -1;          // among the candidates of the configuration
+  int dish_index = -1;  // among the candidates of the configuration
   int rectified_rows = 0;
   int rectified_columns = 0;
   DisparityRange disparity_range;
   double matched_share = 0.0;  // of the dish's pixels that got a depth
   PictureReport pictures;
-  double label_agreement = 0.0;  // share of food pixels with the same label in both views
+  double label_agreement = 0.0;  // share of the food whose label the other view confirms
 };
 
 // What was measured on one dish, in the table frame.
@@ -140,6 +142,8 @@ struct Measurement {
   std::array<bool, kWarningCount> warnings{};
   MeasurementReport report;
   MeasurementViews views;
+
+  void warn(Warning warning, bool on) { warnings[static_cast<std::size_t>(warning)] = on; }
 };
 
 }  // namespace traygauge

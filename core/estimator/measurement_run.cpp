@@ -74,9 +74,6 @@ void show_pictures(EstimatorState& state, MeasurementViews& views) {
 }
 
 void warn_about_views(const EstimatorState& state, Measurement& measurement) {
-  const auto warn = [&](Warning warning, bool on) {
-    measurement.warnings[static_cast<std::size_t>(warning)] = on;
-  };
   const Extrinsics& extrinsics = state.extrinsics;
   const ViewGeometryParams& params = state.configuration.geometry;
   const auto& views = state.memory.views;
@@ -85,17 +82,11 @@ void warn_about_views(const EstimatorState& state, Measurement& measurement) {
     return static_cast<double>(view.keypoints.size()) <
            min_kept_share * static_cast<double>(view.keypoints_found);
   };
-  warn(Warning::keypoints_capped, is_crowded(views[0]) || is_crowded(views[1]));
-  warn(Warning::matches_capped, extrinsics.matches_capped);
-  warn(Warning::pose_from_card, extrinsics.pose_from_card);
-  warn(Warning::few_card_points, measurement.report.card_tracks < params.few_card_tracks);
-  warn(Warning::angle_small, measurement.relative_angle_deg < params.small_angle_deg);
-  warn(Warning::angle_large, measurement.relative_angle_deg > params.large_angle_deg);
-  if (views[0].arm_angle_deg && views[1].arm_angle_deg) {
-    const double commanded_deg = std::abs(*views[1].arm_angle_deg - *views[0].arm_angle_deg);
-    warn(Warning::arm_angle_disagrees,
-         std::abs(commanded_deg - measurement.rotation_angle_deg) > params.max_arm_deviation_deg);
-  }
+  measurement.warn(Warning::keypoints_capped, is_crowded(views[0]) || is_crowded(views[1]));
+  measurement.warn(Warning::matches_capped, extrinsics.matches_capped);
+  measurement.warn(Warning::pose_from_card, extrinsics.pose_from_card);
+  measurement.warn(Warning::few_card_points, measurement.report.card_tracks < params.few_card_tracks);
+  warn_about_angles(views[0].arm_angle_deg, views[1].arm_angle_deg, params, measurement);
 }
 
 Status calibrate(EstimatorState& state, Random& random, StageClock& clock, Measurement& measurement) {
@@ -117,18 +108,11 @@ Status calibrate(EstimatorState& state, Random& random, StageClock& clock, Measu
   return StatusCode::ok;
 }
 
-Status compare_pictures(const EstimatorState& state, Measurement& measurement) {
-  const ViewCheckParams& params = state.configuration.view_checks;
-  const ViewQuality& first = state.memory.views[0].quality();
-  const ViewQuality& second = state.memory.views[1].quality();
-  const ColourDifference difference = compare_colours(first.colours, second.colours, params.colours);
-  report_pictures(first, second, difference, params, measurement.report.pictures);
-  warn_about_pictures(first, second, difference, params, measurement.warnings);
-  return judge_pair(difference, params);
-}
-
 Status measure_views(EstimatorState& state, std::uint64_t seed, StageClock& clock, Measurement& measurement) {
-  if (const Status status = compare_pictures(state, measurement); !status.ok()) return status;
+  const auto& prepared = state.memory.views;
+  const Status pictures = compare_pictures(prepared[0].quality(), prepared[1].quality(),
+                                           state.configuration.view_checks, measurement);
+  if (!pictures.ok()) return pictures;
   Random random(seed);
   if (const Status status = calibrate(state, random, clock, measurement); !status.ok()) return status;
   const LinesOfSight lines = look_from_dish(state.worked_view(0), state.worked_view(1), state.extrinsics);
@@ -152,40 +136,42 @@ Status measure_views(EstimatorState& state, std::uint64_t seed, StageClock& cloc
   status = find_dish_bottom(pair, table, state.configuration, random, state.memory.extraction,
                             measurement.report, views);
   if (!status.ok()) return status;
-  measurement.warnings[static_cast<std::size_t>(Warning::dish_guessed)] =
-      state.configuration.dishes.size() > 1;
+  measurement.warn(Warning::dish_guessed, state.configuration.dishes.size() > 1);
   return extract_volumes(pair, state.configuration, state.memory.extraction, clock, views);
+}
+
+void report_keypoints(const EstimatorState& state, MeasurementReport& report) {
+  for (std::size_t i = 0; i < 2; ++i) {
+    report.keypoints[i] = static_cast<int>(state.memory.views[i].keypoints.size());
+    report.keypoints_found[i] = static_cast<int>(state.memory.views[i].keypoints_found);
+  }
+}
+
+Status check_views(const EstimatorState& state) {
+  if (state.views > 0 && !state.views_status.ok()) return state.views_status;
+  return state.views == 2 ? StatusCode::ok : StatusCode::frame_missing;
+}
+
+void run_paper(EstimatorState& state, std::uint64_t seed, StageClock& clock, Measurement& measurement) {
+  state.memory.extraction.items.clear();
+  show_pictures(state, measurement.views);
+  measurement.status = measure_views(state, seed, clock, measurement);
+  measurement.items = state.memory.extraction.items.items();
 }
 
 }  // namespace
 
-void run_measurement(EstimatorState& state, std::uint64_t seed, StageClock& clock, Measurement& measurement) {
-  const Configuration& configuration = state.configuration;
-  if (configuration.profile == Profile::best) {
-    if (state.views > 0 && !state.views_status.ok()) {
-      measurement.status = state.views_status;
-    } else if (state.views != 2) {
-      measurement.status = StatusCode::frame_missing;
-    } else {
-      run_best(state.best, configuration, seed, clock, measurement);
-    }
-    return;
-  }
-  state.memory.extraction.items.clear();
-  for (int i = 0; i < 2; ++i) {
-    const auto k = static_cast<std::size_t>(i);
-    measurement.report.keypoints[k] = static_cast<int>(state.view(i).keypoints.size());
-    measurement.report.keypoints_found[k] = static_cast<int>(state.view(i).keypoints_found);
-  }
-  if (state.views > 0 && !state.views_status.ok()) {
-    measurement.status = state.views_status;
-  } else if (state.views != 2) {
-    measurement.status = StatusCode::frame_missing;
+void run_measurement(EstimatorState& state, std::uint64_t seed, StageTap* tap, StageClock& clock,
+                     Measurement& measurement) {
+  const bool is_best = state.configuration.profile == Profile::best;
+  if (!is_best) report_keypoints(state, measurement.report);
+  measurement.status = check_views(state);
+  if (!measurement.status.ok()) return;
+  if (is_best) {
+    run_best(state.best, state.configuration, seed, tap, clock, measurement);
   } else {
-    show_pictures(state, measurement.views);
-    measurement.status = measure_views(state, seed, clock, measurement);
+    run_paper(state, seed, clock, measurement);
   }
-  measurement.items = state.memory.extraction.items.items();
 }
 
 }  // namespace traygauge

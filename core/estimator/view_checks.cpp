@@ -46,6 +46,51 @@ double textured_share(std::uint8_t label, const ViewQuality& first, const ViewQu
   return share;
 }
 
+void report_pictures(const ViewQuality& first, const ViewQuality& second, const ColourDifference& difference,
+                     const ViewCheckParams& params, PictureReport& report) {
+  report.blur_px = {first.card_edges.sigma_px, second.card_edges.sigma_px};
+  report.visible_card_share = {first.visible_card_share, second.visible_card_share};
+  report.card_white = {first.card_edges.bright, second.card_edges.bright};
+  report.exposure_ratio = difference.exposure_ratio;
+  report.white_balance_ratio = difference.white_balance_ratio;
+  report.most_clipped_share = 0.0;
+  report.least_textured_share = 1.0;
+  for (int value = kFirstItemLabel; value <= kLastItemLabel; ++value) {
+    const auto label = static_cast<std::uint8_t>(value);
+    report.most_clipped_share = std::max(report.most_clipped_share, clipped_share(label, first, second));
+    report.least_textured_share = std::min(report.least_textured_share,
+                                           textured_share(label, first, second, params.min_texture_blocks));
+  }
+}
+
+void warn_about_pictures(const ViewQuality& first, const ViewQuality& second, const ViewCheckParams& params,
+                         Measurement& measurement) {
+  const PictureReport& report = measurement.report.pictures;
+  const auto either = [&](auto is_doubtful) { return is_doubtful(first) || is_doubtful(second); };
+  measurement.warn(Warning::blurred, either([&](const ViewQuality& view) {
+                     return is_blurred(view, params.blur_warning_px, params.blur_warning_mm);
+                   }));
+  measurement.warn(Warning::underexposed, either([&](const ViewQuality& view) {
+                     return is_darker(view, params.underexposed_white);
+                   }));
+  measurement.warn(Warning::card_partly_hidden, either([&](const ViewQuality& view) {
+                     return is_covered(view, params.visible_card_warning);
+                   }));
+  measurement.warn(Warning::food_clipped, report.most_clipped_share > params.clipped_warning);
+  measurement.warn(Warning::little_texture, report.least_textured_share < params.textured_warning);
+  measurement.warn(Warning::exposure_differs, report.exposure_ratio > params.exposure_ratio_warning);
+  measurement.warn(Warning::white_balance_differs,
+                   report.white_balance_ratio > params.white_balance_ratio_warning);
+}
+
+Status judge_pair(const ColourDifference& difference, const ViewCheckParams& params) {
+  if (difference.exposure_ratio > params.max_exposure_ratio) return StatusCode::exposure_differs;
+  if (difference.white_balance_ratio > params.max_white_balance_ratio) {
+    return StatusCode::white_balance_differs;
+  }
+  return StatusCode::ok;
+}
+
 }  // namespace
 
 void assess_view(const CheckedView& view, const CardSize& card, const ViewCheckParams& params,
@@ -73,14 +118,6 @@ Status judge_view(const ViewQuality& quality, const ViewCheckParams& params) {
   return StatusCode::ok;
 }
 
-Status judge_pair(const ColourDifference& difference, const ViewCheckParams& params) {
-  if (difference.exposure_ratio > params.max_exposure_ratio) return StatusCode::exposure_differs;
-  if (difference.white_balance_ratio > params.max_white_balance_ratio) {
-    return StatusCode::white_balance_differs;
-  }
-  return StatusCode::ok;
-}
-
 StatusCode judge_item_pixels(std::uint8_t label, const ViewQuality& first, const ViewQuality& second,
                              const ViewCheckParams& params) {
   if (clipped_share(label, first, second) > params.max_clipped) return StatusCode::item_clipped;
@@ -90,41 +127,12 @@ StatusCode judge_item_pixels(std::uint8_t label, const ViewQuality& first, const
   return StatusCode::ok;
 }
 
-void warn_about_pictures(const ViewQuality& first, const ViewQuality& second,
-                         const ColourDifference& difference, const ViewCheckParams& params,
-                         std::array<bool, kWarningCount>& warnings) {
-  PictureReport report;
-  report_pictures(first, second, difference, params, report);
-  const auto warn = [&](Warning warning, bool on) { warnings[static_cast<std::size_t>(warning)] = on; };
-  const auto either = [&](auto is_doubtful) { return is_doubtful(first) || is_doubtful(second); };
-  warn(Warning::blurred, either([&](const ViewQuality& view) {
-         return is_blurred(view, params.blur_warning_px, params.blur_warning_mm);
-       }));
-  warn(Warning::underexposed,
-       either([&](const ViewQuality& view) { return is_darker(view, params.underexposed_white); }));
-  warn(Warning::card_partly_hidden,
-       either([&](const ViewQuality& view) { return is_covered(view, params.visible_card_warning); }));
-  warn(Warning::food_clipped, report.most_clipped_share > params.clipped_warning);
-  warn(Warning::little_texture, report.least_textured_share < params.textured_warning);
-  warn(Warning::exposure_differs, difference.exposure_ratio > params.exposure_ratio_warning);
-  warn(Warning::white_balance_differs, difference.white_balance_ratio > params.white_balance_ratio_warning);
-}
-
-void report_pictures(const ViewQuality& first, const ViewQuality& second, const ColourDifference& difference,
-                     const ViewCheckParams& params, PictureReport& report) {
-  report.blur_px = {first.card_edges.sigma_px, second.card_edges.sigma_px};
-  report.visible_card_share = {first.visible_card_share, second.visible_card_share};
-  report.card_white = {first.card_edges.bright, second.card_edges.bright};
-  report.exposure_ratio = difference.exposure_ratio;
-  report.white_balance_ratio = difference.white_balance_ratio;
-  report.most_clipped_share = 0.0;
-  report.least_textured_share = 1.0;
-  for (int value = kFirstItemLabel; value <= kLastItemLabel; ++value) {
-    const auto label = static_cast<std::uint8_t>(value);
-    report.most_clipped_share = std::max(report.most_clipped_share, clipped_share(label, first, second));
-    report.least_textured_share = std::min(report.least_textured_share,
-                                           textured_share(label, first, second, params.min_texture_blocks));
-  }
+Status compare_pictures(const ViewQuality& first, const ViewQuality& second, const ViewCheckParams& params,
+                        Measurement& measurement) {
+  const ColourDifference difference = compare_colours(first.colours, second.colours, params.colours);
+  report_pictures(first, second, difference, params, measurement.report.pictures);
+  warn_about_pictures(first, second, params, measurement);
+  return judge_pair(difference, params);
 }
 
 }  // namespace traygauge

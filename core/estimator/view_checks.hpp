@@ -3,7 +3,6 @@
 // a refusal.
 #pragma once
 
-#include <array>
 #include <cstdint>
 
 #include "core/base/status.hpp"
@@ -99,20 +98,13 @@ void assess_view(const CheckedView& view, const CardSize& card, const ViewCheckP
 // too_blurred, card_hidden, frame_too_dark, or ok.
 Status judge_view(const ViewQuality& quality, const ViewCheckParams& params);
 
-// exposure_differs, white_balance_differs, or ok.
-Status judge_pair(const ColourDifference& difference, const ViewCheckParams& params);
-
 // item_clipped or item_textureless in either view, or ok.
 StatusCode judge_item_pixels(std::uint8_t label, const ViewQuality& first, const ViewQuality& second,
                              const ViewCheckParams& params);
 
-// The doubts that these numbers raise; leaves the other warnings alone.
-void warn_about_pictures(const ViewQuality& first, const ViewQuality& second,
-                         const ColourDifference& difference, const ViewCheckParams& params,
-                         std::array<bool, kWarningCount>& warnings);
-
-// The figures of both views into the report.
-void report_pictures(const ViewQuality& first, const ViewQuality& second, const ColourDifference& difference,
-                     const ViewCheckParams& params, PictureReport& report);
+// Both views' figures into the report, and the warnings that they raise. exposure_differs,
+// white_balance_differs, or ok.
+Status compare_pictures(const ViewQuality& first, const ViewQuality& second, const ViewCheckParams& params,
+                        Measurement& measurement);
 
 }  // namespace traygauge

@@ -1,13 +1,8 @@
 #include "core/estimator/view_input.hpp"
 
+#include <cmath>
+
 namespace traygauge {
-namespace {
-
-bool touches_edge(const PixelBox& box, int width, int height) {
-  return !box.empty() && (box.left == 0 || box.top == 0 || box.right == width || box.bottom == height);
-}
-
-}  // namespace
 
 Status check_sizes(const FrameView& frame, ImageView<const std::uint8_t> labels, const LensModel& lens,
                    const EstimatorLimits& limits) {
@@ -20,24 +15,34 @@ Status check_sizes(const FrameView& frame, ImageView<const std::uint8_t> labels,
                                                                       : StatusCode::labels_size_mismatch;
 }
 
-Status check_labels(const LabelRegions& regions, ImageView<const std::uint8_t> labels) {
+Status check_labels(const LabelRegions& regions) {
   bool has_dish = false;
   bool has_food = false;
   for (std::size_t value = kDishLabel; value <= kLastFurtherDishLabel; ++value) {
     const auto label = static_cast<std::uint8_t>(value);
-    if (regions.pixels[value] == 0 || (!is_dish(label) && !is_item(label))) continue;
-    has_dish = has_dish || is_dish(label) || is_item(label);
+    if (regions.pixels[value] == 0) continue;
+    has_dish = has_dish || is_dish(label);
     has_food = has_food || is_item(label);
   }
-  if (!has_dish) return StatusCode::no_dish_label;
-  if (!has_food) return StatusCode::no_food_label;
-  return touches_edge(regions.dish, labels.width, labels.height) ? StatusCode::dish_cut_off : StatusCode::ok;
+  if (!has_food) return has_dish ? StatusCode::no_food_label : StatusCode::no_dish_label;
+  return regions.touches_edge(regions.dish) ? StatusCode::dish_cut_off : StatusCode::ok;
 }
 
 Status check_angle(double relative_angle_deg, const ViewGeometryParams& params) {
   if (relative_angle_deg < params.min_angle_deg) return StatusCode::views_too_close;
   if (relative_angle_deg > params.max_angle_deg) return StatusCode::views_too_far_apart;
   return StatusCode::ok;
+}
+
+void warn_about_angles(const std::optional<double>& first_arm_angle_deg,
+                       const std::optional<double>& second_arm_angle_deg, const ViewGeometryParams& params,
+                       Measurement& measurement) {
+  measurement.warn(Warning::angle_small, measurement.relative_angle_deg < params.small_angle_deg);
+  measurement.warn(Warning::angle_large, measurement.relative_angle_deg > params.large_angle_deg);
+  if (!first_arm_angle_deg || !second_arm_angle_deg) return;
+  const double commanded_deg = std::abs(*second_arm_angle_deg - *first_arm_angle_deg);
+  measurement.warn(Warning::arm_angle_disagrees,
+                   std::abs(commanded_deg - measurement.rotation_angle_deg) > params.max_arm_deviation_deg);
 }
 
 }  // namespace traygauge

@@ -2,9 +2,11 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
 #include "core/base/status.hpp"
 #include "core/estimator/configuration.hpp"
+#include "core/estimator/measurement.hpp"
 #include "core/image/camera.hpp"
 #include "core/image_view/image_view.hpp"
 #include "core/segmentation/label_regions.hpp"
@@ -16,9 +18,15 @@ Status check_sizes(const FrameView& frame, ImageView<const std::uint8_t> labels,
                    const EstimatorLimits& limits);
 
 // no_dish_label, no_food_label, or dish_cut_off when a dish touches the picture's edge.
-Status check_labels(const LabelRegions& regions, ImageView<const std::uint8_t> labels);
+Status check_labels(const LabelRegions& regions);
 
 // views_too_close or views_too_far_apart.
 Status check_angle(double relative_angle_deg, const ViewGeometryParams& params);
+
+// The doubts that the angles of `measurement` raise, among themselves and against the arm's where both are
+// known.
+void warn_about_angles(const std::optional<double>& first_arm_angle_deg,
+                       const std::optional<double>& second_arm_angle_deg, const ViewGeometryParams& params,
+                       Measurement& measurement);
 
 }  // namespace traygauge

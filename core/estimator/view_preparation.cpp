@@ -66,7 +66,7 @@ Status prepare_picture(const FrameView& frame, const Configuration& configuratio
   Status status = check_sizes(frame, view.labels, view.lens, configuration.limits);
   if (!status.ok()) return status;
   view.regions = measure_regions(view.labels);
-  status = check_labels(view.regions, view.labels);
+  status = check_labels(view.regions);
   if (!status.ok()) return status;
 
   workspace.frame_gray = {workspace.gray.data, frame.width, frame.height};

@@ -61,13 +61,6 @@ StatusCode judge_item(std::uint8_t label, const ReferencePair& pair, const FoodM
   return volume.volume_ml > 0.0 ? StatusCode::ok : StatusCode::item_below_dish;
 }
 
-Status summarise(std::span<const ItemResult> items) {
-  const auto is_measured = [](const ItemResult& item) { return item.status == StatusCode::ok; };
-  const auto measured = std::count_if(items.begin(), items.end(), is_measured);
-  if (measured == static_cast<std::ptrdiff_t>(items.size())) return StatusCode::ok;
-  return measured > 0 ? StatusCode::partial : items.front().status;
-}
-
 }  // namespace
 
 Status find_dish_bottom(const ReferencePair& pair, const TableReference& table,

@@ -3,8 +3,8 @@
 #include <array>
 #include <cstring>
 
+#include "core/base/lanes.hpp"
 #include "core/features/gaussian.hpp"
-#include "core/matching/lanes.hpp"
 #include "core/matching/patch_sampling.hpp"
 
 namespace traygauge {

@@ -4,9 +4,9 @@
 #include <cstdint>
 
 #include "core/base/geometry.hpp"
+#include "core/base/lanes.hpp"
 #include "core/image_view/image_view.hpp"
 #include "core/matching/alignment_equations.hpp"
-#include "core/matching/lanes.hpp"
 
 namespace traygauge {
 

@@ -102,8 +102,8 @@ class CorrectionProblem {
     return result;
   }
 
-  // x₂ · (t × y) over its gradient's length, y = R x₁ and (R, t) second_from_first; the length counts as
-  // constant.
+  // x₂ · (t × y) over its gradient's length, y = R x₁ and (R, t) second_from_first. The length varies with t:
+  // were it held, a shorter motion would seem to bring points nearer to their lines.
   PointResiduals line_residual(const SeenPoint& point, const Pose& second_from_table,
                                const Pose& second_from_first) const {
     PointResiduals result;
@@ -113,13 +113,15 @@ class CorrectionProblem {
     const double length = line.head<2>().norm();
     if (!(length > 0.0)) return result;
     const double scale = focal_px_ / length;
-    const Vec3 by_translation = scale * y.cross(x2);
+    // x₂'s foot on the line: r = s/l moves by (ds − r dl)/l, which is ds/l taken at the foot.
+    const Vec3 foot = x2 - x2.dot(line) / (length * length) * Vec3(line.x(), line.y(), 0.0);
+    const Vec3 by_translation = scale * y.cross(foot);
     // t = t₂ + turn × (R t₁) …: what of t turns with the second camera.
     const Vec3 turned = second_from_first.translation - second_from_table.translation;
     result.count = 1;
     result.values_px[0] = scale * x2.dot(line);
     result.jacobians[0].head<3>() =
-        scale * y.cross(x2.cross(second_from_first.translation)) + turned.cross(by_translation);
+        scale * y.cross(foot.cross(second_from_first.translation)) + turned.cross(by_translation);
     result.jacobians[0].tail<3>() = by_translation;
     return result;
   }

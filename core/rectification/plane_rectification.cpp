@@ -70,12 +70,12 @@ bool is_usable(const StoredView& view) {
 
 }  // namespace
 
-LabelTable labels_on_dish(std::uint8_t dish_label) {
+LabelTable labels_on_dish(const LabelSet& on_dish) {
   LabelTable kept{};
-  for (int label = kFirstItemLabel; label <= kLastItemLabel; ++label) {
-    kept[static_cast<std::size_t>(label)] = static_cast<std::uint8_t>(label);
+  for (std::size_t value = 0; value < kept.size(); ++value) {
+    const auto label = static_cast<std::uint8_t>(value);
+    if (on_dish.contains(label)) kept[value] = is_dish(label) ? kDishLabel : label;
   }
-  kept[dish_label] = kDishLabel;
   return kept;
 }
 

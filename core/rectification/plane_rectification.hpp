@@ -17,6 +17,7 @@
 #include "core/image/camera.hpp"
 #include "core/image_view/image_view.hpp"
 #include "core/segmentation/label_regions.hpp"
+#include "core/segmentation/label_set.hpp"
 #include "core/surface/surface_grid.hpp"
 
 namespace traygauge {
@@ -24,8 +25,8 @@ namespace traygauge {
 inline constexpr int kMaxSamplesPerAxis = 4;
 
 struct PlaneRectificationParams {
-  int max_samples = 131072;  // 2^17 of the grid around the dish (paper III-B-2 resizes to a fixed dish size):
-                             // time and III-B-2, "resized to a fixed dish size")
+  int max_samples = 131072;  // of the grid around the dish (paper III-B-2: "resized to a fixed dish size");
+                             // time grows with them
   int max_rows = 768;        // that tables are kept for
   double aspect = 1.0;       // row spacing over column spacing
   int margin_samples = 8;    // around the dish: a census window, so that rims match
@@ -47,8 +48,8 @@ struct StoredView {
 // Which labels belong to the dish that is measured: the label to write for each of the picture, 0 for others.
 using LabelTable = std::array<std::uint8_t, 256>;
 
-// The dish `dish_label` with the items 2 … 199 on it.
-LabelTable labels_on_dish(std::uint8_t dish_label);
+// Of one dish with what lies on it: items keep their labels, the dish becomes kDishLabel.
+LabelTable labels_on_dish(const LabelSet& on_dish);
 
 // A row in the plane, mm of the table frame: origin + column * step.
 struct PlaneRow {
@@ -83,9 +84,8 @@ class PlaneRectification {
   SurfacePoint point(int row, double first_column, double second_column, int view) const;
 
   // `target` is columns() × rows(). The picture averaged over each sample; 0 outside of the picture.
-  void sample_gray(int view, const StoredView& source, ImageView<std::uint8_t> target) const;
-  void sample_labels(int view, const StoredView& source, const LabelTable& kept,
-                     ImageView<std::uint8_t> target) const;
+  void sample_gray(const StoredView& source, ImageView<std::uint8_t> target) const;
+  void sample_labels(const StoredView& source, const LabelTable& kept, ImageView<std::uint8_t> target) const;
 
  private:
   static constexpr std::size_t index(int i) { return static_cast<std::size_t>(i); }

@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 
+#include "core/image/lens_lanes.hpp"
 #include "core/rectification/plane_rectification.hpp"
 
 namespace traygauge {
@@ -32,29 +33,19 @@ CameraRow row_in_camera(const PlaneRow& row, const Pose& camera_from_table, doub
   return {camera_from_table * origin, camera_from_table.rotation * step};
 }
 
-// In single precision, error below 0.001 px, written to vectorise.
+// In single precision, written to vectorise.
 void compute_positions(const LensModel& lens, const CameraRow& row, int left, Positions& positions) {
-  const auto k1 = static_cast<float>(lens.k1);
-  const auto k2 = static_cast<float>(lens.k2);
-  const auto k3 = static_cast<float>(lens.k3);
-  const auto p1 = static_cast<float>(lens.p1);
-  const auto p2 = static_cast<float>(lens.p2);
-  const auto fx = static_cast<float>(lens.pinhole.fx_px);
-  const auto fy = static_cast<float>(lens.pinhole.fy_px);
-  const auto cx = static_cast<float>(lens.pinhole.cx_px);
-  const auto cy = static_cast<float>(lens.pinhole.cy_px);
+  const LensLanes lanes(lens);
   const Eigen::Vector3f first = (row.origin + left * row.step).cast<float>();
   const Eigen::Vector3f step = row.step.cast<float>();
   for (int i = 0; i < kBlock; ++i) {
     const auto at = static_cast<std::size_t>(i);
     const auto offset = static_cast<float>(i);
     const float inverse = 1.0F / (first.z() + offset * step.z());
-    const float x = (first.x() + offset * step.x()) * inverse;
-    const float y = (first.y() + offset * step.y()) * inverse;
-    const float square = x * x + y * y;
-    const float radial = 1.0F + square * (k1 + square * (k2 + square * k3));
-    positions.x[at] = fx * (x * radial + 2.0F * p1 * x * y + p2 * (square + 2.0F * x * x)) + cx;
-    positions.y[at] = fy * (y * radial + p1 * (square + 2.0F * y * y) + 2.0F * p2 * x * y) + cy;
+    const LensLanes::Pixel pixel =
+        lanes.pixel((first.x() + offset * step.x()) * inverse, (first.y() + offset * step.y()) * inverse);
+    positions.x[at] = pixel.x;
+    positions.y[at] = pixel.y;
   }
 }
 
@@ -131,9 +122,7 @@ void sample_block(ImageView<const std::uint8_t> picture, const Positions& positi
 
 }  // namespace
 
-void PlaneRectification::sample_gray(int view, const StoredView& source,
-                                     ImageView<std::uint8_t> target) const {
-  static_cast<void>(view);
+void PlaneRectification::sample_gray(const StoredView& source, ImageView<std::uint8_t> target) const {
   Positions positions;
   const auto position = [&](double row, double column) {
     const Vec3 ray = source.camera_from_table * plane_point(row, column);
@@ -156,9 +145,8 @@ void PlaneRectification::sample_gray(int view, const StoredView& source,
   }
 }
 
-void PlaneRectification::sample_labels(int view, const StoredView& source, const LabelTable& kept,
+void PlaneRectification::sample_labels(const StoredView& source, const LabelTable& kept,
                                        ImageView<std::uint8_t> target) const {
-  static_cast<void>(view);
   Positions positions;
   for (int r = 0; r < rows(); ++r) {
     const CameraRow line = row_in_camera(row(r), source.camera_from_table, plane_height_mm_, column_step_mm_);

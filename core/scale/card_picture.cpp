@@ -12,7 +12,7 @@ namespace {
 
 constexpr int kGrayBins = 256;
 constexpr double kNormalDeviations = 1.4826;  // standard deviation over the median size, of normal noise
-static_assert(kCardTileSide % kPrintLanes == 0);
+static_assert(kCardTileSide % kFloatLanes == 0);
 
 std::uint64_t mask_of(CardSampling sampling) {
   switch (sampling) {
@@ -68,11 +68,11 @@ void for_each_tile(std::span<const CardTile> tiles, const PrintPlane& plane, Car
   }
 }
 
-// Calls use(column, row, flags) for every kPrintLanes pixels of a tile of which some are samples.
+// Calls use(column, row, flags) for every kFloatLanes pixels of a tile of which some are samples.
 template <class Use>
 void for_each_lanes(std::uint64_t bits, Use use) {
-  constexpr unsigned kLaneBits = (1U << kPrintLanes) - 1U;
-  for (int bit = 0; bit < kCardTileSide * kCardTileSide; bit += kPrintLanes) {
+  constexpr unsigned kLaneBits = (1U << kFloatLanes) - 1U;
+  for (int bit = 0; bit < kCardTileSide * kCardTileSide; bit += kFloatLanes) {
     const auto here = static_cast<unsigned>(bits >> bit) & kLaneBits;
     if (here != 0) use(bit % kCardTileSide, bit / kCardTileSide, here);
   }
@@ -128,7 +128,7 @@ void count_sizes(FloatLanes residual, unsigned bits, Histogram& histogram) {
   const FloatLanes size = residual < 0.0F ? -residual : residual;
   const FloatLanes last = FloatLanes{} + (kGrayBins - 1.0F);
   const IntLanes bins = __builtin_convertvector(size < last ? size : last, IntLanes);
-  for (int i = 0; i < kPrintLanes; ++i) histogram[static_cast<std::size_t>(bins[i])] += bits >> i & 1U;
+  for (int i = 0; i < kFloatLanes; ++i) histogram[static_cast<std::size_t>(bins[i])] += bits >> i & 1U;
 }
 
 double median_of(const Histogram& histogram, int count) {

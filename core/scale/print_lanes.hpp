@@ -3,16 +3,13 @@
 #pragma once
 
 #include <cstdint>
-#include <cstring>
 
 #include "core/base/geometry.hpp"
+#include "core/base/lanes.hpp"
 #include "core/scale/card_pattern.hpp"
 
 namespace traygauge {
 
-inline constexpr int kPrintLanes = 4;
-
-using FloatLanes [[gnu::vector_size(16)]] = float;
 using IntLanes [[gnu::vector_size(16)]] = std::int32_t;
 
 inline constexpr IntLanes kLaneNumbers = {0, 1, 2, 3};
@@ -23,7 +20,7 @@ inline FloatLanes to_float(IntLanes values) {
 
 inline double sum_of(FloatLanes values) {
   double sum = 0.0;
-  for (int i = 0; i < kPrintLanes; ++i) sum += static_cast<double>(values[i]);
+  for (int i = 0; i < kFloatLanes; ++i) sum += static_cast<double>(values[i]);
   return sum;
 }
 
@@ -34,7 +31,7 @@ inline FloatLanes flags_of(unsigned bits) {
 
 inline FloatLanes load_gray(const std::uint8_t* pixels) {
   IntLanes values;
-  for (int i = 0; i < kPrintLanes; ++i) values[i] = pixels[i];
+  for (int i = 0; i < kFloatLanes; ++i) values[i] = pixels[i];
   return to_float(values);
 }
 
@@ -81,7 +78,7 @@ class PrintSampler {
     IntLanes b;
     IntLanes c;
     IntLanes d;
-    for (int i = 0; i < kPrintLanes; ++i) {
+    for (int i = 0; i < kFloatLanes; ++i) {
       const std::uint8_t* upper = data_ + places[i];
       a[i] = upper[0];
       b[i] = upper[1];

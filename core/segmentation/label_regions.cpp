@@ -33,6 +33,8 @@ void extend_box(PixelBox& box, int left, int right, int y) {
 
 LabelRegions measure_regions(ImageView<const std::uint8_t> labels) {
   LabelRegions regions;
+  regions.width = labels.width;
+  regions.height = labels.height;
   for (int y = 0; y < labels.height; ++y) {
     const std::uint8_t* row = labels.row(y);
     for (int begin = 0; begin < labels.width;) {
@@ -49,9 +51,6 @@ LabelRegions measure_regions(ImageView<const std::uint8_t> labels) {
     regions.dish = united(regions.dish, regions.boxes[label]);
   }
   regions.card = regions.boxes[kCardLabel];
-  const PixelBox& dish = regions.dish;
-  regions.dish_cut_off = !dish.empty() && (dish.left == 0 || dish.top == 0 || dish.right == labels.width ||
-                                           dish.bottom == labels.height);
   return regions;
 }
 

@@ -47,12 +47,18 @@ constexpr PixelBox united(const PixelBox& a, const PixelBox& b) {
 }
 
 struct LabelRegions {
+  int width = 0;  // of the picture, px
+  int height = 0;
   std::array<std::uint32_t, 256> pixels{};  // per label
   std::array<PixelBox, 256> boxes{};        // per label
   std::uint32_t dish_pixels = 0;            // dish and items together
   PixelBox dish;                            // around dish and items
   PixelBox card;                            // around the card, where it is labelled
-  bool dish_cut_off = false;                // the dish touches the edge of the picture
+
+  // Of the picture: what lies in the box may be cut off.
+  constexpr bool touches_edge(const PixelBox& box) const {
+    return !box.empty() && (box.left == 0 || box.top == 0 || box.right == width || box.bottom == height);
+  }
 };
 
 // One pass over the labels.

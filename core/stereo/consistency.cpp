@@ -40,15 +40,18 @@ void fill_gap(Disparity* row, const std::uint8_t* labels, int width, Gap gap, in
   int left = find_known(row, labels, width, gap.first, -1, item, left_at);
   int right = find_known(row, labels, width, gap.end - 1, 1, item, right_at);
   if (left == kNoDisparity && right == kNoDisparity) return;
-  const auto at_border = [&](int known) {
+  const bool at_border = left == kNoDisparity || right == kNoDisparity;
+  const auto fallen = [&](int known) {
     return item && known > 0 ? static_cast<int>(params.border_share * known) : known;
   };
-  if (left == kNoDisparity) left = at_border(right);
-  if (right == kNoDisparity) right = at_border(left);
-  const bool between = std::abs(left - right) <= one_surface || item;
+  if (left == kNoDisparity) left = fallen(right);
+  if (right == kNoDisparity) right = fallen(left);
+  const int lower = std::min(left, right);
+  const bool one = at_border || std::abs(left - right) <= one_surface;
+  const double above_lower = one ? 1.0 : item ? params.chord_share : 0.0;
   for (int i = gap.first; i < gap.end; ++i) {
     const int mixed = left + (right - left) * (i - left_at) / std::max(right_at - left_at, 1);
-    row[i] = static_cast<Disparity>(between ? mixed : std::min(left, right));
+    row[i] = static_cast<Disparity>(lower + static_cast<int>(above_lower * (mixed - lower)));
   }
 }
 

@@ -11,10 +11,13 @@ namespace traygauge {
 
 struct ConsistencyParams {
   double max_difference_px = 1.5;  // between a disparity and its partner's: whole pixels and half a step
-  double border_share = 0.65;      // of its last known height that an item's hidden flank has where its
-                                   // outline ends; the mean over the captures' flanks
+  double border_share = 0.3;       // of its last known height that an item's hidden flank has where its
+                                   // outline ends: most reach down to the dish there
   double same_surface_px = 3.0;    // ends of a gap that differ by less are one surface seen through it; by
                                    // more, the gap is what the nearer one hides from the other view
+  // The straight line across such a gap is the other view's line of sight past the nearer surface: what it
+  // hides lies below, between the line (1) and the lower surface going on (0).
+  double chord_share = 0.5;
 };
 
 // Drops the disparities that the other view contradicts. `sign` is +1 for the first view, whose partner lies
@@ -23,8 +26,8 @@ void keep_consistent(ImageView<const Disparity> own, ImageView<const Disparity> 
                      const ConsistencyParams& params, ImageView<Disparity> kept);
 
 // Fills the samples with a label and no disparity along their row, from the nearest known ones of the same
-// label on either side: between them when they lie on one surface or the label is an item's, whose hidden
-// flank falls from one to the other; the lower one where it is the dish's, whose surface goes on behind.
+// label on either side: between them when they lie on one surface; below the line between them where an item
+// hides a part of itself; the lower one where the label is the dish's, whose surface goes on behind.
 void fill_gaps(ImageView<const std::uint8_t> labels, const ConsistencyParams& params,
                ImageView<Disparity> disparity);
 

@@ -1,91 +1,20 @@
 #include "core/stereo/semi_global.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <cstring>
-#include <limits>
 
-#include "core/stereo/row_lanes.hpp"
+#include "core/stereo/path_costs.hpp"
 #include "core/stereo/subpixel.hpp"
 
 namespace traygauge {
 namespace {
 
-// Path costs stay below worst cost + large penalty; a pad above that never wins and never overflows.
-constexpr std::uint8_t kPadCost = 200;
-constexpr int kWorstCost = 63;
 constexpr int kCensusBits = 31;
 static_assert(kCensusBits + kMaxLabelPenalty <= kWorstCost);
 static_assert(kPadCost > kWorstCost + kMaxLargePenalty && kPadCost + kMaxSmallStepPenalty <= 255);
 static_assert(2 * (kWorstCost + kMaxLargePenalty) <= 255);     // two path costs are added as bytes
 static_assert(8 * (kWorstCost + kMaxLargePenalty) < 1 << 10);  // eight leave room for the lane
-
-ByteLanes least(ByteLanes a, ByteLanes b) {
-  return a < b ? a : b;
-}
-
-using WideLanes [[gnu::vector_size(16)]] = std::uint16_t;
-using WordLanes [[gnu::vector_size(16)]] = std::uint32_t;
-using DoubleWordLanes [[gnu::vector_size(16)]] = std::uint64_t;
-
-// One byte in all lanes; the multiplication spares the compiler's byte by byte assembly.
-ByteLanes spread(std::uint8_t value) {
-  const std::uint64_t eight = value * std::uint64_t{0x0101010101010101};
-  return reinterpret_cast<ByteLanes>(DoubleWordLanes{eight, eight});
-}
-
-// The least lane, in all lanes. Shuffles of whole words are single instructions on every processor.
-ByteLanes spread_least(ByteLanes v) {
-  const auto words = reinterpret_cast<WordLanes>(v);
-  v = least(v, reinterpret_cast<ByteLanes>(__builtin_shuffle(words, WordLanes{2, 3, 0, 1})));
-  const auto pairs = reinterpret_cast<WordLanes>(v);
-  v = least(v, reinterpret_cast<ByteLanes>(__builtin_shuffle(pairs, WordLanes{1, 0, 3, 2})));
-  const auto halves = reinterpret_cast<WordLanes>(v);
-  v = least(v, reinterpret_cast<ByteLanes>((halves << 16) | (halves >> 16)));
-  const auto bytes = reinterpret_cast<WideLanes>(v);
-  return least(v, reinterpret_cast<ByteLanes>((bytes << 8) | (bytes >> 8)));
-}
-
-// Sums are kept as bytes come apart: the even lanes of a register, then the odd ones.
-constexpr int kHalfLanes = kBandLanes / 2;
-static_assert(std::endian::native == std::endian::little, "even lanes are the low bytes of pairs");
-
-// The path costs of a band of kChunks registers, between paddings that never win: neighbours' bands are read
-// at their offset.
-template <int kChunks>
-struct PathCosts {
-  std::uint8_t low_padding[kBandPadding];
-  std::uint8_t lanes[static_cast<std::size_t>(kChunks * kBandLanes)];
-  std::uint8_t high_padding[kBandPadding];
-  ByteLanes least;  // of the lanes, in each
-};
-
-constexpr int sum_index(int lane) {
-  return lane / kBandLanes * kBandLanes + lane % 2 * kHalfLanes + lane % kBandLanes / 2;
-}
-
-// The disparity of the least sum, the lower one of equal sums.
-template <int kLanes>
-int find_least(const std::uint16_t* sums) {
-  constexpr WideLanes kSteps{0, 2, 4, 6, 8, 10, 12, 14};
-  int least_key = std::numeric_limits<int>::max();
-  int best = 0;
-  for (int chunk = 0; chunk < kLanes; chunk += kBandLanes) {
-    // Sums of eight paths below 2^10 leave room for the lane; signed, so that every processor compares them.
-    const auto even = reinterpret_cast<CostLanes>((load_lanes<WideLanes>(sums + chunk) << 4) | kSteps);
-    const auto odd =
-        reinterpret_cast<CostLanes>((load_lanes<WideLanes>(sums + chunk + kHalfLanes) << 4) | (kSteps + 1));
-    const CostLanes keys = smaller(even, odd);
-    int key = keys[0];
-    for (int i = 1; i < kHalfLanes; ++i) key = std::min<int>(key, keys[i]);
-    if ((key >> 4) < (least_key >> 4)) {
-      least_key = key;
-      best = chunk + (key & 15);
-    }
-  }
-  return best;
-}
 
 template <int kChunks>
 class Matcher {
@@ -117,18 +46,10 @@ class Matcher {
     auto* paths = reinterpret_cast<Path*>(workspace_.paths[static_cast<std::size_t>(which)].data());
     return paths + direction * (width_ + 2) + 1;
   }
-  static void clear(Path& path) {
-    std::memset(path.low_padding, kPadCost, kBandPadding);
-    std::memset(path.lanes, 0, kLanes);
-    std::memset(path.high_padding, kPadCost, kBandPadding);
-    path.least = ByteLanes{};
-  }
   void load_second_row(int y);
   void compute_costs(int x, int y);
   void start(Path& path) const;
   void extend(const Path& before, int shift, ByteLanes large, Path& path) const;
-  template <std::size_t kPaths>
-  static void add_paths(const std::array<const Path*, 4>& paths, bool first, std::uint16_t* sums);
   void sweep_row(int y, int previous_y, int step);
   void choose(int y, Disparity* disparity) const;
   // What a jump between two neighbours costs.
@@ -195,7 +116,7 @@ void Matcher<kChunks>::compute_costs(int x, int y) {
 // A path that begins here.
 template <int kChunks>
 void Matcher<kChunks>::start(Path& path) const {
-  clear(path);
+  path.clear();
   ByteLanes lowest = spread(255);
   for (int chunk = 0; chunk < kChunks; ++chunk) {
     const ByteLanes cost = costs_[static_cast<std::size_t>(chunk)];
@@ -228,30 +149,6 @@ void Matcher<kChunks>::extend(const Path& before, int shift, ByteLanes large, Pa
 }
 
 template <int kChunks>
-template <std::size_t kPaths>
-void Matcher<kChunks>::add_paths(const std::array<const Path*, 4>& paths, bool first, std::uint16_t* sums) {
-  for (int chunk = 0; chunk < kChunks; ++chunk) {
-    WideLanes even{};
-    WideLanes odd{};
-    for (std::size_t k = 0; k < kPaths; k += 2) {
-      // Two path costs fit a byte: twice worst cost and large penalty.
-      const auto pair =
-          reinterpret_cast<WideLanes>(load_lanes<ByteLanes>(paths[k]->lanes + chunk * kBandLanes) +
-                                      load_lanes<ByteLanes>(paths[k + 1]->lanes + chunk * kBandLanes));
-      even += pair & 0xff;
-      odd += pair >> 8;
-    }
-    std::uint16_t* at = sums + chunk * kBandLanes;
-    if (!first) {
-      even += load_lanes<WideLanes>(at);
-      odd += load_lanes<WideLanes>(at + kHalfLanes);
-    }
-    std::memcpy(at, &even, sizeof even);
-    std::memcpy(at + kHalfLanes, &odd, sizeof odd);
-  }
-}
-
-template <int kChunks>
 void Matcher<kChunks>::sweep_row(int y, int previous_y, int step) {
   const int parity = y & 1;
   const int directions = params_.diagonal_paths ? 3 : 1;
@@ -266,8 +163,7 @@ void Matcher<kChunks>::sweep_row(int y, int previous_y, int step) {
   const std::uint8_t* labels = pair_.labels[0].row(y);
   const std::uint8_t* previous_labels = has_previous ? pair_.labels[0].row(previous_y) : nullptr;
   std::array<Path, 2> along;
-  clear(along[0]);
-  clear(along[1]);
+  for (Path& path : along) path.clear();
   bool open = false;
   for (int j = 0; j < width_; ++j) {
     const int x = step > 0 ? j : width_ - 1 - j;
@@ -310,7 +206,7 @@ void Matcher<kChunks>::sweep_row(int y, int previous_y, int step) {
 template <int kChunks>
 void Matcher<kChunks>::sweep(bool forward, ImageView<Disparity> disparity) {
   for (int which = 0; which < 2; ++which) {
-    for (int i = -1; i < 3 * (width_ + 2) - 1; ++i) clear(path_row(which, 0)[i]);
+    for (int i = -1; i < 3 * (width_ + 2) - 1; ++i) path_row(which, 0)[i].clear();
   }
   const int step = forward ? 1 : -1;
   for (int i = 0; i < height_; ++i) {

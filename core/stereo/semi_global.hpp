@@ -17,7 +17,7 @@ struct SemiGlobalParams {
   int small_step_penalty = 3;    // a change by one disparity: slanted food is the rule
   int large_step_penalty = 28;   // by more, in plain areas
   int least_large_penalty = 10;  // where the picture has an edge of several edge_contrast
-  int border_penalty = 14;       // between samples of different labels
+  int border_penalty = 8;        // between samples of different labels
   int edge_contrast = 12;        // grey levels that halve the large penalty
   int label_penalty = 16;        // partners with different labels
   bool diagonal_paths = false;   // eight paths instead of four: slower, and no better within bands

@@ -14,7 +14,7 @@
 namespace traygauge {
 
 struct SurfaceRefinementParams {
-  int iterations = 2;        // each resamples the picture anew
+  int iterations = 3;        // each resamples the picture anew
   int window_radius = 2;     // 1 to kMaxRefinementRadius
   double max_step_px = 1.0;  // of an iteration: the linearisation reaches about a pixel
   // grey², against the mean squared gradient of a window: some times the noise of 2 to 4 grey levels.
@@ -22,8 +22,8 @@ struct SurfaceRefinementParams {
   int smoothings = 2;           // of the membrane before an iteration
   double smoothing_hold = 0.5;  // of a sample's own disparity, against each neighbour's, while smoothing
   int relaxations = 4;          // of the membrane, per iteration
-  double max_jump_px = 1.5;     // neighbours that differ by more are not tied
-  double dish_weight = 0.05;    // of the dish's samples in windows: food beside it is not mixed with it
+  double max_jump_px = 5.0;     // neighbours that differ by more are not tied
+  double dish_weight = 0.0;     // of the dish's samples in windows: food beside it is not mixed with it
   int outline_px = 2;       // samples of food this near to another label weigh as little: their gradient is
                             // their outline's
   double border_tie = 0.1;  // between samples of different labels

@@ -61,6 +61,9 @@ struct HeightMapParams {
   double max_flank_threshold = 4.0;
   // Twice the line of sight's slope counts as so much seen flank (its area from above).
   double prior_flank_mm2 = 5.0;
+  // Hidden flanks fall so many times as fast as those that were matched, which blunts them; 1 with true
+  // depth.
+  double hidden_steepness = 1.5;
   // A hole that no line of sight crosses is filled so far from its edge.
   double max_hole_mm = 6.0;
 };

@@ -142,7 +142,8 @@ class HiddenFill {
           height[label] / std::max(count[label], 1.0) - dish_.profile.bottom_height_mm();
       const double walls = drop[label] / std::max(mean_height, cell_mm);
       const double run_mm = std::max(run[label] - walls, 0.0) * cell_mm;
-      slopes_[label] = static_cast<float>((drop[label] + prior_slope * params_.prior_flank_mm2 / cell_mm) /
+      slopes_[label] = static_cast<float>(params_.hidden_steepness *
+                                          (drop[label] + prior_slope * params_.prior_flank_mm2 / cell_mm) /
                                           (run_mm + params_.prior_flank_mm2 / cell_mm));
     }
   }

@@ -46,8 +46,8 @@ void halve_labels(ImageView<const std::uint8_t> source, ImageView<std::uint8_t> 
   }
 }
 
-void sample_view(const PlaneRectification& grid, int v, const StoredView& stored, const LabelTable& kept,
-                 int levels, View& view) {
+void sample_view(const PlaneRectification& grid, const StoredView& stored, const LabelTable& kept, int levels,
+                 View& view) {
   std::uint8_t* gray = view.gray_storage.data();
   std::uint8_t* labels = view.label_storage.data();
   int width = grid.columns();
@@ -56,8 +56,8 @@ void sample_view(const PlaneRectification& grid, int v, const StoredView& stored
     view.gray[level] = {gray, width, height};
     view.labels[level] = {labels, width, height};
     if (level == 0) {
-      grid.sample_gray(v, stored, view.gray[0]);
-      grid.sample_labels(v, stored, kept, view.labels[0]);
+      grid.sample_gray(stored, view.gray[0]);
+      grid.sample_labels(stored, kept, view.labels[0]);
     } else {
       halve(view.gray[level - 1], view.gray[level]);
       halve_labels(view.labels[level - 1], view.labels[level]);
@@ -267,10 +267,7 @@ Status reconstruct_surface(const std::array<StoredView, 2>& views, const LabelTa
   const auto [levels, finest] = SurfaceLevels(params);
   if ((range.count() >> (levels - 1)) + 4 > kMaxBandLanes) return StatusCode::disparity_range_too_large;
 
-  for (int v = 0; v < 2; ++v) {
-    const auto i = static_cast<std::size_t>(v);
-    sample_view(grid, v, views[i], kept, levels, workspace.views[i]);
-  }
+  for (std::size_t v = 0; v < 2; ++v) sample_view(grid, views[v], kept, levels, workspace.views[v]);
   for (int level = levels - 1; level >= finest; --level) {
     match_level(workspace, static_cast<std::size_t>(level), range, level == levels - 1, params);
     if (level > finest) filter_level(workspace, static_cast<std::size_t>(level), params.median_radius);

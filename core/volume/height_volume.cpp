@@ -1,6 +1,7 @@
 #include "core/volume/height_volume.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "core/segmentation/label_regions.hpp"
@@ -34,12 +35,14 @@ Status integrate_height_map(const HeightMap& map, const InnerSurface& dish, cons
   constexpr std::size_t kBins = HeightVolumeWorkspace::kBins;
   std::fill(workspace.items.begin(), workspace.items.end(), HeightVolume{});
   std::fill(workspace.histograms.begin(), workspace.histograms.end(), 0U);
+  std::array<int, 256> told_cells{};
   const double cell_mm2 = map.cell_mm * map.cell_mm;
   for (int y = 0; y < map.cells.height; ++y) {
     for (int x = 0; x < map.cells.width; ++x) {
       const HeightCell& cell = map.cells.at(x, y);
       if (!is_item(cell.label)) continue;
-      const double height = static_cast<double>(cell.z_mm) - dish.height_mm(map.centre_mm(x, y));
+      const Vec2 place_mm = map.centre_mm(x, y);
+      const double height = static_cast<double>(cell.z_mm) - dish.height_mm(place_mm);
       HeightVolume& item = workspace.items[cell.label];
       item.area_mm2 += cell_mm2;
       item.column_volume_ml += height * cell_mm2 / kMm3PerMl;
@@ -49,6 +52,10 @@ Status integrate_height_map(const HeightMap& map, const InnerSurface& dish, cons
       }
       if (cell.kind == CellKind::surface && cell.below_label != 0) item.undercut_mm2 += cell_mm2;
       if (is_border(map, x, y)) item.border_share += cell_mm2;
+      if (cell.kind != CellKind::unseen) {
+        item.centre_mm += Vec3(place_mm.x(), place_mm.y(), cell.z_mm);
+        ++told_cells[cell.label];
+      }
       const double bin = std::clamp(height / kBinMm, 0.0, static_cast<double>(kBins - 1));
       ++workspace.histograms[cell.label * kBins + static_cast<std::size_t>(bin)];
     }
@@ -62,6 +69,7 @@ Status integrate_height_map(const HeightMap& map, const InnerSurface& dish, cons
     item.mean_height_mm = item.column_volume_ml * kMm3PerMl / item.area_mm2;
     item.hidden_share /= item.area_mm2;
     item.border_share /= item.area_mm2;
+    if (told_cells[label] > 0) item.centre_mm /= told_cells[label];
     item.max_height_mm = max_height(workspace.histograms.subspan(label * kBins, kBins),
                                     params.max_height_ignored_mm2 / cell_mm2);
   }

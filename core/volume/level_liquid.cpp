@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/segmentation/label_regions.hpp"
+#include "core/volume/contact_level.hpp"
 
 namespace traygauge {
 namespace {
@@ -102,9 +103,28 @@ bool reaches_wall(const HeightMap& map, const InnerSurface& dish, std::uint8_t l
   return reached >= params.min_wall_share * kDirections;
 }
 
-void make_level(const InnerSurface& dish, const LevelLiquid& liquid, double tolerance_mm, HeightMap& map) {
+// Standard deviation of the surface's heights: nothing of a liquid lies below its level, so what was matched
+// there is noise. From the mean deviation, which single wrong matches move less.
+double noise_mm(const HeightMap& map, const LevelLiquid& liquid) {
+  double sum_mm = 0.0;
+  double count = 0.0;
+  for (int y = 0; y < map.cells.height; ++y) {
+    for (int x = 0; x < map.cells.width; ++x) {
+      const HeightCell& cell = map.cells.at(x, y);
+      const double below_mm = liquid.level_mm - static_cast<double>(cell.z_mm);
+      if (!is_seen(cell, liquid.label) || below_mm < 0.0) continue;
+      sum_mm += below_mm;
+      count += 1.0;
+    }
+  }
+  return count > 0.0 ? std::sqrt(0.5 * M_PI) * sum_mm / count : 0.0;
+}
+
+void make_level(const InnerSurface& dish, const LevelLiquid& liquid, const LevelLiquidParams& params,
+                HeightMap& map) {
   const auto level = static_cast<float>(liquid.level_mm);
-  const auto solid = static_cast<float>(liquid.level_mm + tolerance_mm);
+  const double solid_mm = std::max(params.min_solid_mm, params.solid_sigmas * noise_mm(map, liquid));
+  const auto solid = static_cast<float>(liquid.level_mm + solid_mm);
   for (int y = 0; y < map.cells.height; ++y) {
     for (int x = 0; x < map.cells.width; ++x) {
       HeightCell& cell = map.cells.at(x, y);
@@ -125,19 +145,21 @@ void make_level(const InnerSurface& dish, const LevelLiquid& liquid, double tole
 
 }  // namespace
 
-LevelLiquid level_liquid(const InnerSurface& dish, const LevelLiquidParams& params,
-                         LevelLiquidWorkspace& workspace, HeightMap& map) {
-  LevelLiquid liquid;
+LevelLiquid level_liquid(std::span<const SurfaceGrid> views, const InnerSurface& dish,
+                         const LevelLiquidParams& params, LevelLiquidWorkspace& workspace, HeightMap& map) {
   const std::uint8_t label = largest_item(map);
-  if (label == 0 || workspace.histogram.empty()) return liquid;
+  if (label == 0 || workspace.histogram.empty()) return {};
+  const double least_mm = dish.profile.bottom_height_mm() + params.min_depth_mm;
   double share = 0.0;
-  const double level = find_level(map, label, params.tolerance_mm, workspace.histogram, share);
-  if (share < params.min_level_share || level < dish.profile.bottom_height_mm() + params.min_depth_mm ||
-      !reaches_wall(map, dish, label, level, params)) {
-    return liquid;
-  }
-  liquid = {label, level};
-  make_level(dish, liquid, params.tolerance_mm, map);
+  const double matched_mm = find_level(map, label, params.tolerance_mm, workspace.histogram, share);
+  const ContactLevel contact =
+      find_contact_level(views, dish, label, params.contact_tolerance_mm, workspace.histogram);
+  const bool has_contact = contact.share >= params.min_contact_share && contact.level_mm >= least_mm &&
+                           std::abs(contact.level_mm - matched_mm) <= params.max_contact_difference_mm;
+  if (!has_contact && (share < params.min_level_share || matched_mm < least_mm)) return {};
+  const LevelLiquid liquid{label, has_contact ? contact.level_mm : matched_mm};
+  if (!reaches_wall(map, dish, label, liquid.level_mm, params)) return {};
+  make_level(dish, liquid, params, map);
   return liquid;
 }
 

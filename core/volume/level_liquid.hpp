@@ -10,16 +10,25 @@
 namespace traygauge {
 
 struct LevelLiquidParams {
-  // Heights within this of the level are the liquid's surface: waves, meniscus and depth noise.
+  // Where the outline ends at a dish's wall within this of one height, the wall says how high that is …
+  double contact_tolerance_mm = 1.0;
+  // … when so much of the outline does: the near wall hides up to half, other items some of the rest.
+  double min_contact_share = 0.5;
+  // Matched heights that lie further from it are of something that stands on the wall.
+  double max_contact_difference_mm = 4.0;
+  // Without such an outline: heights within this of the level are the liquid's surface, waves, meniscus and
+  // depth noise, and an item is a liquid when so much of its seen area is level.
   double tolerance_mm = 2.0;
-  // An item is a liquid when so much of its seen area is level …
   double min_level_share = 0.6;
-  // … and it reaches the wall at its level, within so much, in so many of 64 directions from the centre; the
-  // others are hidden by the near wall or covered by other items.
+  // It reaches the wall at its level, within so much, in so many of 64 directions from the centre; the others
+  // are hidden by the near wall or covered by other items.
   double max_gap_mm = 4.0;
   double min_wall_share = 0.8;
   // Shallower than this over the bottom a level item may be a slice.
   double min_depth_mm = 3.0;
+  // Solids stand out of it by more than so many times the noise of its surface, and at least by this.
+  double solid_sigmas = 2.0;
+  double min_solid_mm = 0.5;
 };
 
 struct LevelLiquid {
@@ -38,9 +47,10 @@ struct LevelLiquidWorkspace {
 };
 
 // Finds the dish's liquid and makes it level in `map`: cells over the wall's inside below the level get its
-// label and height unless another item covers them; what stands out of it further than the tolerance keeps
-// its height. Cells of the label beyond the wall become the dish. Leaves maps without a liquid as they are.
-LevelLiquid level_liquid(const InnerSurface& dish, const LevelLiquidParams& params,
-                         LevelLiquidWorkspace& workspace, HeightMap& map);
+// label and height unless another item covers them; solids that stand out of it keep their height. Cells of
+// the label beyond the wall become the dish. Leaves maps without a liquid as they are. `views` are those that
+// the map is made of, the dish's samples on its surface.
+LevelLiquid level_liquid(std::span<const SurfaceGrid> views, const InnerSurface& dish,
+                         const LevelLiquidParams& params, LevelLiquidWorkspace& workspace, HeightMap& map);
 
 }  // namespace traygauge

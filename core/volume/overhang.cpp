@@ -9,8 +9,6 @@
 namespace traygauge {
 namespace {
 
-constexpr double kMm3PerMl = 1000.0;
-
 double steepest_tilt_tangent(std::span<const SurfaceGrid> views, const InnerSurface& dish) {
   double tangent = 0.0;
   for (const SurfaceGrid& view : views) {
@@ -50,29 +48,13 @@ void close_overhangs(std::span<const SurfaceGrid> views, const HeightMap& map, c
                      const OverhangParams& params, std::span<HeightVolume> items) {
   const double tangent = steepest_tilt_tangent(views, dish);
   const std::array<double, 256> undercut = undercut_areas(map);
-  std::array<bool, 256> overhangs{};
-  bool any = false;
   for (std::size_t label = kFirstItemLabel; label <= kLastItemLabel; ++label) {
     HeightVolume& item = items[label];
     item.undercut_mm2 = undercut[label];
     const double of_ball = std::sqrt(item.area_mm2) * 0.5 * item.max_height_mm * tangent;
-    overhangs[label] = item.area_mm2 > 0.0 && undercut[label] > params.min_undercut_mm2 &&
-                       undercut[label] > params.min_undercut_share * of_ball;
-    if (!overhangs[label]) continue;
-    any = true;
-    item.volume_ml = 0.0;
-  }
-  if (!any) return;
-  const double cell_ml = map.cell_mm * map.cell_mm / kMm3PerMl;
-  for (int y = 0; y < map.cells.height; ++y) {
-    for (int x = 0; x < map.cells.width; ++x) {
-      const HeightCell& cell = map.cells.at(x, y);
-      if (!overhangs[cell.label]) continue;
-      HeightVolume& item = items[cell.label];
-      const double upper = static_cast<double>(cell.z_mm) - dish.height_mm(map.centre_mm(x, y));
-      const double lower = std::max(2.0 * params.equator_share * item.max_height_mm - upper, 0.0);
-      item.volume_ml += std::max(upper - lower, 0.0) * cell_ml;
-    }
+    const bool overhangs = item.area_mm2 > 0.0 && undercut[label] > params.min_undercut_mm2 &&
+                           undercut[label] > params.min_undercut_share * of_ball;
+    if (overhangs) item.volume_ml = item.column_volume_ml / params.column_over_closed;
   }
 }
 

@@ -14,15 +14,14 @@ struct OverhangParams {
   // over none. The undercut's area must reach this share of what a ball of the item's size and height shows;
   // long items along the line of sight show a third. Smaller takes walls with noise for fruit.
   double min_undercut_share = 0.4;
-  // Height of the equator over the dish, of the item's height: 0.5 for a ball, less for fruit, which flattens
-  // where it rests: its column volume is 1.14 to 1.24 times the closed one, a ball's 1.25 times.
-  double equator_share = 0.48;
+  // Column volume over closed volume: scanned fruit has 1.14 to 1.24, a ball 1.25.
+  double column_over_closed = 1.19;
   double min_undercut_mm2 = 30.0;  // what a few wrong samples make; nearly vertical views never show more
 };
 
-// Sets `volume_ml` of items that overhang: the lower side mirrors the upper at the equator, as a round
-// body's that rests on the dish, and ends at the dish. Others keep their column volume. After
-// integrate_height_map.
+// Sets `volume_ml` of items that overhang to that of fruit with such columns: mirroring the upper side at the
+// equator takes up to twice as much away from scanned fruit as it should, which is flat where it rests.
+// Others keep their column volume. After integrate_height_map.
 void close_overhangs(std::span<const SurfaceGrid> views, const HeightMap& map, const InnerSurface& dish,
                      const OverhangParams& params, std::span<HeightVolume> items);
 

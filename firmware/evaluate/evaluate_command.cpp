@@ -14,6 +14,7 @@
 #include "firmware/evaluate/evaluation.hpp"
 #include "firmware/evaluate/evaluation_plots.hpp"
 #include "firmware/evaluate/progress.hpp"
+#include "firmware/evaluate/stage_analysis.hpp"
 #include "firmware/measure/measure_command.hpp"
 #include "simulator/capture/png_writer.hpp"
 
@@ -65,6 +66,24 @@ std::vector<PairRuns> run_with_progress(const EvaluateOptions& options, const Pr
                       [&](std::size_t done, std::size_t all) { progress.show(done, all); });
 }
 
+// Compares the stages with the truth, and returns the tables for the terminal.
+std::string report_stages(const EvaluateOptions& options, const ProtocolOptions& protocol,
+                          std::ostream& error) {
+  std::vector<std::string> skipped;  // the protocol has named them
+  const StageRuns runs = [&] {
+    Progress progress(error, is_on_terminal(error));
+    return run_stages(options.set, protocol, skipped,
+                      [&](std::size_t done, std::size_t all) { progress.show(done, all); });
+  }();
+  const StageAnalysis analysis = analyse_stages(runs);
+  if (!options.out.empty()) {
+    const std::filesystem::path folder = options.out;
+    write_text(folder / "stages.csv", compose_stages_csv(runs));
+    write_text(folder / "heights.csv", compose_heights_csv(analysis));
+  }
+  return compose_stage_tables(analysis);
+}
+
 }  // namespace
 
 void add_evaluate_command(CLI::App& app, EvaluateOptions& options) {
@@ -78,6 +97,8 @@ void add_evaluate_command(CLI::App& app, EvaluateOptions& options) {
   command->add_option("--labels", options.labels, "given (default)");
   command->add_option("--out", options.out, "Folder for CSV files, plots (SVG) and summary.json");
   command->add_flag("--json", options.json, "Print summary.json instead of tables");
+  command->add_flag("--stages", options.stages,
+                    "Compare every stage with the truth, and measure with the truth in its place");
   command->add_option("--config", options.config, "Folder with dishes/, for captures that name no dish")
       ->envname("TRAYGAUGE_CONFIG");
   command->add_option("--set", options.settings, "Try another value: NAME=VALUE, several times")->take_all();
@@ -96,6 +117,11 @@ int run_evaluate(const EvaluateOptions& options, std::ostream& out, std::ostream
     for (const std::string& line : list_parameters(protocol.parameters)) out << line << "\n";
     return kExitMeasured;
   }
+  if (options.stages && protocol.parameters.profile != Profile::best)
+    throw UsageError("evaluate: --stages looks into profile best; leave --profile paper out");
+  if (options.stages && options.json)
+    throw UsageError(
+        "evaluate: --stages prints tables; for scripts name a folder with --out instead of --json");
   if (options.set.empty()) throw UsageError("evaluate: name a capture or a folder of captures");
   protocol.config = options.config;
   if (!options.out.empty()) create_folder(options.out);
@@ -103,6 +129,7 @@ int run_evaluate(const EvaluateOptions& options, std::ostream& out, std::ostream
   const std::vector<PairRuns> runs = run_with_progress(options, protocol, skipped, error);
   const Evaluation evaluation = evaluate_runs(options.set, protocol, runs, skipped);
   if (!options.out.empty()) write_files(options.out, evaluation, runs);
+  if (options.stages) out << report_stages(options, protocol, error);
   out << (options.json ? compose_summary_json(evaluation) : compose_tables(evaluation));
   return is_any_measured(evaluation) ? kExitMeasured : kExitNotMeasurable;
 }

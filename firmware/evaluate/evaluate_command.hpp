@@ -18,6 +18,7 @@ struct EvaluateOptions {
   int jobs = 1;
   std::vector<std::string> settings;
   bool json = false;
+  bool stages = false;
   bool list_parameters = false;
 };
 

@@ -1,29 +1,12 @@
-#include <cmath>
 #include <sstream>
 #include <string>
 
 #include "firmware/base/text.hpp"
+#include "firmware/evaluate/csv_fields.hpp"
 #include "firmware/evaluate/evaluation.hpp"
 
 namespace traygauge {
 namespace {
-
-// Quoted where it has to be (RFC 4180).
-std::string field(const std::string& text) {
-  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
-  std::string quoted = "\"";
-  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return quoted + "\"";
-}
-
-// Blank where not defined.
-std::string number(double value, int decimals) {
-  return std::isnan(value) ? "" : fixed(value, decimals);
-}
-
-std::string number(const std::optional<double>& value, int decimals) {
-  return value ? fixed(*value, decimals) : "";
-}
 
 std::string errors_or_blanks(const std::optional<StageErrors>& errors) {
   if (!errors) return ",,,,,,";
@@ -49,15 +32,15 @@ std::string estimate_row(const PairRuns& pair, const Run& run, const TruthItem& 
   const ItemEstimate* estimate = estimate_of(run, item.label);
   const bool is_measured = estimate != nullptr;
   std::ostringstream row;
-  row << field(pair.capture) << ',' << pair.pair[0] << ',' << pair.pair[1] << ',' << run.seed << ','
-      << fixed(run.relative_angle_deg, 3) << ',' << item.label << ',' << field(item.name) << ','
-      << field(item.kind) << ',' << (is_measured ? "ok" : "refused") << ','
+  row << csv_field(pair.capture) << ',' << pair.pair[0] << ',' << pair.pair[1] << ',' << run.seed << ','
+      << fixed(run.relative_angle_deg, 3) << ',' << item.label << ',' << csv_field(item.name) << ','
+      << csv_field(item.kind) << ',' << (is_measured ? "ok" : "refused") << ','
       << (is_measured ? fixed(estimate->volume_ml, 3) : "") << ',' << fixed(item.volume_ml, 3) << ','
-      << number(item.volume_above_bottom_plane_ml, 3) << ','
+      << csv_number(item.volume_above_bottom_plane_ml, 3) << ','
       << (is_measured && estimate->sigma_ml > 0.0 ? fixed(estimate->sigma_ml, 3) : "") << ','
-      << (is_measured ? fixed(estimate->column_volume_ml, 3) : "") << ',' << number(item.column_volume_ml, 3)
-      << ',' << (is_measured ? "" : name_of_refusal(run, item.label)) << ',' << number(pair.true_angle_deg, 3)
-      << ',' << (is_warned(run) ? 1 : 0) << '\n';
+      << (is_measured ? fixed(estimate->column_volume_ml, 3) : "") << ','
+      << csv_number(item.column_volume_ml, 3) << ',' << (is_measured ? "" : name_of_refusal(run, item.label))
+      << ',' << csv_number(pair.true_angle_deg, 3) << ',' << (is_warned(run) ? 1 : 0) << '\n';
   return row.str();
 }
 
@@ -84,7 +67,7 @@ std::string compose_runs_csv(const std::vector<PairRuns>& runs) {
   for (const PairRuns& pair : runs) {
     for (const Run& run : pair.runs) {
       const MeasurementReport& report = run.report;
-      csv << field(pair.capture) << ',' << pair.pair[0] << ',' << pair.pair[1] << ',' << run.seed << ','
+      csv << csv_field(pair.capture) << ',' << pair.pair[0] << ',' << pair.pair[1] << ',' << run.seed << ','
           << name(run.status) << ',' << fixed(run.relative_angle_deg, 3) << ',' << report.keypoints[0] << ','
           << report.keypoints[1] << ',' << report.matches << ',' << report.inliers << ','
           << fixed(report.inlier_threshold_px, 3) << ',' << report.card_tracks << ',' << report.rim_points
@@ -92,7 +75,7 @@ std::string compose_runs_csv(const std::vector<PairRuns>& runs) {
           << report.rectified_columns << ',' << report.disparity_range.count() << ','
           << fixed(report.matched_share, 4) << ',' << fixed(report.label_agreement, 4) << ','
           << fixed(run.total_ms, 1) << ',' << errors_or_blanks(run.errors) << ','
-          << number(pair.true_angle_deg, 3) << ',' << list_warnings(run) << '\n';
+          << csv_number(pair.true_angle_deg, 3) << ',' << list_warnings(run) << '\n';
     }
   }
   return csv.str();
@@ -104,12 +87,13 @@ std::string compose_items_csv(const Evaluation& evaluation) {
          "within_two_sigma\n";
   for (const ItemEvaluation& item : evaluation.items) {
     const ItemFigures& figures = item.figures;
-    csv << field(item.series.capture) << ',' << item.series.label << ',' << field(item.series.name) << ','
-        << (item.series.overhangs ? "scan" : "heightfield") << ',' << fixed(item.series.truth_ml, 3) << ','
-        << number(figures.mean_ml, 3) << ',' << figures.estimates << ',' << figures.refused << ','
-        << number(figures.mape, 3) << ',' << number(figures.bias, 3) << ',' << number(figures.cv, 3) << ','
-        << number(figures.cv_seeds, 3) << ',' << number(item.sigma.median_relative_sigma, 3) << ','
-        << number(item.sigma.coverage, 2) << '\n';
+    csv << csv_field(item.series.capture) << ',' << item.series.label << ',' << csv_field(item.series.name)
+        << ',' << (item.series.overhangs ? "scan" : "heightfield") << ',' << fixed(item.series.truth_ml, 3)
+        << ',' << csv_number(figures.mean_ml, 3) << ',' << figures.estimates << ',' << figures.refused << ','
+        << csv_number(figures.mape, 3) << ',' << csv_number(figures.bias, 3) << ','
+        << csv_number(figures.cv, 3) << ',' << csv_number(figures.cv_seeds, 3) << ','
+        << csv_number(item.sigma.median_relative_sigma, 3) << ',' << csv_number(item.sigma.coverage, 2)
+        << '\n';
   }
   return csv.str();
 }
@@ -122,14 +106,14 @@ std::string compose_captures_csv(const Evaluation& evaluation) {
   const auto add = [&](const CaptureEvaluation& capture) {
     const SetFigures& foods = capture.foods;
     const StageFigures& stages = capture.stages;
-    csv << field(capture.capture) << ',' << foods.items << ',' << foods.estimates << ',' << foods.refused;
+    csv << csv_field(capture.capture) << ',' << foods.items << ',' << foods.estimates << ',' << foods.refused;
     for (const double value :
          {foods.mape, foods.bias, foods.cv, foods.cv_seeds, foods.within_10, foods.within_20,
           stages.rotation_deg, stages.direction_deg, stages.scale_percent, stages.bottom_tilt_deg,
           stages.bottom_offset_mm, stages.table_tilt_deg, stages.table_offset_mm, stages.time_ms,
           foods.mape_refusals_as_100, foods.pmae, capture.foods_above_plane.mape,
           capture.foods_above_plane.bias}) {
-      csv << ',' << number(value, 3);
+      csv << ',' << csv_number(value, 3);
     }
     csv << '\n';
   };

@@ -9,71 +9,35 @@
 
 #include "firmware/base/text.hpp"
 #include "firmware/evaluate/evaluation.hpp"
-#include "simulator/capture/input_error.hpp"
+#include "firmware/evaluate/table_cells.hpp"
 
 namespace traygauge {
 namespace {
 
-constexpr std::size_t kNameWidth = 20;
-constexpr std::size_t kCellWidth = 9;
 constexpr std::size_t kFigureWidth = 28;  // names of the figures over all
 constexpr std::size_t kGroupWidth = 18;   // four groups fit 100 columns
 constexpr std::size_t kMaxItemRows = 40;
-constexpr const char* kNothing = "–";
-
-std::string cell(double value, int decimals) {
-  return std::isnan(value) ? kNothing : fixed(value, decimals);
-}
-
-std::string signed_cell(double value, int decimals) {
-  const std::string text = cell(value, decimals);
-  return value > 0.0 && text.find_first_not_of("0.") != std::string::npos ? "+" + text : text;
-}
-
-std::size_t count_characters(const std::string& text) {
-  return static_cast<std::size_t>(std::count_if(
-      text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; }));
-}
-
-// The end of a name says more than its beginning, which is a folder.
-std::string shorten(const std::string& name, std::size_t width) {
-  std::string text = printable(name);
-  if (count_characters(text) <= width) return text;
-  std::size_t begin = text.size();
-  for (std::size_t kept = 0; begin > 0 && kept + 1 < width;) {
-    --begin;
-    if ((static_cast<unsigned char>(text[begin]) & 0xC0U) != 0x80U) ++kept;
-  }
-  return "…" + text.substr(begin);
-}
-
-std::string row(const std::string& name, std::size_t name_width, const std::vector<std::string>& cells,
-                std::size_t width) {
-  std::string text = pad_right(shorten(name, name_width - 1), name_width);
-  for (const std::string& value : cells) text += pad_left(value, width);
-  return text + "\n";
-}
 
 std::string capture_row(const CaptureEvaluation& capture) {
   const SetFigures& foods = capture.foods;
-  return row(capture.capture, kNameWidth,
-             {std::to_string(foods.items_tried), std::to_string(foods.estimates),
-              std::to_string(foods.refused), cell(foods.mape, 2), signed_cell(foods.bias, 2),
-              cell(foods.cv, 2), cell(foods.cv_seeds, 2), signed_cell(foods.worst, 1)},
-             kCellWidth);
+  return table_row(capture.capture, kNameWidth,
+                   {std::to_string(foods.items_tried), std::to_string(foods.estimates),
+                    std::to_string(foods.refused), cell(foods.mape, 2), signed_cell(foods.bias, 2),
+                    cell(foods.cv, 2), cell(foods.cv_seeds, 2), signed_cell(foods.worst, 1)},
+                   kCellWidth);
 }
 
 std::string capture_table(const Evaluation& evaluation) {
-  std::string text =
-      row("height-field foods", kNameWidth,
-          {"items", "volumes", "refused", "MAPE %", "bias %", "CV %", "seeds CV", "worst %"}, kCellWidth);
+  std::string text = table_row(
+      "height-field foods", kNameWidth,
+      {"items", "volumes", "refused", "MAPE %", "bias %", "CV %", "seeds CV", "worst %"}, kCellWidth);
   for (const CaptureEvaluation& capture : evaluation.captures) text += capture_row(capture);
   return text + capture_row(evaluation.all) + "\n";
 }
 
 std::string stage_row(const CaptureEvaluation& capture) {
   const StageFigures& stages = capture.stages;
-  return row(
+  return table_row(
       capture.capture, kNameWidth,
       {cell(stages.rotation_deg, 3), cell(stages.direction_deg, 3), cell(stages.scale_percent, 2),
        cell(stages.table_tilt_deg, 3), signed_cell(stages.table_offset_mm, 2),
@@ -84,9 +48,9 @@ std::string stage_row(const CaptureEvaluation& capture) {
 std::string stage_table(const Evaluation& evaluation) {
   if (std::isnan(evaluation.all.stages.rotation_deg)) return "";
   std::string text =
-      row("median errors", kNameWidth,
-          {"rotation", "motion", "scale", "table", "table", "bottom", "bottom", "time"}, kCellWidth);
-  text += row("", kNameWidth, {"deg", "deg", "%", "deg", "mm", "deg", "mm", "ms"}, kCellWidth);
+      table_row("median errors", kNameWidth,
+                {"rotation", "motion", "scale", "table", "table", "bottom", "bottom", "time"}, kCellWidth);
+  text += table_row("", kNameWidth, {"deg", "deg", "%", "deg", "mm", "deg", "mm", "ms"}, kCellWidth);
   for (const CaptureEvaluation& capture : evaluation.captures) text += stage_row(capture);
   return text + stage_row(evaluation.all) + "\n";
 }
@@ -96,11 +60,12 @@ std::string item_row(const ItemEvaluation& item) {
   constexpr std::size_t food_width = 16;
   const std::string food = item.series.name + (item.series.overhangs ? " *" : "");
   std::string text = pad_right(shorten(item.series.capture, kNameWidth - 1), kNameWidth);
-  return text + row(food, food_width,
-                    {cell(item.series.truth_ml, 1), cell(figures.mean_ml, 1), std::to_string(figures.refused),
-                     cell(figures.mape, 2), signed_cell(figures.bias, 2), cell(figures.cv, 2),
-                     cell(item.sigma.median_relative_sigma, 2)},
-                    kCellWidth);
+  return text +
+         table_row(food, food_width,
+                   {cell(item.series.truth_ml, 1), cell(figures.mean_ml, 1), std::to_string(figures.refused),
+                    cell(figures.mape, 2), signed_cell(figures.bias, 2), cell(figures.cv, 2),
+                    cell(item.sigma.median_relative_sigma, 2)},
+                   kCellWidth);
 }
 
 // Every item, or the worst where there are many.
@@ -119,7 +84,8 @@ std::string item_table(const Evaluation& evaluation) {
   }
   std::string text =
       pad_right("capture", kNameWidth) +
-      row("item", 16, {"true ml", "mean ml", "refused", "MAPE %", "bias %", "CV %", "sigma %"}, kCellWidth);
+      table_row("item", 16, {"true ml", "mean ml", "refused", "MAPE %", "bias %", "CV %", "sigma %"},
+                kCellWidth);
   bool has_fruit = false;
   for (const ItemEvaluation& item : items) {
     text += item_row(item);
@@ -134,37 +100,37 @@ std::string item_table(const Evaluation& evaluation) {
 
 std::string angle_row(const AngleEvaluation& angle) {
   const SetFigures& foods = angle.foods;
-  return row(angle.title, kNameWidth,
-             {std::to_string(angle.pairs), std::to_string(foods.estimates), std::to_string(foods.refused),
-              cell(foods.mape, 2), signed_cell(foods.bias, 2), cell(foods.cv_seeds, 2),
-              cell(foods.within_10, 1), signed_cell(foods.worst, 1)},
-             kCellWidth);
+  return table_row(angle.title, kNameWidth,
+                   {std::to_string(angle.pairs), std::to_string(foods.estimates),
+                    std::to_string(foods.refused), cell(foods.mape, 2), signed_cell(foods.bias, 2),
+                    cell(foods.cv_seeds, 2), cell(foods.within_10, 1), signed_cell(foods.worst, 1)},
+                   kCellWidth);
 }
 
 std::string angle_table(const Evaluation& evaluation) {
   if (evaluation.angles.empty()) return "";
-  std::string text =
-      row("relative angle", kNameWidth,
-          {"pairs", "volumes", "refused", "MAPE %", "bias %", "seeds CV", "in 10 %", "worst %"}, kCellWidth);
+  std::string text = table_row(
+      "relative angle", kNameWidth,
+      {"pairs", "volumes", "refused", "MAPE %", "bias %", "seeds CV", "in 10 %", "worst %"}, kCellWidth);
   for (const AngleEvaluation& angle : evaluation.angles) text += angle_row(angle);
   if (evaluation.optimal_angles) text += angle_row(*evaluation.optimal_angles);
   return text + "\n";
 }
 
 std::string percent(double value, int decimals) {
-  return std::isnan(value) ? kNothing : fixed(value, decimals) + " %";
+  return std::isnan(value) ? kNoValue : fixed(value, decimals) + " %";
 }
 
 std::string signed_percent(double value, int decimals) {
-  return std::isnan(value) ? kNothing : signed_cell(value, decimals) + " %";
+  return std::isnan(value) ? kNoValue : signed_cell(value, decimals) + " %";
 }
 
 std::string signed_range(double low, double high, int decimals) {
-  return std::isnan(low) ? kNothing : signed_cell(low, decimals) + " to " + signed_percent(high, decimals);
+  return std::isnan(low) ? kNoValue : signed_cell(low, decimals) + " to " + signed_percent(high, decimals);
 }
 
 std::string range(const std::optional<ConfidenceInterval>& interval, int decimals) {
-  return interval ? fixed(interval->low, decimals) + " to " + percent(interval->high, decimals) : kNothing;
+  return interval ? fixed(interval->low, decimals) + " to " + percent(interval->high, decimals) : kNoValue;
 }
 
 std::string thirds(const std::array<double, 3>& shares) {
@@ -193,7 +159,7 @@ std::string accuracy_rows(const FigureRow& line) {
   text += line("PMAE", [](Group g) { return percent(g.figures.pmae, 2); });
   text += line("bias", [](Group g) { return signed_percent(g.figures.bias, 2); });
   text += line("  95 % interval", [](Group g) {
-    return g.bias_interval ? signed_range(g.bias_interval->low, g.bias_interval->high, 2) : kNothing;
+    return g.bias_interval ? signed_range(g.bias_interval->low, g.bias_interval->high, 2) : kNoValue;
   });
   text += line("95 % limits of agreement",
                [](Group g) { return signed_range(g.figures.limit_low, g.figures.limit_high, 1); });
@@ -218,7 +184,7 @@ std::string sigma_rows(const FigureRow& line, bool is_estimated) {
   });
   if (!is_estimated) return text;
   const auto stated = [&](const char* title, const std::function<std::string(const SigmaFigures&)>& value) {
-    return line(title, [&](Group g) { return g.sigma.is_estimated ? value(g.sigma) : kNothing; });
+    return line(title, [&](Group g) { return g.sigma.is_estimated ? value(g.sigma) : kNoValue; });
   };
   using Sigma = const SigmaFigures&;
   text += line("  95 % interval", [](Group g) { return range(g.coverage_interval, 1); });
@@ -238,7 +204,7 @@ std::string summary_table(const Evaluation& evaluation) {
     std::vector<std::string> cells;
     cells.reserve(evaluation.groups.size());
     for (const GroupEvaluation& group : evaluation.groups) cells.push_back(value(group));
-    return row(title, kFigureWidth, cells, kGroupWidth);
+    return table_row(title, kFigureWidth, cells, kGroupWidth);
   };
   for (const GroupEvaluation& group : evaluation.groups)
     is_sigma_estimated = is_sigma_estimated || group.sigma.is_estimated;

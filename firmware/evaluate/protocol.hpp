@@ -4,15 +4,17 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
-#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "core/estimator/configuration.hpp"
 #include "core/estimator/measurement.hpp"
+#include "firmware/evaluate/pair_tasks.hpp"
 #include "firmware/evaluate/profile_abilities.hpp"
 #include "firmware/evaluate/stage_errors.hpp"
+#include "firmware/measure/capture_session.hpp"
+#include "simulator/capture/capture.hpp"
 #include "simulator/capture/truth.hpp"
 
 namespace traygauge {
@@ -58,14 +60,31 @@ struct PairRuns {
   std::vector<Run> runs;
 };
 
-// Folders with capture.json at or below `set`, sorted. Throws InputError when there is none.
-std::vector<std::filesystem::path> find_captures(const std::filesystem::path& set);
+// One pair of a capture with its truth.
+class PairRunner {
+ public:
+  // Throws InputError.
+  PairRunner(const PairTask& task, const ProtocolOptions& options);
+
+  PairRuns start() const;  // without runs
+  Run measure(std::uint64_t seed, StageTap* tap = nullptr);
+
+  const Capture& capture() const { return capture_; }
+  const Truth& truth() const { return truth_; }
+  const std::optional<PairTruth>& pair_truth() const { return pair_truth_; }
+
+ private:
+  PairTask task_;
+  Capture capture_;
+  Truth truth_;
+  std::optional<PairTruth> pair_truth_;  // where the truth has poses
+  std::vector<DishDescription> dishes_;
+  CaptureSession session_;
+};
 
 // Measures all pairs, ordered by capture. Captures without truth, and those that the profile cannot measure,
-// are named in `skipped` with the reason. `progress` is told how many of how many measurements are done,
-// never by two threads at once. The results do not depend on `options.jobs`. Throws InputError.
+// are named in `skipped` with the reason. The results do not depend on `options.jobs`. Throws InputError.
 std::vector<PairRuns> run_protocol(const std::filesystem::path& set, const ProtocolOptions& options,
-                                   std::vector<std::string>& skipped,
-                                   const std::function<void(std::size_t, std::size_t)>& progress);
+                                   std::vector<std::string>& skipped, const ShowProgress& progress);
 
 }  // namespace traygauge

@@ -80,13 +80,13 @@ ViewInput CaptureSession::input(std::size_t i) const {
   return input;
 }
 
-const Measurement& CaptureSession::measure(std::uint64_t seed) {
+const Measurement& CaptureSession::measure(std::uint64_t seed, StageTap* tap) {
   estimator_.reset();
   for (std::size_t i = 0; i < 2; ++i) {
     // estimate() reports the failure of a view, too.
     if (!estimator_.add_view(input(i)).ok()) break;
   }
-  return estimator_.estimate(seed);
+  return estimator_.estimate(seed, tap);
 }
 
 }  // namespace traygauge

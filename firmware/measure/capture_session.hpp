@@ -23,7 +23,7 @@ class CaptureSession {
                  const Configuration& parameters = {});
 
   // The views of `measurement` point into the session.
-  const Measurement& measure(std::uint64_t seed);
+  const Measurement& measure(std::uint64_t seed, StageTap* tap = nullptr);
 
   const Estimator& estimator() const { return estimator_; }
   const LoadedView& view(int i) const { return views_[static_cast<std::size_t>(i)]; }

@@ -14,9 +14,12 @@ namespace {
 
 constexpr NumberRange kVolumeMl{0.0, 1e5};
 constexpr NumberRange kPoseEntry{-1e6, 1e6};
+constexpr NumberRange kLengthMm{-1e5, 1e5};
+constexpr NumberRange kAngleDeg{-360.0, 360.0};
 constexpr double kRotationTolerance = 1e-3;
 constexpr std::size_t kMaxPoses = 1000;
 constexpr std::size_t kMaxItems = 198;
+constexpr std::size_t kMaxDishes = 50;
 
 std::optional<double> read_volume(const JsonNode& item, const char* name) {
   const auto node = item.find(name);
@@ -36,6 +39,15 @@ TruthItem read_item(const JsonNode& node) {
   item.volume_above_bottom_plane_ml = read_volume(node, "volume_above_bottom_plane_ml");
   item.column_volume_ml = read_volume(node, "column_volume_ml");
   return item;
+}
+
+TruthDish read_dish_place(const JsonNode& node) {
+  TruthDish dish;
+  dish.label = node.member("label").integer(1, 249);
+  const std::vector<double> centre = node.member("centre_mm").numbers(3, kLengthMm);
+  dish.centre_mm = {centre[0], centre[1]};
+  if (const auto rotation = node.find("rotation_deg")) dish.rotation_deg = rotation->number(kAngleDeg);
+  return dish;
 }
 
 bool is_rigid(const WorldToCamera& pose) {
@@ -72,6 +84,10 @@ std::optional<Truth> read_truth(const std::filesystem::path& capture_folder) {
   Truth truth;
   for (const JsonNode& node : root.member("items").elements(0, kMaxItems))
     truth.items.push_back(read_item(node));
+  if (const auto dishes = root.find("dishes")) {
+    for (const JsonNode& node : dishes->elements(0, kMaxDishes))
+      truth.dishes.push_back(read_dish_place(node));
+  }
   for (const JsonNode& node : root.member("poses").elements(0, kMaxPoses))
     truth.poses.push_back(read_pose(node));
   return truth;

@@ -20,8 +20,16 @@ struct TruthItem {
 
 using WorldToCamera = std::array<std::array<double, 4>, 4>;  // mm, OpenCV axes, last row 0 0 0 1
 
+// Where a dish stands.
+struct TruthDish {
+  int label = 1;
+  std::array<double, 2> centre_mm{};  // in the world
+  double rotation_deg = 0.0;          // of outer_size_mm[0] from the world's x towards its y
+};
+
 struct Truth {
   std::vector<TruthItem> items;
+  std::vector<TruthDish> dishes;     // none: one, under the world's origin
   std::vector<WorldToCamera> poses;  // one a view
 };
 

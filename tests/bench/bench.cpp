@@ -9,6 +9,7 @@
 
 int main(int argc, char** argv) {
   using namespace traygauge::bench;
+  using traygauge::Profile;
   cv::setNumThreads(1);
   std::vector<Scene> scenes;
   for (const char* capture : {"meals/m01", "meals/m06"}) {
@@ -20,16 +21,29 @@ int main(int argc, char** argv) {
   }
 
   bool holds = true;
-  for (const Scene& scene : scenes) holds = check_reported_time(scene) && holds;
+  for (const Scene& scene : scenes) {
+    for (const Profile profile : {Profile::best, Profile::paper})
+      holds = check_reported_time(scene, profile) && holds;
+  }
   if (!holds) return 1;
 
-  const StageData data(scenes.front());
-  if (data.rectified[0].empty()) {
-    std::printf("%s: the stages cannot be compared.\n", data.scene.name.c_str());
+  const BestData best(scenes.front());
+  const StageData paper(scenes.front());
+  if (!best.is_complete || paper.rectified[0].empty()) {
+    std::printf("%s: the stages cannot be compared.\n", scenes.front().name.c_str());
     return 1;
   }
-  std::vector<Comparison> comparisons = compare_sparse_stages(data);
-  for (Comparison& comparison : compare_dense_stages(data)) comparisons.push_back(std::move(comparison));
-  for (const Scene& scene : scenes) comparisons.push_back(compare_measurement(scene));
+  std::vector<Comparison> comparisons;
+  const auto add = [&](std::vector<Comparison> more) {
+    for (Comparison& comparison : more) comparisons.push_back(std::move(comparison));
+  };
+  add(compare_best_sparse_stages(best));
+  add(compare_best_dense_stages(best));
+  add(compare_sparse_stages(paper));
+  add(compare_dense_stages(paper));
+  for (const Scene& scene : scenes) {
+    for (const Profile profile : {Profile::best, Profile::paper})
+      comparisons.push_back(compare_measurement(scene, profile));
+  }
   return run_comparisons(comparisons, argc, argv) ? 0 : 1;
 }

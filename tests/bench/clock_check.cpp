@@ -21,8 +21,8 @@ double median(Times times) {
 
 }  // namespace
 
-bool check_reported_time(const Scene& scene) {
-  Session session(scene);
+bool check_reported_time(const Scene& scene, Profile profile) {
+  Session session(scene, profile);
   Times outside_ms{};
   Times reported_ms{};
   Times share{};
@@ -32,7 +32,8 @@ bool check_reported_time(const Scene& scene) {
     const Measurement& measurement = session.measure();
     const std::chrono::duration<double, std::milli> elapsed = std::chrono::steady_clock::now() - start;
     if (!measurement.status.ok()) {
-      std::printf("%s: not measured: %s\n", scene.name.c_str(), sentence(measurement.status.code()));
+      std::printf("%s, %s: not measured: %s\n", scene.name.c_str(), name_of(profile),
+                  sentence(measurement.status.code()));
       return false;
     }
     outside_ms[run] = elapsed.count();
@@ -41,9 +42,9 @@ bool check_reported_time(const Scene& scene) {
     for (std::size_t i = 0; i < kStageCount; ++i) stage_ms[i][run] = measurement.stage_ms[i];
   }
   const double deviation = std::abs(median(share) - 1.0);
-  std::printf("%s: outside clock %.1f ms, reported total %.1f ms, apart by %.2f %% (at most %.0f %%)\n ",
-              scene.name.c_str(), median(outside_ms), median(reported_ms), 100.0 * deviation,
-              100.0 * kTolerance);
+  std::printf("%s, %s: outside clock %.1f ms, reported total %.1f ms, apart by %.2f %% (at most %.0f %%)\n ",
+              scene.name.c_str(), name_of(profile), median(outside_ms), median(reported_ms),
+              100.0 * deviation, 100.0 * kTolerance);
   for (std::size_t i = 0; i < kStageCount; ++i) {
     std::printf(" %s %.1f", name(static_cast<Stage>(i)), median(stage_ms[i]));
   }

@@ -62,7 +62,7 @@ void register_method(const Comparison& comparison, const Method& method) {
 void print_heading() {
   std::printf("\nCPU time of one thread: median of %d interleaved repetitions, and their range.\n\n",
               kRepetitions);
-  std::printf("%-14s %-30s %24s %10s %21s %12s\n", "stage", "method", "result", "median ms", "range ms",
+  std::printf("%-16s %-30s %24s %10s %21s %12s\n", "stage", "method", "result", "median ms", "range ms",
               "ours / peer");
 }
 
@@ -70,7 +70,7 @@ void print_row(const Comparison& comparison, const Method& method, const Sample&
   const auto [low, high] = std::minmax_element(sample.times_ms.begin(), sample.times_ms.end());
   const double ms = median(sample.times_ms);
   const bool is_ours = &method == comparison.methods.data();
-  std::printf("%-14s %-30s %9.4g %-14s %10.3f %10.3f…%10.3f ", is_ours ? comparison.stage.c_str() : "",
+  std::printf("%-16s %-30s %9.4g %-14s %10.3f %10.3f…%10.3f ", is_ours ? comparison.stage.c_str() : "",
               method.name.c_str(), sample.figure, comparison.figure.c_str(), ms, *low, *high);
   if (is_ours) {
     std::printf("%12s\n", "");

@@ -17,13 +17,13 @@ std::map<int, double> volumes_of(const Measurement& measurement) {
 
 }  // namespace
 
-Comparison compare_measurement(const Scene& scene) {
-  const auto session = std::make_shared<Session>(scene);
+Comparison compare_measurement(const Scene& scene, Profile profile) {
+  const auto session = std::make_shared<Session>(scene, profile);
   const auto ours = [&scene, session] { return scene.error_percent(volumes_of(session->measure())); };
   const auto peer = [&scene, pattern = prepare_pattern(scene)] {
     return scene.error_percent(measure_by_opencv(scene, pattern));
   };
-  return {scene.name,
+  return {scene.name + ", " + name_of(profile),
           "% volume error",
           {{"ours, whole measurement", ours}, {"OpenCV's parts, no joint fit", peer}}};
 }

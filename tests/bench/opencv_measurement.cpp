@@ -23,9 +23,7 @@ struct PeerView {
   cv::Mat labels;
   SparsePoints points;
   std::vector<cv::Point2d> rays;
-  std::map<int, cv::Point2d> card;  // ray of each point of the pattern that was found
-  cv::Matx33d from_card;            // rotation
-  cv::Vec3d card_origin;            // mm, in this camera
+  OpenCvCard card;
 };
 
 std::vector<cv::Point2d> undistort(const std::vector<cv::Point2d>& pixels, const OpenCvLens& lens) {
@@ -34,48 +32,9 @@ std::vector<cv::Point2d> undistort(const std::vector<cv::Point2d>& pixels, const
   return rays;
 }
 
-cv::Rect as_rect(const PixelBox& box) {
-  return {box.left, box.top, box.width(), box.height()};
-}
-
 cv::Point3d on_card(const OpenCvPattern& pattern, int point) {
   const cv::Point2d& pixel = pattern.points.pixels[static_cast<std::size_t>(point)];
   return {(pixel.x + 0.5) / pattern.px_per_mm, (pixel.y + 0.5) / pattern.px_per_mm, 0.0};
-}
-
-// The card by its own points: homography to the pattern, then its pose.
-bool find_card(const cv::Rect& box, const OpenCvPattern& pattern, const OpenCvLens& lens, PeerView& view) {
-  const double scale = std::min(1.0, static_cast<double>(kCardSidePx) / std::max(box.width, box.height));
-  const SparsePoints points = find_sift(view.gray, box, scale, kSiftPoints);
-  cv::BFMatcher matcher(cv::NORM_L2);
-  const auto pairs = match_symmetric(matcher, points.descriptors, pattern.points.descriptors, kRatio);
-  if (pairs.size() < 8) return false;
-  std::vector<cv::Point2d> seen;
-  std::vector<cv::Point2d> printed;
-  for (const cv::Point& pair : pairs) {
-    seen.push_back(points.pixels[static_cast<std::size_t>(pair.x)]);
-    const cv::Point3d place = on_card(pattern, pair.y);
-    printed.emplace_back(place.x, place.y);
-  }
-  const std::vector<cv::Point2d> rays = undistort(seen, lens);
-  std::vector<std::uint8_t> inlier;
-  cv::findHomography(printed, rays, inlier, cv::USAC_MAGSAC, 2.0 / lens.camera(0, 0));
-  std::vector<cv::Point3d> card_points;
-  std::vector<cv::Point2d> card_rays;
-  for (std::size_t i = 0; i < inlier.size(); ++i) {
-    if (inlier[i] == 0) continue;
-    view.card[pairs[i].y] = rays[i];
-    card_points.push_back(on_card(pattern, pairs[i].y));
-    card_rays.push_back(rays[i]);
-  }
-  if (card_points.size() < 8) return false;
-  cv::Vec3d turn;
-  if (!cv::solvePnP(card_points, card_rays, cv::Matx33d::eye(), cv::noArray(), turn, view.card_origin, false,
-                    cv::SOLVEPNP_IPPE))
-    return false;
-  cv::solvePnPRefineLM(card_points, card_rays, cv::Matx33d::eye(), cv::noArray(), turn, view.card_origin);
-  cv::Rodrigues(turn, view.from_card);
-  return true;
 }
 
 bool prepare_view(const Scene& scene, std::size_t i, const OpenCvPattern& pattern, const OpenCvLens& lens,
@@ -97,7 +56,7 @@ bool prepare_view(const Scene& scene, std::size_t i, const OpenCvPattern& patter
   const cv::Rect box = as_rect(regions.dish) | as_rect(regions.card);
   view.points = find_sift(view.gray, box, std::sqrt(kDishPixels / regions.dish_pixels), kSiftPoints);
   view.rays = undistort(view.points.pixels, lens);
-  return find_card(as_rect(regions.card), pattern, lens, view);
+  return find_card(view.gray, as_rect(regions.card), pattern, lens, view.card);
 }
 
 // The motion of the camera up to scale, and the rays that agree with it.
@@ -162,9 +121,9 @@ double scale_by_card(const PeerMotion& motion, const PeerView& first, const Peer
   std::vector<cv::Point2d> a;
   std::vector<cv::Point2d> b;
   std::vector<cv::Point3d> printed;
-  for (const auto& [point, ray] : first.card) {
-    const auto found = second.card.find(point);
-    if (found == second.card.end()) continue;
+  for (const auto& [point, ray] : first.card.rays) {
+    const auto found = second.card.rays.find(point);
+    if (found == second.card.rays.end()) continue;
     a.push_back(ray);
     b.push_back(found->second);
     printed.push_back(on_card(pattern, point));
@@ -195,6 +154,41 @@ OpenCvPattern prepare_pattern(const Scene& scene) {
           pattern.size.width / scene.card.width_mm};
 }
 
+bool find_card(const cv::Mat& gray, const cv::Rect& box, const OpenCvPattern& pattern, const OpenCvLens& lens,
+               OpenCvCard& card) {
+  const double scale = std::min(1.0, static_cast<double>(kCardSidePx) / std::max(box.width, box.height));
+  const SparsePoints points = find_sift(gray, box, scale, kSiftPoints);
+  cv::BFMatcher matcher(cv::NORM_L2);
+  const auto pairs = match_symmetric(matcher, points.descriptors, pattern.points.descriptors, kRatio);
+  if (pairs.size() < 8) return false;
+  std::vector<cv::Point2d> seen;
+  std::vector<cv::Point2d> printed;
+  for (const cv::Point& pair : pairs) {
+    seen.push_back(points.pixels[static_cast<std::size_t>(pair.x)]);
+    const cv::Point3d place = on_card(pattern, pair.y);
+    printed.emplace_back(place.x, place.y);
+  }
+  const std::vector<cv::Point2d> rays = undistort(seen, lens);
+  std::vector<std::uint8_t> inlier;
+  cv::findHomography(printed, rays, inlier, cv::USAC_MAGSAC, 2.0 / lens.camera(0, 0));
+  std::vector<cv::Point3d> card_points;
+  std::vector<cv::Point2d> card_rays;
+  for (std::size_t i = 0; i < inlier.size(); ++i) {
+    if (inlier[i] == 0) continue;
+    card.rays[pairs[i].y] = rays[i];
+    card_points.push_back(on_card(pattern, pairs[i].y));
+    card_rays.push_back(rays[i]);
+  }
+  if (card_points.size() < 8) return false;
+  cv::Vec3d turn;
+  if (!cv::solvePnP(card_points, card_rays, cv::Matx33d::eye(), cv::noArray(), turn, card.origin_mm, false,
+                    cv::SOLVEPNP_IPPE))
+    return false;
+  cv::solvePnPRefineLM(card_points, card_rays, cv::Matx33d::eye(), cv::noArray(), turn, card.origin_mm);
+  cv::Rodrigues(turn, card.rotation);
+  return true;
+}
+
 std::map<int, double> measure_by_opencv(const Scene& scene, const OpenCvPattern& pattern) {
   cv::setRNGSeed(1);
   const OpenCvLens lens(scene.lens);
@@ -215,8 +209,8 @@ std::map<int, double> measure_by_opencv(const Scene& scene, const OpenCvPattern&
   const auto up_axis = [](const cv::Matx33d& r) { return -cv::Vec3d(r(0, 2), r(1, 2), r(2, 2)); };
   // The print seen from both views; y of the pattern runs down, so its z points into the table.
   input.bottom_normal =
-      cv::normalize(up_axis(views[0].from_card) + input.rotation.t() * up_axis(views[1].from_card));
-  const cv::Vec3d card = views[0].card_origin;
+      cv::normalize(up_axis(views[0].card.rotation) + input.rotation.t() * up_axis(views[1].card.rotation));
+  const cv::Vec3d card = views[0].card.origin_mm;
   input.bottom_offset = input.bottom_normal.dot(card) - scene.card.thickness_mm + scene.dish.bottom_height_mm;
   const std::vector<cv::Vec3d> cloud = triangulate(motion, motion.first, motion.second);
   for (std::size_t i = 0; i < cloud.size(); ++i) {

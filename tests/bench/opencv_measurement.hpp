@@ -9,6 +9,7 @@
 #include <opencv2/features2d.hpp>
 #include <vector>
 
+#include "tests/bench/opencv_stereo.hpp"
 #include "tests/bench/scene.hpp"
 
 namespace traygauge::bench {
@@ -31,6 +32,16 @@ struct OpenCvPattern {
 };
 // Once per card, as ours does at construction.
 OpenCvPattern prepare_pattern(const Scene& scene);
+
+// The card as one view shows it.
+struct OpenCvCard {
+  std::map<int, cv::Point2d> rays;  // of each point of the pattern that was found
+  cv::Matx33d rotation;             // camera from card
+  cv::Vec3d origin_mm;
+};
+// By its own points: homography to the pattern, then its pose.
+bool find_card(const cv::Mat& gray, const cv::Rect& box, const OpenCvPattern& pattern, const OpenCvLens& lens,
+               OpenCvCard& card);
 
 // Volumes by label; empty when the motion, the card or the dish was not found.
 std::map<int, double> measure_by_opencv(const Scene& scene, const OpenCvPattern& pattern);

@@ -5,8 +5,6 @@
 #include <opencv2/calib3d.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "core/segmentation/label_regions.hpp"
-
 namespace traygauge::bench {
 namespace {
 
@@ -211,10 +209,6 @@ std::map<int, double> integrate(const Rectified& pair, const cv::Mat& points, co
 
 }  // namespace
 
-cv::Matx33d camera_matrix(const PinholeCamera& camera) {
-  return {camera.fx_px, 0.0, camera.cx_px, 0.0, camera.fy_px, camera.cy_px, 0.0, 0.0, 1.0};
-}
-
 cv::Matx33d rotation_matrix(const Mat3& r) {
   return {r(0, 0), r(0, 1), r(0, 2), r(1, 0), r(1, 1), r(1, 2), r(2, 0), r(2, 1), r(2, 2)};
 }
@@ -223,8 +217,12 @@ cv::Vec3d vector_of(const Vec3& vector) {
   return {vector.x(), vector.y(), vector.z()};
 }
 
+cv::Rect as_rect(const PixelBox& box) {
+  return {box.left, box.top, box.width(), box.height()};
+}
+
 OpenCvLens::OpenCvLens(const LensModel& lens)
-    : camera(camera_matrix(lens.pinhole)), distortion{lens.k1, lens.k2, lens.p1, lens.p2, lens.k3} {}
+    : camera(testing::camera_matrix(lens.pinhole)), distortion(testing::distortion_of(lens)) {}
 
 OpenCvStereoInput OpenCvStereoInput::swapped() const {
   OpenCvStereoInput other{{gray[1], gray[0]},

@@ -7,12 +7,14 @@
 
 #include "core/base/geometry.hpp"
 #include "core/image/camera.hpp"
+#include "core/segmentation/label_regions.hpp"
+#include "tests/support/opencv_camera.hpp"
 
 namespace traygauge::bench {
 
-cv::Matx33d camera_matrix(const PinholeCamera& camera);
 cv::Matx33d rotation_matrix(const Mat3& rotation);
 cv::Vec3d vector_of(const Vec3& vector);
+cv::Rect as_rect(const PixelBox& box);
 
 struct OpenCvLens {
   explicit OpenCvLens(const LensModel& lens);

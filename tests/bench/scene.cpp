@@ -70,9 +70,9 @@ void draw_card(const SyntheticCamera& camera, const ReferenceCard& card, Picture
 
 }  // namespace
 
-Configuration Scene::configuration() const {
+Configuration Scene::configuration(Profile profile) const {
   Configuration configuration;
-  configuration.profile = Profile::paper;
+  configuration.profile = profile;
   configuration.lens = lens;
   configuration.card = card;
   configuration.card.pattern = pattern.gray();
@@ -149,9 +149,9 @@ Scene render_scene() {
   return scene;
 }
 
-Session::Session(const Scene& scene_)
+Session::Session(const Scene& scene_, Profile profile)
     : scene(scene_),
-      configuration(scene_.configuration()),
+      configuration(scene_.configuration(profile)),
       block(required_bytes(configuration)),
       estimator(block.bytes(), configuration) {}
 

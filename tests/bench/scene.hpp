@@ -24,7 +24,7 @@ struct Scene {
   std::map<int, double> truth_ml;  // by label; empty when it is not known
 
   // Points into the scene.
-  Configuration configuration() const;
+  Configuration configuration(Profile profile) const;
   ViewInput view(std::size_t i) const;
   // Mean of |measured − true| / true, in %; NaN without truth.
   double error_percent(const std::map<int, double>& volumes_ml) const;
@@ -36,9 +36,13 @@ std::optional<Scene> load_capture_scene(const std::string& capture);
 // The same size in closed form: a cosine hill on a flat dish, and a card with random spots.
 Scene render_scene();
 
+inline const char* name_of(Profile profile) {
+  return profile == Profile::best ? "best" : "paper";
+}
+
 // An estimator and its memory for a scene, which outlives it.
 struct Session {
-  explicit Session(const Scene& scene);
+  Session(const Scene& scene, Profile profile);
   const Measurement& measure();
 
   const Scene& scene;

@@ -106,7 +106,8 @@ void rectify_views(StageData& data) {
 
 }  // namespace
 
-StageData::StageData(const Scene& scene_) : scene(scene_), session(scene_), measurement(session.measure()) {
+StageData::StageData(const Scene& scene_)
+    : scene(scene_), session(scene_, Profile::paper), measurement(session.measure()) {
   const Configuration& configuration = session.configuration;
   for (std::size_t i = 0; i < 2; ++i) {
     gray[i].create(scene.lens.height, scene.lens.width, CV_8U);

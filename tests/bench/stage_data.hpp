@@ -1,4 +1,4 @@
-// The inputs of every stage, prepared once from a scene by the stages before it.
+// The inputs of every stage of profile `paper`, prepared once from a scene by the stages before it.
 #pragma once
 
 #include <array>

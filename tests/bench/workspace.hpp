@@ -15,6 +15,7 @@ class OwnedWorkspace {
     workspace_.allocate(arena, caps...);
   }
   Workspace& operator*() { return workspace_; }
+  const Workspace& operator*() const { return workspace_; }
 
  private:
   template <class... Caps>

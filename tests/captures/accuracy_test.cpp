@@ -74,6 +74,17 @@ TEST_P(CaptureAccuracy, NothingIsRefused) {
   }
 }
 
+// The rendered outlines are exact.
+TEST_P(CaptureAccuracy, LabelsOfBothViewsAgree) {
+  const double min_share = GetParam() == Profile::best ? 0.97 : 0.94;
+  for (const PairRuns& pair : protocol_runs(GetParam())) {
+    for (const auto& run : pair.runs) {
+      EXPECT_GT(run.report.label_agreement, min_share)
+          << pair.capture << " " << pair.pair[0] << "," << pair.pair[1];
+    }
+  }
+}
+
 TEST_P(CaptureAccuracy, PoseAndScale) {
   const double rotation =
       median(collect_errors(GetParam(), [](const StageErrors& e) { return e.rotation_deg; }));

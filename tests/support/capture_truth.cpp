@@ -130,14 +130,6 @@ PinholeCamera enlarge(const PinholeCamera& camera, double scale) {
           scale * (camera.cy_px + 0.5) - 0.5};
 }
 
-cv::Matx33d camera_matrix(const PinholeCamera& camera) {
-  return {camera.fx_px, 0.0, camera.cx_px, 0.0, camera.fy_px, camera.cy_px, 0.0, 0.0, 1.0};
-}
-
-std::vector<double> distortion_of(const LensModel& lens) {
-  return {lens.k1, lens.k2, lens.p1, lens.p2, lens.k3};
-}
-
 cv::Mat1b dish_mask(const cv::Mat1b& labels) {
   cv::Mat1b mask;
   cv::inRange(labels, 1, kLastDishLabel, mask);

@@ -10,6 +10,7 @@
 
 #include "core/base/geometry.hpp"
 #include "core/image/camera.hpp"
+#include "tests/support/opencv_camera.hpp"
 
 namespace traygauge::testing {
 
@@ -57,8 +58,6 @@ Plane plane_in_camera(const Plane& world, const Pose& camera_from_world);
 
 // The camera of a picture resized by `scale`; pixel centres lie at integers.
 PinholeCamera enlarge(const PinholeCamera& camera, double scale);
-cv::Matx33d camera_matrix(const PinholeCamera& camera);
-std::vector<double> distortion_of(const LensModel& lens);
 
 // 255 on the first dish and its food, labels 1 … 199.
 cv::Mat1b dish_mask(const cv::Mat1b& labels);

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "tests/support/cameras.hpp"
+
 namespace traygauge {
 namespace {
 
@@ -209,14 +211,8 @@ Vec2 SyntheticCamera::project(const Vec3& point_mm) const {
 
 SyntheticCamera look_at(const Vec3& position, const Vec3& target, double roll_rad, double focal_px, int width,
                         int height) {
-  const Vec3 forward = (target - position).normalized();
-  const Vec3 hint = std::abs(forward.y()) < 0.9 ? Vec3::UnitY() : Vec3::UnitX();
-  const Vec3 right = forward.cross(hint).normalized();
-  Mat3 rotation;
-  rotation << right.transpose(), forward.cross(right).transpose(), forward.transpose();
-  rotation = Eigen::AngleAxisd(roll_rad, Vec3::UnitZ()) * rotation;
   const PinholeCamera pinhole{focal_px, focal_px, 0.5 * (width - 1), 0.5 * (height - 1)};
-  return {pinhole, width, height, {rotation, -(rotation * position)}};
+  return {pinhole, width, height, testing::looking_at(position, target, roll_rad)};
 }
 
 Pose second_from_first(const SyntheticCamera& first, const SyntheticCamera& second) {

@@ -30,14 +30,6 @@ bool is_same_place(const SceneGeometry& geometry) {
   return second_from_first(geometry.joint.camera_from_table).translation.norm() < kSamePlaceMm;
 }
 
-Status summarise(const SceneGeometry& geometry, std::span<const ItemResult> items) {
-  const auto is_measured = [](const ItemResult& item) { return item.status == StatusCode::ok; };
-  const auto measured = std::count_if(items.begin(), items.end(), is_measured);
-  if (items.empty()) return geometry.joint.dishes[0].status;
-  if (measured == static_cast<std::ptrdiff_t>(items.size())) return StatusCode::ok;
-  return measured > 0 ? StatusCode::partial : items.front().status;
-}
-
 void report_pose(const SceneGeometry& geometry, bool reversed, Measurement& measurement) {
   const Pose motion = second_from_first(geometry.joint.camera_from_table);
   measurement.has_pose = true;
@@ -53,39 +45,16 @@ void report_pose(const SceneGeometry& geometry, bool reversed, Measurement& meas
   if (reversed) std::swap(measurement.views.camera_from_table[0], measurement.views.camera_from_table[1]);
 }
 
-Status compare_pictures(const BestMemory& memory, const Configuration& configuration,
-                        Measurement& measurement) {
-  const ViewCheckParams& params = configuration.view_checks;
-  const ViewQuality& first = memory.views[0].quality();
-  const ViewQuality& second = memory.views[1].quality();
-  const ColourDifference difference = compare_colours(first.colours, second.colours, params.colours);
-  report_pictures(first, second, difference, params, measurement.report.pictures);
-  warn_about_pictures(first, second, difference, params, measurement.warnings);
-  return judge_pair(difference, params);
-}
-
-void warn(const ViewPair& views, const Configuration& configuration, const SceneGeometry& geometry,
-          Measurement& measurement) {
-  const auto set = [&](Warning warning, bool on) {
-    measurement.warnings[static_cast<std::size_t>(warning)] = on;
-  };
-  const ViewGeometryParams& params = configuration.geometry;
-  set(Warning::angle_small, measurement.relative_angle_deg < params.small_angle_deg);
-  set(Warning::angle_large, measurement.relative_angle_deg > params.large_angle_deg);
-  for (std::size_t d = 0; d < geometry.dish_count; ++d) {
-    if (geometry.dishes[d].candidates.size() > 1) set(Warning::dish_guessed, true);
-  }
-  if (views[0]->arm_angle_deg && views[1]->arm_angle_deg) {
-    const double commanded_deg = std::abs(*views[1]->arm_angle_deg - *views[0]->arm_angle_deg);
-    set(Warning::arm_angle_disagrees,
-        std::abs(commanded_deg - measurement.rotation_angle_deg) > params.max_arm_deviation_deg);
-  }
+bool is_dish_guessed(const SceneGeometry& geometry) {
+  const std::span<const DishOnTray> dishes = std::span(geometry.dishes).first(geometry.dish_count);
+  return std::any_of(dishes.begin(), dishes.end(),
+                     [](const DishOnTray& dish) { return dish.candidates.size() > 1; });
 }
 
 }  // namespace
 
-void run_best(BestMemory& memory, const Configuration& configuration, std::uint64_t seed, StageClock& clock,
-              Measurement& measurement) {
+void run_best(BestMemory& memory, const Configuration& configuration, std::uint64_t seed, StageTap* tap,
+              StageClock& clock, Measurement& measurement) {
   const bool reversed = works_in_reverse(memory);
   const ViewPair views = {&memory.views[reversed ? 1 : 0], &memory.views[reversed ? 0 : 1]};
   DishMeasurementWorkspace dish = memory.dish;
@@ -93,28 +62,34 @@ void run_best(BestMemory& memory, const Configuration& configuration, std::uint6
   Random random(seed);
   SceneGeometry& geometry = memory.scene.front();
   geometry = {};
-  measurement.status = compare_pictures(memory, configuration, measurement);
+  measurement.status = compare_pictures(memory.views[0].quality(), memory.views[1].quality(),
+                                        configuration.view_checks, measurement);
   if (!measurement.status.ok()) return;
   measurement.status = list_dishes(views, configuration, memory.geometry, geometry);
   if (!measurement.status.ok()) return;
   measurement.status =
       find_geometry(views, configuration, random, memory.geometry, clock, measurement.report, geometry);
   if (!measurement.status.ok()) return;
+  if (tap != nullptr) {
+    tap->on_order(measurement.views.reference_view);
+    tap->on_geometry(geometry.joint, std::span(geometry.dishes).first(geometry.dish_count));
+  }
   report_pose(geometry, reversed, measurement);
-  warn(views, configuration, geometry, measurement);
+  warn_about_angles(views[0]->arm_angle_deg, views[1]->arm_angle_deg, configuration.geometry, measurement);
+  measurement.warn(Warning::dish_guessed, is_dish_guessed(geometry));
   measurement.status = is_same_place(geometry)
                            ? StatusCode::views_identical
                            : check_angle(measurement.relative_angle_deg, configuration.geometry);
   if (!measurement.status.ok()) return;
   for (std::size_t d = 0; d < geometry.dish_count; ++d) {
-    measure_dish(views, geometry, d, configuration, dish, clock, measurement.report);
+    measure_dish(views, geometry, d, configuration, dish, tap, clock, measurement.report);
   }
   if (measurement.report.dish_index >= 0) {
     const auto index = static_cast<std::size_t>(measurement.report.dish_index);
     measurement.views.dish_bottom =
         measurement.views.table.raised(configuration.dishes[index].bottom_height_mm);
   }
-  measurement.status = summarise(geometry, dish.items.items());
+  measurement.status = dish.items.empty() ? geometry.joint.dishes[0].status : summarise(dish.items.items());
   measurement.items = dish.items.items();
   measurement.views.surfaces = dish.surfaces.items();
 }

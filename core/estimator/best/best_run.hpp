@@ -4,14 +4,15 @@
 #include <cstdint>
 
 #include "core/estimator/best/best_memory.hpp"
+#include "core/estimator/best/stage_tap.hpp"
 #include "core/estimator/measurement.hpp"
 #include "core/estimator/stage_clock.hpp"
 
 namespace traygauge {
 
 // Fills everything but the times. The view that shows more of the dishes is worked first, so that a pair
-// measures the same bits in either order.
-void run_best(BestMemory& memory, const Configuration& configuration, std::uint64_t seed, StageClock& clock,
-              Measurement& measurement);
+// measures the same bits in either order. `tap` may be null.
+void run_best(BestMemory& memory, const Configuration& configuration, std::uint64_t seed, StageTap* tap,
+              StageClock& clock, Measurement& measurement);
 
 }  // namespace traygauge

@@ -11,7 +11,7 @@ Status prepare_best_view(const FrameView& frame, const Configuration& configurat
                          BestView& view) {
   clock.enter(Stage::image);
   if (const Status status = measure_labels(frame, configuration, view); !status.ok()) return status;
-  if (const Status status = check_labels(view.regions, view.labels); !status.ok()) return status;
+  if (const Status status = check_labels(view.regions); !status.ok()) return status;
   return prepare_labelled_view(frame, configuration, pattern, workspace, clock, view);
 }
 

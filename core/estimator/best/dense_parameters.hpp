@@ -49,6 +49,7 @@ void visit_matching_parameters(Params& best, Visit&& visit) {
   visit("best.surface.semi_global.diagonal_paths", matching.diagonal_paths);
   visit("best.surface.consistency.max_difference_px", consistency.max_difference_px, Range{0, 1000});
   visit("best.surface.consistency.border_share", consistency.border_share, Range{0, 1});
+  visit("best.surface.consistency.chord_share", consistency.chord_share, Range{0, 1});
   visit("best.surface.consistency.same_surface_px", consistency.same_surface_px, Range{0, 1000});
   visit("best.surface.refinement.iterations", refinement.iterations, Range{0, 50});
   visit("best.surface.refinement.window_radius", refinement.window_radius, Range{1, kMaxRefinementRadius});
@@ -74,7 +75,13 @@ void visit_height_parameters(Params& best, Visit&& visit) {
   visit("best.height_map.min_flank_threshold", map.min_flank_threshold, Range{0.01, 100});
   visit("best.height_map.max_flank_threshold", map.max_flank_threshold, Range{0.01, 100});
   visit("best.height_map.prior_flank_mm2", map.prior_flank_mm2, Range{0.01, 1e5});
+  visit("best.height_map.hidden_steepness", map.hidden_steepness, Range{0.1, 100});
   visit("best.height_map.max_hole_mm", map.max_hole_mm, Range{0, 200});
+  visit("best.liquid.contact_tolerance_mm", best.liquid.contact_tolerance_mm, Range{0.01, 50});
+  visit("best.liquid.min_contact_share", best.liquid.min_contact_share, Range{0, 1});
+  visit("best.liquid.max_contact_difference_mm", best.liquid.max_contact_difference_mm, Range{0, 200});
+  visit("best.liquid.solid_sigmas", best.liquid.solid_sigmas, Range{0, 100});
+  visit("best.liquid.min_solid_mm", best.liquid.min_solid_mm, Range{0, 200});
   visit("best.liquid.tolerance_mm", best.liquid.tolerance_mm, Range{0.01, 50});
   visit("best.liquid.min_level_share", best.liquid.min_level_share, Range{0, 1});
   visit("best.liquid.max_gap_mm", best.liquid.max_gap_mm, Range{0, 200});
@@ -89,7 +96,7 @@ void visit_volume_parameters(Params& best, Visit&& visit) {
   using Range = ParameterRange;
   visit("best.volume.max_height_ignored_mm2", best.volume.max_height_ignored_mm2, Range{0, 1e5});
   visit("best.overhang.min_undercut_share", best.overhang.min_undercut_share, Range{0, 1000});
-  visit("best.overhang.equator_share", best.overhang.equator_share, Range{0, 1});
+  visit("best.overhang.column_over_closed", best.overhang.column_over_closed, Range{1, 10});
   visit("best.overhang.min_undercut_mm2", best.overhang.min_undercut_mm2, Range{0, 1e6});
   visit("best.agreement.min_share", best.agreement.min_share, Range{0, 1});
   visit("best.agreement.step", best.agreement.step, Range{1, 64});

@@ -6,6 +6,7 @@
 #include "core/estimator/best/dish_views.hpp"
 #include "core/estimator/best/food_agreement.hpp"
 #include "core/estimator/best/uncertainty.hpp"
+#include "core/surface/known_dish.hpp"
 #include "core/surface/triangulation.hpp"
 
 namespace traygauge {
@@ -44,21 +45,6 @@ StatusCode judge_item(const ViewPair& views, std::uint8_t label, const HeightVol
   return volume.volume_ml > 0.0 ? StatusCode::ok : StatusCode::item_below_dish;
 }
 
-Vec3 centre_of(const HeightMap& map, std::uint8_t label) {
-  Vec3 sum = Vec3::Zero();
-  int count = 0;
-  for (int y = 0; y < map.cells.height; ++y) {
-    for (int x = 0; x < map.cells.width; ++x) {
-      const HeightCell& cell = map.cells.at(x, y);
-      if (cell.label != label || cell.kind == CellKind::unseen) continue;
-      const Vec2 place = map.centre_mm(x, y);
-      sum += Vec3(place.x(), place.y(), cell.z_mm);
-      ++count;
-    }
-  }
-  return count > 0 ? Vec3(sum / count) : sum;
-}
-
 template <class Action>
 void for_each_item(const ViewPair& views, const DishOnTray& dish, Action&& action) {
   for (int value = kFirstItemLabel; value <= kLastItemLabel; ++value) {
@@ -71,8 +57,8 @@ void for_each_item(const ViewPair& views, const DishOnTray& dish, Action&& actio
 }  // namespace
 
 void measure_dish(const ViewPair& views, const SceneGeometry& geometry, std::size_t index,
-                  const Configuration& configuration, DishMeasurementWorkspace& workspace, StageClock& clock,
-                  MeasurementReport& report) {
+                  const Configuration& configuration, DishMeasurementWorkspace& workspace, StageTap* tap,
+                  StageClock& clock, MeasurementReport& report) {
   const BestParams& best = configuration.best;
   const DishOnTray& dish = geometry.dishes[index];
   const auto refuse = [&](Status status) {
@@ -105,25 +91,29 @@ void measure_dish(const ViewPair& views, const SceneGeometry& geometry, std::siz
                bottom_mm + best.pipeline.min_top_mm);
   std::array<SurfaceGrid, 2> grids;
   TwoViewSurfaceReport dense;
-  Status status =
-      reconstruct_surface(stored_views(views, geometry.joint.camera_from_table, dish.labels), table_of(dish),
-                          bottom_mm, top_mm, best.surface, workspace.surface, grids, dense);
+  InnerSurface inner;
+  inner.place = frame_of(placed.placed.place);
+  Status status = inner.profile.set(model);
+  if (!status.ok()) return refuse(status);
+  status = reconstruct_surface(stored_views(views, geometry.joint.camera_from_table, dish.labels),
+                               labels_on_dish(dish.labels), bottom_mm, top_mm, best.surface,
+                               workspace.surface, grids, dense);
   if (!status.ok()) return refuse(status);
   report.rectified_rows = dense.rows;
   report.rectified_columns = dense.columns;
   report.disparity_range = dense.disparity_range;
   report.matched_share = 0.5 * (dense.confirmed[0] + dense.confirmed[1]);
 
-  const double agreement =
+  for (std::size_t v = 0; v < 2; ++v) {
+    TwoViewSurfaceWorkspace::View& view = workspace.surface.views[v];
+    settle_dish_samples(inner, grids[v], view.points, view.evidence);
+  }
+  if (tap != nullptr) tap->on_surfaces(geometry.joint.camera_from_table, grids);
+  report.label_agreement =
       measure_food_agreement(grids, views, geometry.joint.camera_from_table, best.agreement);
-  report.food_agreement = agreement;
-  if (agreement < best.agreement.min_share) return refuse(StatusCode::labels_inconsistent);
+  if (report.label_agreement < best.agreement.min_share) return refuse(StatusCode::labels_inconsistent);
 
   clock.enter(Stage::surface);
-  InnerSurface inner;
-  inner.place = frame_of(placed.placed.place);
-  status = inner.profile.set(model);
-  if (!status.ok()) return refuse(status);
   HeightMapWorkspace maps = workspace.height_map;
   maps.first = workspace.cells;
   HeightMap map;
@@ -134,7 +124,7 @@ void measure_dish(const ViewPair& views, const SceneGeometry& geometry, std::siz
   workspace.surfaces.push_back({dish.label, map, inner});
 
   clock.enter(Stage::volume);
-  level_liquid(inner, best.liquid, workspace.liquid, map);
+  level_liquid(grids, inner, best.liquid, workspace.liquid, map);
   status = integrate_height_map(map, inner, best.volume, workspace.volume);
   if (!status.ok()) return refuse(status);
   close_overhangs(grids, map, inner, best.overhang, workspace.volume.items);
@@ -151,7 +141,7 @@ void measure_dish(const ViewPair& views, const SceneGeometry& geometry, std::siz
     item.area_mm2 = volume.area_mm2;
     item.mean_height_mm = volume.mean_height_mm;
     item.max_height_mm = volume.max_height_mm;
-    const UncertaintyInput input{volume, centre_of(map, label), height_per_px_mm, dense.column_step_mm};
+    const UncertaintyInput input{volume, height_per_px_mm, dense.column_step_mm};
     item.sigma_ml = estimate_sigma_ml(input, geometry.joint.camera_from_table, geometry.joint.covariance,
                                       best.uncertainty);
     workspace.items.push_back(item);

@@ -10,6 +10,7 @@
 #include "core/base/status.hpp"
 #include "core/estimator/best/best_view.hpp"
 #include "core/estimator/best/scene_geometry.hpp"
+#include "core/estimator/best/stage_tap.hpp"
 #include "core/estimator/measurement.hpp"
 
 namespace traygauge {
@@ -42,7 +43,7 @@ struct DishMeasurementWorkspace {
 // Appends the items on dish `index` of `geometry` to `workspace.items`, and its height map to
 // `workspace.surfaces`. What fails here fails for all of them: every item then carries that status.
 void measure_dish(const ViewPair& views, const SceneGeometry& geometry, std::size_t index,
-                  const Configuration& configuration, DishMeasurementWorkspace& workspace, StageClock& clock,
-                  MeasurementReport& report);
+                  const Configuration& configuration, DishMeasurementWorkspace& workspace, StageTap* tap,
+                  StageClock& clock, MeasurementReport& report);
 
 }  // namespace traygauge

@@ -161,10 +161,11 @@ Status DishSurveyor::match(const ViewPair& views, double bottom_mm, std::array<S
   const SceneGeometry& geometry = memory_.scene.front();
   const DishOnTray& dish = geometry.dishes[0];
   TwoViewSurfaceReport dense;
-  const Status status =
-      reconstruct_surface(stored_views(views, geometry.joint.camera_from_table, dish.labels), table_of(dish),
-                          bottom_mm, survey_.place.edge_height_mm + params_.above_edge_mm,
-                          configuration_.best.surface, memory_.surface, grids, dense);
+  TwoViewSurfaceParams params = configuration_.best.surface;
+  params.refinement.dish_weight = 1.0;  // here the dish is what is measured
+  const Status status = reconstruct_surface(
+      stored_views(views, geometry.joint.camera_from_table, dish.labels), labels_on_dish(dish.labels),
+      bottom_mm, survey_.place.edge_height_mm + params_.above_edge_mm, params, memory_.surface, grids, dense);
   survey_.matched_share = 0.5 * (dense.confirmed[0] + dense.confirmed[1]);
   sample_mm_ = dense.column_step_mm;
   return status;

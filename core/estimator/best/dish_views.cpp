@@ -19,9 +19,7 @@ PixelBox box_of(const LabelRegions& regions, const LabelSet& labels) {
 }  // namespace
 
 bool is_cut_off(const BestView& view, const LabelSet& labels) {
-  const PixelBox box = box_of(view.regions, labels);
-  return !box.empty() && (box.left == 0 || box.top == 0 || box.right == view.labels.width ||
-                          box.bottom == view.labels.height);
+  return view.regions.touches_edge(box_of(view.regions, labels));
 }
 
 std::array<StoredView, 2> stored_views(const ViewPair& views, const TableCameras& camera_from_table,
@@ -32,15 +30,6 @@ std::array<StoredView, 2> stored_views(const ViewPair& views, const TableCameras
                  views[v]->lens, camera_from_table[v]};
   }
   return stored;
-}
-
-LabelTable table_of(const DishOnTray& dish) {
-  LabelTable table{};
-  for (int value = 0; value < 256; ++value) {
-    const auto label = static_cast<std::uint8_t>(value);
-    if (dish.labels.contains(label)) table[label] = label == dish.label ? kDishLabel : label;
-  }
-  return table;
 }
 
 DishFrame frame_of(const DishPlace& place) {

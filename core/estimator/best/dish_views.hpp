@@ -17,9 +17,6 @@ bool is_cut_off(const BestView& view, const LabelSet& labels);
 std::array<StoredView, 2> stored_views(const ViewPair& views, const TableCameras& camera_from_table,
                                        const LabelSet& labels);
 
-// The dish's own label becomes kDishLabel; its items keep theirs.
-LabelTable table_of(const DishOnTray& dish);
-
 DishFrame frame_of(const DishPlace& place);
 
 // The point over the middle of the dish at this height, in the table frame.

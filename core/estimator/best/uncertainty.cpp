@@ -50,7 +50,7 @@ double estimate_sigma_ml(const UncertaintyInput& input, const TableCameras& came
   const HeightVolume& item = input.volume;
   if (!(item.area_mm2 > 0.0)) return 0.0;
   const double volume_mm3 = kMm3PerMl * item.column_volume_ml;
-  const double cameras_mm = height_sigma_mm(input.centre_mm, camera_from_table, covariance);
+  const double cameras_mm = height_sigma_mm(item.centre_mm, camera_from_table, covariance);
   const double matching_mm = params.disparity_bias_px * input.height_per_px_mm;
   const double edge_mm3 =
       outline_mm(item.area_mm2) * params.outline_px * input.px_mm * 0.5 * item.mean_height_mm;

@@ -1,7 +1,6 @@
 // How sure a volume is, from what was measured.
 #pragma once
 
-#include "core/base/geometry.hpp"
 #include "core/pose/joint_refinement.hpp"
 #include "core/volume/height_volume.hpp"
 
@@ -15,7 +14,7 @@ struct UncertaintyParams {
   // Of the volume: matching errors that follow the food, shine and roughness; and per mean height over the
   // square root of the area, because steep sides are matched and filled worse than flat tops. Both from the
   // spread of the rendered captures' errors.
-  double surface_share = 0.013;
+  double surface_share = 0.007;
   double steepness_share = 0.06;
   double dish_height_mm = 0.10;  // of the dish's inner surface: firing, glaze, feet
 };
@@ -23,7 +22,6 @@ struct UncertaintyParams {
 // What an item's uncertainty follows from.
 struct UncertaintyInput {
   HeightVolume volume;
-  Vec3 centre_mm = Vec3::Zero();  // of the item's surface, table frame
   double height_per_px_mm = 0.0;  // of disparity
   double px_mm = 0.0;             // of the samples, on the dish
 };

@@ -3,19 +3,13 @@
 #include <cmath>
 
 #include "tests/core/estimator/measuring_bench.hpp"
+#include "tests/support/cameras.hpp"
 
 namespace traygauge {
 namespace {
 
-constexpr double kDegrees = 57.29577951308232;
-
-double rotation_error_deg(const Pose& a, const Pose& b) {
-  return kDegrees * Eigen::AngleAxisd(Mat3(a.rotation.transpose() * b.rotation)).angle();
-}
-
-double direction_error_deg(const Pose& a, const Pose& b) {
-  return kDegrees * std::acos(std::min(1.0, a.translation.normalized().dot(b.translation.normalized())));
-}
+using testing::direction_error_deg;
+using testing::rotation_error_deg;
 
 // Closed form: cos² hill of 40 ml, cameras 18 degrees apart.
 TEST(SyntheticTray, PoseScaleAndVolumeAreRight) {

@@ -9,13 +9,12 @@
 #include "core/features/corners.hpp"
 #include "surf_on_picture.hpp"
 #include "tests/core/matching/workspace_block.hpp"
+#include "tests/support/pictures.hpp"
 
 namespace traygauge {
 namespace {
 
-ImageView<const std::uint8_t> view_of(const cv::Mat& mat) {
-  return {mat.data, mat.cols, mat.rows, static_cast<std::ptrdiff_t>(mat.step[0])};
-}
+using testing::view_of;
 
 TEST(CornerResponse, EqualsOpenCvsSmallerEigenvalue) {
   const cv::Mat gray = testing::textured_picture(211, 97, 3);

@@ -7,29 +7,15 @@
 #include <opencv2/calib3d.hpp>
 
 #include "core/base/random.hpp"
+#include "tests/support/cameras.hpp"
+#include "tests/support/opencv_camera.hpp"
 
 namespace traygauge {
 namespace {
 
-LensModel phone_lens() {
-  LensModel lens;
-  lens.width = 1600;
-  lens.height = 1200;
-  lens.pinhole = {1388.4, 1391.0, 806.3, 594.8};
-  lens.k1 = -0.082;
-  lens.k2 = 0.021;
-  lens.p1 = 0.0006;
-  lens.p2 = -0.0004;
-  lens.k3 = -0.003;
-  return lens;
-}
-
-cv::Matx33d matrix_of(const LensModel& lens) {
-  return {lens.pinhole.fx_px, 0, lens.pinhole.cx_px, 0, lens.pinhole.fy_px, lens.pinhole.cy_px, 0, 0, 1};
-}
-cv::Vec<double, 5> distortion_of(const LensModel& lens) {
-  return {lens.k1, lens.k2, lens.p1, lens.p2, lens.k3};
-}
+using testing::camera_matrix;
+using testing::distortion_of;
+using testing::phone_lens;
 
 class LensAgainstOpenCv : public ::testing::TestWithParam<std::uint64_t> {
  protected:
@@ -54,7 +40,7 @@ TEST_P(LensAgainstOpenCv, DistortsAsProjectPoints) {
     const Vec2 ray(1.2 * random_.uniform() - 0.6, random_.uniform() - 0.5);
     std::vector<cv::Point2d> projected;
     cv::projectPoints(std::vector<cv::Point3d>{{ray.x(), ray.y(), 1.0}}, cv::Vec3d(), cv::Vec3d(),
-                      matrix_of(lens), distortion_of(lens), projected);
+                      camera_matrix(lens.pinhole), distortion_of(lens), projected);
     const Vec2 pixel = lens.pinhole.pixel(lens.distort(ray));
     ASSERT_NEAR(pixel.x(), projected[0].x, 1e-9) << "seed " << GetParam();
     ASSERT_NEAR(pixel.y(), projected[0].y, 1e-9) << "seed " << GetParam();
@@ -68,7 +54,7 @@ TEST_P(LensAgainstOpenCv, UndistortsAsUndistortPoints) {
   for (int i = 0; i < 200; ++i) {
     const Vec2 pixel(lens.width * random_.uniform() - 0.5, lens.height * random_.uniform() - 0.5);
     std::vector<cv::Point2d> rays;
-    cv::undistortPoints(std::vector<cv::Point2d>{{pixel.x(), pixel.y()}}, rays, matrix_of(lens),
+    cv::undistortPoints(std::vector<cv::Point2d>{{pixel.x(), pixel.y()}}, rays, camera_matrix(lens.pinhole),
                         distortion_of(lens), cv::noArray(), cv::noArray(), until);
     Vec2 ray;
     ASSERT_TRUE(lens.undistort_pixel(pixel, ray)) << "seed " << GetParam();

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
-#include "picture.hpp"
+#include "tests/support/pictures.hpp"
 
 namespace traygauge {
 namespace {

@@ -6,7 +6,7 @@
 #include <opencv2/imgcodecs.hpp>
 #include <string>
 
-#include "picture.hpp"
+#include "tests/support/pictures.hpp"
 
 namespace traygauge {
 namespace {

@@ -5,7 +5,7 @@
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
-#include "picture.hpp"
+#include "tests/support/pictures.hpp"
 
 namespace traygauge {
 namespace {

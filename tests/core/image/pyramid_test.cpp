@@ -4,7 +4,7 @@
 
 #include <opencv2/imgproc.hpp>
 
-#include "picture.hpp"
+#include "tests/support/pictures.hpp"
 
 namespace traygauge {
 namespace {

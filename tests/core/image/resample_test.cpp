@@ -8,7 +8,8 @@
 #include <opencv2/imgproc.hpp>
 
 #include "core/base/random.hpp"
-#include "picture.hpp"
+#include "tests/support/opencv_camera.hpp"
+#include "tests/support/pictures.hpp"
 
 namespace traygauge {
 namespace {
@@ -118,13 +119,10 @@ cv::Mat smooth_colours(int width, int height) {
 }
 
 cv::Mat remap_through_lens(const cv::Mat& frame, const LensModel& lens, const Cutout& cutout, int mode) {
-  const PinholeCamera& c = cutout.camera;
-  const cv::Matx33d target(c.fx_px, 0, c.cx_px, 0, c.fy_px, c.cy_px, 0, 0, 1);
-  const cv::Matx33d source(lens.pinhole.fx_px, 0, lens.pinhole.cx_px, 0, lens.pinhole.fy_px,
-                           lens.pinhole.cy_px, 0, 0, 1);
   cv::Mat map_x, map_y, result;
-  cv::initUndistortRectifyMap(source, cv::Vec<double, 5>(lens.k1, lens.k2, lens.p1, lens.p2, lens.k3),
-                              cv::noArray(), target, {cutout.width, cutout.height}, CV_32FC1, map_x, map_y);
+  cv::initUndistortRectifyMap(testing::camera_matrix(lens.pinhole), testing::distortion_of(lens),
+                              cv::noArray(), testing::camera_matrix(cutout.camera),
+                              {cutout.width, cutout.height}, CV_32FC1, map_x, map_y);
   cv::remap(frame, result, map_x, map_y, mode);
   return result;
 }

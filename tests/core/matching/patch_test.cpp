@@ -10,15 +10,14 @@
 #include "core/matching/patch_alignment.hpp"
 #include "core/matching/patch_search.hpp"
 #include "tests/core/matching/workspace_block.hpp"
+#include "tests/support/pictures.hpp"
 
 namespace traygauge {
 namespace {
 
-using Mat2 = Eigen::Matrix2d;
+using testing::view_of;
 
-ImageView<const std::uint8_t> view_of(const cv::Mat& mat) {
-  return {mat.data, mat.cols, mat.rows, static_cast<std::ptrdiff_t>(mat.step[0])};
-}
+using Mat2 = Eigen::Matrix2d;
 
 // Sum of waves of 5 px and more, so that a pixel's area does not matter.
 class Texture {

@@ -9,6 +9,7 @@
 
 #include "core/matching/point_tracking.hpp"
 #include "tests/core/matching/workspace_block.hpp"
+#include "tests/support/cameras.hpp"
 #include "tests/support/synthetic_scene.hpp"
 
 namespace traygauge {
@@ -24,14 +25,6 @@ LensModel lens_of(const SyntheticCamera& camera) {
   lens.height = camera.height;
   lens.pinhole = camera.pinhole;
   return lens;
-}
-
-Pose perturbed(const Pose& pose, double turn_deg, double shift_mm, std::uint64_t seed) {
-  std::mt19937_64 random(seed);
-  std::normal_distribution<double> normal;
-  const Vec3 axis = Vec3(normal(random), normal(random), normal(random)).normalized();
-  const Vec3 direction = Vec3(normal(random), normal(random), normal(random)).normalized();
-  return Pose{rotation_about(axis * turn_deg * M_PI / 180.0), direction * shift_mm} * pose;
 }
 
 // The table, and a box of 30 mm on it, whose top is textured like the table.
@@ -79,7 +72,7 @@ class TrackedScene : public ::testing::Test {
 TEST_F(TrackedScene, TracksEndWhereTheSceneHasThem) {
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {
     SCOPED_TRACE(::testing::Message() << "seed " << seed);
-    ASSERT_TRUE(run({truth_[0], perturbed(truth_[1], 0.5, 3.0, seed)}, seed).ok());
+    ASSERT_TRUE(run({truth_[0], testing::perturbed(truth_[1], 0.5, 3.0, seed)}, seed).ok());
     EXPECT_EQ(report_.tracks, tracks_.size());
     EXPECT_EQ(report_.corners, report_.not_found + report_.ambiguous + report_.not_aligned +
                                    report_.not_returned + report_.off_line + report_.tracks);
@@ -114,7 +107,7 @@ TEST_F(TrackedScene, TheSecondPoseIsCorrectedAlongTheWay) {
   };
   for (std::uint64_t seed = 1; seed <= 4; ++seed) {
     SCOPED_TRACE(::testing::Message() << "seed " << seed);
-    const Pose given = perturbed(truth_[1], 0.5, 3.0, seed);
+    const Pose given = testing::perturbed(truth_[1], 0.5, 3.0, seed);
     ASSERT_TRUE(run({truth_[0], given}).ok());
     EXPECT_LT(worst_px(report_.camera_from_table[1]), std::min(0.5, 0.4 * worst_px(given)));
   }
@@ -130,7 +123,7 @@ TEST_F(TrackedScene, BadInputEndsWithAStatus) {
   from_below.rotation.col(2) *= -1.0;
   EXPECT_FALSE(run({from_below, truth_[1]}).ok());
   // Another place altogether: nothing is found, or nearly nothing that agrees.
-  EXPECT_FALSE(run({truth_[0], perturbed(truth_[1], 40.0, 300.0, 1)}).ok());
+  EXPECT_FALSE(run({truth_[0], testing::perturbed(truth_[1], 40.0, 300.0, 1)}).ok());
   views_[1].lens.width = kWidth + 1;
   EXPECT_EQ(run(truth_).code(), StatusCode::frame_size_mismatch);
   views_[1].lens.width = kWidth;
@@ -142,7 +135,7 @@ TEST_F(TrackedScene, BadInputEndsWithAStatus) {
 TEST_F(TrackedScene, WithoutLabelsAllIsTableAndTheBoxIsStillFound) {
   views_[0].labels = {};
   views_[1].labels = {};
-  ASSERT_TRUE(run({truth_[0], perturbed(truth_[1], 0.3, 2.0, 4)}).ok());
+  ASSERT_TRUE(run({truth_[0], testing::perturbed(truth_[1], 0.3, 2.0, 4)}).ok());
   const EpipolarDistance distance(second_from_first(truth_), kFocalPx);
   std::size_t good = 0;
   for (const PointTrack& track : tracks_)
@@ -171,13 +164,43 @@ TEST(PoseCorrection, FindsThePoseFromTableAndOtherPointsDespiteWrongOnes) {
       if (i % 10 == 0) point.second += Vec2(0.1, -0.05);  // 100 px
       points.push_back(point);
     }
-    TableCameras corrected = {truth[0], perturbed(truth[1], 0.5, 3.0, seed)};
+    TableCameras corrected = {truth[0], testing::perturbed(truth[1], 0.5, 3.0, seed)};
     correct_second_pose(points, 1000.0, {}, corrected);
     for (const SeenPoint& point : points) {
       const Vec3 expected = truth[1] * point.table_mm;
       const Vec3 seen = corrected[1] * point.table_mm;
       EXPECT_LT(1000.0 * (seen.head<2>() / seen.z() - expected.head<2>() / expected.z()).norm(), 0.5);
     }
+  }
+}
+
+// Epipolar lines do not know how far the camera went: nothing may pull it towards the first one.
+TEST(PoseCorrection, WithoutAKnownHeightTheMotionKeepsItsLength) {
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    SCOPED_TRACE(::testing::Message() << "seed " << seed);
+    std::mt19937_64 random(seed);
+    std::uniform_real_distribution<double> place(-150.0, 150.0);
+    std::uniform_real_distribution<double> height(0.0, 60.0);
+    TableCameras truth;
+    truth[0] = look_at({-20, -40, 450}, Vec3::Zero(), 0.0, 1, 1, 1).camera_from_world;
+    truth[1] = look_at({25, -35, 450}, Vec3::Zero(), 0.05, 1, 1, 1).camera_from_world;
+    std::uniform_real_distribution<double> mistake(-0.03, 0.03);
+    std::vector<SeenPoint> points;
+    for (int i = 0; i < 50; ++i) {
+      const Vec3 point_mm(place(random), place(random), height(random));
+      const Vec3 first = truth[0] * point_mm;
+      const Vec3 second = truth[1] * point_mm;
+      points.push_back({Vec3::Zero(), first.head<2>() / first.z(), second.head<2>() / second.z(), false});
+      if (i % 5 == 0) points.back().second += Vec2(mistake(random), mistake(random));
+    }
+    TableCameras corrected = {truth[0], testing::perturbed(truth[1], 0.5, 3.0, seed)};
+    const double given_mm = second_from_first(corrected).translation.norm();
+    correct_second_pose(points, 1000.0, {}, corrected);
+    EXPECT_NEAR(second_from_first(corrected).translation.norm(), given_mm, 6.0);
+    const EpipolarDistance distance(second_from_first(corrected), 1000.0);
+    int right = 0;
+    for (const SeenPoint& point : points) right += std::abs(distance(point.first, point.second)) < 0.5;
+    EXPECT_GE(right, 38);
   }
 }
 

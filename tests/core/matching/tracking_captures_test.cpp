@@ -10,32 +10,14 @@
 
 #include "core/matching/point_tracking.hpp"
 #include "tests/core/matching/workspace_block.hpp"
-#include "tests/support/capture_truth.hpp"
+#include "tests/support/cameras.hpp"
+#include "tests/support/capture_joint.hpp"
+#include "tests/support/pictures.hpp"
 
 namespace traygauge {
 namespace {
 
-ImageView<const std::uint8_t> view_of(const cv::Mat& mat) {
-  return {mat.data, mat.cols, mat.rows, static_cast<std::ptrdiff_t>(mat.step[0])};
-}
-
-Pose world_from_table(const testing::CaptureTruth& capture, double thickness_mm) {
-  const std::vector<Vec3>& corners = capture.card_corners_mm;  // top left, then clockwise
-  Pose pose;
-  pose.rotation.col(0) = (corners[1] - corners[0]).normalized();
-  pose.rotation.col(1) = (corners[0] - corners[3]).normalized();
-  pose.rotation.col(2) = pose.rotation.col(0).cross(pose.rotation.col(1));
-  pose.translation = corners[0] - thickness_mm * pose.rotation.col(2);
-  return pose;
-}
-
-Pose perturbed(const Pose& pose, double turn_deg, double shift_mm, std::uint64_t seed) {
-  std::mt19937_64 random(seed);
-  std::normal_distribution<double> normal;
-  const Vec3 axis = Vec3(normal(random), normal(random), normal(random)).normalized();
-  const Vec3 direction = Vec3(normal(random), normal(random), normal(random)).normalized();
-  return Pose{rotation_about(axis * turn_deg * M_PI / 180.0), direction * shift_mm} * pose;
-}
+using testing::view_of;
 
 struct CaptureCase {
   const char* folder = nullptr;
@@ -53,7 +35,7 @@ class TracksOnCaptures : public ::testing::TestWithParam<CaptureCase> {
     if (testing::captures_folder().empty()) GTEST_SKIP() << "TRAYGAUGE_CAPTURES is not set";
     capture_ = testing::read_capture_truth(testing::captures_folder() / GetParam().folder);
     thickness_mm_ = capture_.description.at("card").at("thickness_mm");
-    table_ = world_from_table(capture_, thickness_mm_);
+    table_ = testing::table_frame_of(capture_, thickness_mm_).inverse();
   }
   void load(int first, int second) {
     const std::array<int, 2> indices = {first, second};
@@ -96,7 +78,8 @@ TEST_P(TracksOnCaptures, LieOnTheTrueEpipolarLines) {
     SCOPED_TRACE(::testing::Message() << "pair " << a << "-" << b);
     load(a, b);
     ASSERT_TRUE(
-        run({truth_[0], perturbed(truth_[1], 0.3, 2.0, static_cast<std::uint64_t>(10 * a + b))}).ok());
+        run({truth_[0], testing::perturbed(truth_[1], 0.3, 2.0, static_cast<std::uint64_t>(10 * a + b))})
+            .ok());
     const EpipolarDistance distance(second_from_first(truth_), lenses_[1].pinhole.mean_focal_px());
     std::size_t inliers = 0;
     double squares = 0.0;
@@ -127,7 +110,7 @@ TEST_P(TracksOnCaptures, LieOnTheTrueEpipolarLines) {
 
 TEST_P(TracksOnCaptures, EndWhereTheTrueDepthHasThem) {
   load(0, 1);
-  ASSERT_TRUE(run({truth_[0], perturbed(truth_[1], 0.3, 2.0, 77)}).ok());
+  ASSERT_TRUE(run({truth_[0], testing::perturbed(truth_[1], 0.3, 2.0, 77)}).ok());
   const cv::Mat1f depth = capture_.read_depth_mm();
   const Pose motion = second_from_first(truth_);
   std::vector<double> errors_px;
@@ -167,7 +150,7 @@ TEST_P(TracksOnCaptures, SurroundingsThatStayAreDropped) {
   cv::fillConvexPoly(kept, hull, 255);
   cv::dilate(kept, kept, cv::Mat(), {-1, -1}, 20);
   gray_[0].copyTo(gray_[1], kept == 0);
-  ASSERT_TRUE(run({truth_[0], perturbed(truth_[1], 0.3, 2.0, 5)}).ok());
+  ASSERT_TRUE(run({truth_[0], testing::perturbed(truth_[1], 0.3, 2.0, 5)}).ok());
   std::size_t standing = 0;
   for (const PointTrack& track : tracks_) {
     const Vec2 second = lenses_[1].pinhole.pixel(lenses_[1].distort(track.second));

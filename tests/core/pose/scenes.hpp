@@ -9,6 +9,7 @@
 #include "core/base/arena.hpp"
 #include "core/base/random.hpp"
 #include "core/pose/relative_pose.hpp"
+#include "tests/support/cameras.hpp"
 
 namespace traygauge::testing {
 
@@ -44,16 +45,6 @@ inline RayMatch project(const Vec3& point_in_first, const Pose& second_from_firs
   return {point_in_first.hnormalized(), (second_from_first * point_in_first).hnormalized()};
 }
 
-inline double rotation_error_deg(const Pose& a, const Pose& b) {
-  return Eigen::AngleAxisd(Mat3(a.rotation.transpose() * b.rotation)).angle() * kDegrees;
-}
-
-inline double direction_error_deg(const Pose& a, const Pose& b) {
-  const Vec3 u = a.translation.normalized();
-  const Vec3 v = b.translation.normalized();
-  return std::atan2(u.cross(v).norm(), u.dot(v)) * kDegrees;
-}
-
 struct Scene {
   Pose second_from_first;
   std::vector<RayMatch> matches;
@@ -67,16 +58,6 @@ struct TrayOptions {
   double outlier_share = 0.0;
   double max_height_mm = 35.0;  // of the food; 0: all on the table
 };
-
-// World to camera: `distance_mm` from the tray's centre, looking at it; z of the world points up.
-inline Pose camera_above(double tilt_rad, double azimuth_rad, double distance_mm) {
-  const Vec3 forward = -Vec3(std::sin(tilt_rad) * std::cos(azimuth_rad),
-                             std::sin(tilt_rad) * std::sin(azimuth_rad), std::cos(tilt_rad));
-  const Vec3 right = Vec3(-std::sin(azimuth_rad), std::cos(azimuth_rad), 0.0);
-  Mat3 rotation;
-  rotation << right.transpose(), forward.cross(right).transpose(), forward.transpose();
-  return {rotation, Vec3(0.0, 0.0, distance_mm)};
-}
 
 // Table and card (4 of 10 points), a dish's rim 22 mm high (2) and food on it (4), 45 cm below the camera.
 inline Scene tray_scene(std::uint64_t seed, const TrayOptions& options) {

@@ -9,6 +9,8 @@
 #include <vector>
 
 #include "core/rectification/plane_rectification.hpp"
+#include "tests/support/cameras.hpp"
+#include "tests/support/opencv_camera.hpp"
 
 namespace traygauge {
 namespace {
@@ -16,36 +18,11 @@ namespace {
 constexpr double kPlaneMm = 4.0;
 constexpr double kDishRadiusMm = 110.0;
 
-Pose look_at(const Vec3& centre_mm, const Vec3& target_mm, double roll) {
-  const Vec3 z = (target_mm - centre_mm).normalized();
-  const Vec3 x = z.cross(Vec3(std::sin(roll), std::cos(roll), 0.3)).normalized();
-  Pose pose;
-  pose.rotation.row(0) = x.transpose();
-  pose.rotation.row(1) = z.cross(x).transpose();
-  pose.rotation.row(2) = z.transpose();
-  pose.translation = -(pose.rotation * centre_mm);
-  return pose;
-}
-
-LensModel test_lens() {
-  LensModel lens;
-  lens.width = 800;
-  lens.height = 600;
-  lens.pinhole = {690.0, 692.0, 402.0, 297.0};
-  lens.k1 = -0.08;
-  lens.k2 = 0.02;
-  lens.p1 = 0.001;
-  lens.p2 = -0.0005;
-  return lens;
-}
-
 cv::Point2d project(const LensModel& lens, const Pose& pose, const Vec3& point) {
   const Vec3 p = pose * point;
   std::vector<cv::Point2d> pixels;
-  const cv::Matx33d camera(lens.pinhole.fx_px, 0.0, lens.pinhole.cx_px, 0.0, lens.pinhole.fy_px,
-                           lens.pinhole.cy_px, 0.0, 0.0, 1.0);
-  cv::projectPoints(std::vector<cv::Point3d>{{p.x(), p.y(), p.z()}}, cv::Vec3d(), cv::Vec3d(), camera,
-                    std::vector<double>{lens.k1, lens.k2, lens.p1, lens.p2, lens.k3}, pixels);
+  cv::projectPoints(std::vector<cv::Point3d>{{p.x(), p.y(), p.z()}}, cv::Vec3d(), cv::Vec3d(),
+                    testing::camera_matrix(lens.pinhole), testing::distortion_of(lens), pixels);
   return pixels[0];
 }
 
@@ -60,8 +37,9 @@ struct Scene {
     const std::array<Vec3, 2> centres{first_mm, second_mm};
     for (std::size_t v = 0; v < 2; ++v) {
       StoredView& view = views[v];
-      view.lens = test_lens();
-      view.camera_from_table = look_at(centres[v], {20.0, -30.0, kPlaneMm}, 0.2 + static_cast<double>(v));
+      view.lens = testing::phone_lens(0.5);
+      view.camera_from_table =
+          testing::looking_at(centres[v], {20.0, -30.0, kPlaneMm}, 0.2 + static_cast<double>(v));
       labels[v] = cv::Mat1b::zeros(view.lens.height, view.lens.width);
       std::vector<cv::Point> outline;
       for (int i = 0; i < 90; ++i) {
@@ -79,7 +57,7 @@ struct Scene {
     }
   }
   Status build(PlaneRectification& grid, const PlaneRectificationParams& params = {}) {
-    return grid.build(views, labels_on_dish(kDishLabel), kPlaneMm, params, rows);
+    return grid.build(views, labels_on_dish(labels_of_single_dish()), kPlaneMm, params, rows);
   }
 };
 
@@ -125,10 +103,9 @@ TEST(PlaneRectification, HoldsTheDishOfBothViews) {
   Scene scene({-60.0, -250.0, 480.0}, {80.0, -230.0, 430.0});
   PlaneRectification grid;
   ASSERT_TRUE(scene.build(grid).ok());
-  for (int v = 0; v < 2; ++v) {
-    const auto i = static_cast<std::size_t>(v);
+  for (const StoredView& view : scene.views) {
     cv::Mat1b labels(grid.rows(), grid.columns());
-    grid.sample_labels(v, scene.views[i], labels_on_dish(kDishLabel),
+    grid.sample_labels(view, labels_on_dish(labels_of_single_dish()),
                        {labels.data, labels.cols, labels.rows});
     const double area_mm2 = cv::countNonZero(labels) * grid.column_step_mm() * grid.row_step_mm();
     EXPECT_NEAR(area_mm2 / (CV_PI * kDishRadiusMm * kDishRadiusMm), 1.0, 0.03);
@@ -148,10 +125,9 @@ TEST(PlaneRectification, SamplesThroughTheLens) {
   }
   PlaneRectification grid;
   ASSERT_TRUE(scene.build(grid).ok());
-  for (int v = 0; v < 2; ++v) {
-    const StoredView& view = scene.views[static_cast<std::size_t>(v)];
+  for (const StoredView& view : scene.views) {
     cv::Mat1b sampled(grid.rows(), grid.columns());
-    grid.sample_gray(v, view, {sampled.data, sampled.cols, sampled.rows});
+    grid.sample_gray(view, {sampled.data, sampled.cols, sampled.rows});
     for (int y = 0; y < sampled.rows; y += 7) {
       for (int x = 0; x < sampled.cols; x += 5) {
         const cv::Point2d at = project(view.lens, view.camera_from_table, grid.plane_point(y, x));

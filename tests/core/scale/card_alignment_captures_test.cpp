@@ -5,20 +5,10 @@
 #include <iostream>
 
 #include "tests/core/scale/card_render.hpp"
-#include "tests/support/capture_truth.hpp"
+#include "tests/support/capture_joint.hpp"
 
 namespace traygauge {
 namespace {
-
-Pose world_from_table(const testing::CaptureTruth& capture, const CardModelSize& size) {
-  const std::vector<Vec3>& corners = capture.card_corners_mm;
-  const Vec3 x = (corners[1] - corners[0]).normalized();
-  const Vec3 y = (corners[0] - corners[3]).normalized();
-  Pose pose;
-  pose.rotation << x, y, x.cross(y);
-  pose.translation = corners[0] - size.thickness_mm * pose.rotation.col(2);
-  return pose;
-}
 
 double median(std::vector<double> values) {
   std::sort(values.begin(), values.end());
@@ -44,7 +34,8 @@ TEST(CardAlignmentCaptures, EveryViewOfEveryCapture) {
         CardAlignment alignment;
         ASSERT_TRUE(aligner.align(view.read_gray(), view.read_labels(), view.lens, alignment).ok())
             << view.image;
-        const Pose truth = view.camera_from_world * world_from_table(capture, size);
+        const Pose truth =
+            view.camera_from_world * testing::table_frame_of(capture, size.thickness_mm).inverse();
         const CardPoseError error = compare_poses(alignment, truth, size, view.lens.pinhole.mean_focal_px());
         EXPECT_LT(error.corner_rms_px, 0.1) << view.image;
         EXPECT_LT(error.normal_deg, 0.15) << view.image;

@@ -14,15 +14,12 @@
 #include "core/base/table_frame.hpp"
 #include "core/scale/card_alignment.hpp"
 #include "core/segmentation/label_regions.hpp"
+#include "tests/support/pictures.hpp"
 
 namespace traygauge {
 
 inline constexpr int kRenderWidth = 1600;
 inline constexpr int kRenderHeight = 1200;
-
-inline ImageView<const std::uint8_t> view_of(const cv::Mat1b& picture) {
-  return {picture.data, picture.cols, picture.rows, static_cast<std::ptrdiff_t>(picture.step)};
-}
 
 inline LensModel render_lens() {
   LensModel lens;
@@ -173,13 +170,13 @@ class CardAligner {
   }
 
   Status set_pattern(const cv::Mat1b& print, const CardModelSize& size) {
-    return prepare_card_pattern(view_of(print), size, params_.pattern, pattern_);
+    return prepare_card_pattern(testing::view_of(print), size, params_.pattern, pattern_);
   }
   Status align(const cv::Mat1b& gray, const cv::Mat1b& labels, const LensModel& lens,
                CardAlignment& alignment) {
-    const LabelRegions regions = measure_regions(view_of(labels));
-    return align_card(view_of(gray), view_of(labels), regions.card, lens, pattern_, params_, workspace_,
-                      alignment);
+    const LabelRegions regions = measure_regions(testing::view_of(labels));
+    return align_card(testing::view_of(gray), testing::view_of(labels), regions.card, lens, pattern_, params_,
+                      workspace_, alignment);
   }
   Status align(const CardRender& render, CardAlignment& alignment) {
     return align(render.gray, render.labels, render_lens(), alignment);

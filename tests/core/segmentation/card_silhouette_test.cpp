@@ -9,6 +9,8 @@
 
 #include "core/base/arena.hpp"
 #include "tests/core/matching/workspace_block.hpp"
+#include "tests/support/cameras.hpp"
+#include "tests/support/opencv_camera.hpp"
 
 namespace traygauge {
 namespace {
@@ -18,10 +20,6 @@ constexpr int kHeight = 1200;
 constexpr double kCardWidth_mm = 85.60;
 constexpr double kCardHeight_mm = 53.98;
 constexpr double kAspectRatio = kCardWidth_mm / kCardHeight_mm;
-
-LensModel lens() {
-  return {kWidth, kHeight, {1388.4, 1388.4, 806.3, 594.8}, -0.082, 0.021, 0.0, 0.0, 0.0};
-}
 
 // The part of the card, from its left and upper edge, that is seen; OpenCV projects and fills it.
 cv::Mat draw_card(cv::RNG& rng, double share_along, double share_across, double max_tilt_rad) {
@@ -35,14 +33,12 @@ cv::Mat draw_card(cv::RNG& rng, double share_along, double share_across, double 
   const double right = share_along * kCardWidth_mm;
   const double bottom = share_across * kCardHeight_mm;
   const std::vector<cv::Point3d> corners = {{0, 0, 0}, {right, 0, 0}, {right, bottom, 0}, {0, bottom, 0}};
-  const LensModel model = lens();
-  const cv::Matx33d camera(model.pinhole.fx_px, 0, model.pinhole.cx_px, 0, model.pinhole.fy_px,
-                           model.pinhole.cy_px, 0, 0, 1);
-  const std::vector<double> distortion = {model.k1, model.k2, model.p1, model.p2, model.k3};
+  const LensModel lens = testing::phone_lens();
   cv::Vec3d rotation;
   cv::Rodrigues(tilt * roll, rotation);
   std::vector<cv::Point2d> pixels;
-  cv::projectPoints(corners, rotation, place, camera, distortion, pixels);
+  cv::projectPoints(corners, rotation, place, testing::camera_matrix(lens.pinhole),
+                    testing::distortion_of(lens), pixels);
   std::vector<cv::Point> rounded;
   for (const cv::Point2d& pixel : pixels)
     rounded.emplace_back(cvRound(pixel.x * 256), cvRound(pixel.y * 256));
@@ -51,11 +47,12 @@ cv::Mat draw_card(cv::RNG& rng, double share_along, double share_across, double 
   return labels;
 }
 
-class CardSilhouetteTest : public testing::Test {
+class CardSilhouetteTest : public ::testing::Test {
  protected:
   CardSilhouette measure(const cv::Mat& labels) {
     const ImageView<const std::uint8_t> view{labels.data, labels.cols, labels.rows};
-    return measure_card_silhouette(view, measure_regions(view).card, lens(), memory_.workspace);
+    return measure_card_silhouette(view, measure_regions(view).card, testing::phone_lens(),
+                                   memory_.workspace);
   }
   double visible_share(const cv::Mat& labels) { return measure(labels).visible_share(kAspectRatio); }
 

@@ -12,6 +12,7 @@
 
 #include "tests/core/matching/workspace_block.hpp"
 #include "tests/support/capture_truth.hpp"
+#include "tests/support/pictures.hpp"
 
 namespace traygauge {
 namespace {
@@ -20,10 +21,7 @@ namespace fs = std::filesystem;
 using testing::captures_folder;
 using testing::CaptureTruth;
 using testing::read_capture_truth;
-
-ImageView<const std::uint8_t> view_of(const cv::Mat& labels) {
-  return {labels.data, labels.cols, labels.rows, static_cast<std::ptrdiff_t>(labels.step[0])};
-}
+using testing::view_of;
 
 DishOfItem find_dishes(const std::vector<cv::Mat>& pictures, const DishMembershipParams& params = {}) {
   WithMemory<DishMembershipWorkspace> memory;

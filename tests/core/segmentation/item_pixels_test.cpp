@@ -4,15 +4,15 @@
 
 #include <opencv2/imgproc.hpp>
 
+#include "tests/support/pictures.hpp"
+
 namespace traygauge {
 namespace {
 
+using testing::view_of;
+
 constexpr int kSide = 320;
 constexpr std::uint8_t kItem = 7;
-
-ImageView<const std::uint8_t> view_of(const cv::Mat& picture) {
-  return {picture.data, picture.cols, picture.rows, static_cast<std::ptrdiff_t>(picture.step[0])};
-}
 
 ItemPixels measure(const cv::Mat& gray, const cv::Mat& labels) {
   ItemPixelTable items;

@@ -4,12 +4,12 @@
 
 #include <opencv2/imgproc.hpp>
 
+#include "tests/support/pictures.hpp"
+
 namespace traygauge {
 namespace {
 
-ImageView<const std::uint8_t> view_of(const cv::Mat& labels) {
-  return {labels.data, labels.cols, labels.rows, static_cast<std::ptrdiff_t>(labels.step[0])};
-}
+using testing::view_of;
 
 // Discs of random labels; OpenCV counts and boxes them.
 cv::Mat random_labels(cv::RNG& rng, int width, int height) {
@@ -37,7 +37,7 @@ TEST(LabelRegions, CountsAndBoxesAsOpenCv) {
     ASSERT_EQ(regions.dish.empty(), box.empty()) << seed;
     const bool touches =
         !box.empty() && (box.x == 0 || box.y == 0 || box.br().x == labels.cols || box.br().y == labels.rows);
-    ASSERT_EQ(regions.dish_cut_off, touches) << seed;
+    ASSERT_EQ(regions.touches_edge(regions.dish), touches) << seed;
     if (box.empty()) continue;
     ASSERT_EQ(regions.dish.left, box.x) << seed;
     ASSERT_EQ(regions.dish.top, box.y) << seed;
@@ -46,14 +46,18 @@ TEST(LabelRegions, CountsAndBoxesAsOpenCv) {
   }
 }
 
-TEST(LabelRegions, OnlyTheDishIsCutOffByTheEdge) {
+TEST(LabelRegions, WhatTouchesTheEdge) {
   cv::Mat labels = cv::Mat::zeros(40, 60, CV_8U);
   labels(cv::Rect(10, 10, 20, 20)).setTo(kDishLabel);
   labels(cv::Rect(0, 0, 10, 5)).setTo(kCardLabel);
   labels(cv::Rect(50, 0, 10, 5)).setTo(201);
-  EXPECT_FALSE(measure_regions(view_of(labels)).dish_cut_off);
+  const LabelRegions whole = measure_regions(view_of(labels));
+  EXPECT_FALSE(whole.touches_edge(whole.dish));
+  EXPECT_TRUE(whole.touches_edge(whole.card));
+  EXPECT_FALSE(whole.touches_edge(PixelBox{}));
   labels(cv::Rect(59, 20, 1, 1)).setTo(5);
-  EXPECT_TRUE(measure_regions(view_of(labels)).dish_cut_off);
+  const LabelRegions cut = measure_regions(view_of(labels));
+  EXPECT_TRUE(cut.touches_edge(cut.dish));
 }
 
 TEST(LabelRegions, HonoursTheStride) {
@@ -64,7 +68,7 @@ TEST(LabelRegions, HonoursTheStride) {
   EXPECT_EQ(regions.dish_pixels, 36U);
   EXPECT_EQ(regions.dish.left, 3);
   EXPECT_EQ(regions.dish.bottom, 6);
-  EXPECT_FALSE(regions.dish_cut_off);
+  EXPECT_FALSE(regions.touches_edge(regions.dish));
 }
 
 }  // namespace

@@ -15,14 +15,12 @@
 #include "core/stereo/consistency.hpp"
 #include "core/stereo/symmetric_census.hpp"
 #include "tests/support/capture_truth.hpp"
+#include "tests/support/pictures.hpp"
 
 namespace traygauge {
 namespace {
 
-template <class T>
-ImageView<T> view_of(cv::Mat_<T>& picture) {
-  return {picture.template ptr<T>(), picture.cols, picture.rows};
-}
+using testing::view_of;
 
 // Matches `first` against `second` with bands of `lanes` that start at `start`.
 cv::Mat_<Disparity> match(cv::Mat1b first, cv::Mat1b second, cv::Mat_<std::int16_t> start, int lanes,

@@ -10,17 +10,9 @@
 
 #include "core/base/arena.hpp"
 #include "core/stereo/stereo.hpp"
+#include "tests/support/pictures.hpp"
 
 namespace traygauge::testing {
-
-template <class T>
-ImageView<const T> view_of(const cv::Mat_<T>& picture) {
-  return {picture[0], picture.cols, picture.rows, static_cast<std::ptrdiff_t>(picture.step1())};
-}
-template <class T>
-ImageView<T> view_of(cv::Mat_<T>& picture) {
-  return {picture[0], picture.cols, picture.rows, static_cast<std::ptrdiff_t>(picture.step1())};
-}
 
 // A rectified pair; masks are everywhere set unless a test says otherwise.
 struct TestPair {

@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "core/base/arena.hpp"
-#include "core/stereo/consistency.hpp"
 
 namespace traygauge {
 namespace {
@@ -120,35 +119,6 @@ TEST(SurfaceRefinement, PlainPicturesAndWildDisparitiesStayFinite) {
   pair.surface[2000] = -1e6F;
   pair.refine();
   for (const float d : pair.surface) EXPECT_TRUE(std::isfinite(d));
-}
-
-TEST(Consistency, KeepsWhatBothViewsAgreeOn) {
-  std::vector<Disparity> first(20, 3 * kDisparityScale);
-  std::vector<Disparity> second(20, 3 * kDisparityScale);
-  second[8] = 9 * kDisparityScale;  // partner of column 5
-  second[9] = kNoDisparity;         // of column 6
-  std::vector<Disparity> kept(20);
-  keep_consistent({first.data(), 20, 1}, {second.data(), 20, 1}, 1, {}, {kept.data(), 20, 1});
-  for (std::size_t x = 0; x < 20; ++x) {
-    EXPECT_EQ(kept[x], x == 5 || x == 6 || x >= 17 ? kNoDisparity : 3 * kDisparityScale) << x;
-  }
-}
-
-TEST(Consistency, HiddenDishTakesTheLowerSideAndHiddenFlanksFall) {
-  const Disparity low = 2 * kDisparityScale;
-  const Disparity high = 20 * kDisparityScale;
-  //                                  item flank     dish, hidden
-  std::vector<std::uint8_t> labels{2, 2, 2, 2, 2, 1, 1, 1, 1, 0, 1};
-  std::vector<Disparity> disparity{high,         high,         high, kNoDisparity, kNoDisparity, kNoDisparity,
-                                   kNoDisparity, kNoDisparity, low,  kNoDisparity, kNoDisparity};
-  fill_gaps({labels.data(), 11, 1}, {}, {disparity.data(), 11, 1});
-  EXPECT_EQ(disparity[5], low);
-  EXPECT_EQ(disparity[7], low);
-  EXPECT_LT(disparity[4], disparity[3]);
-  EXPECT_LT(disparity[3], high);
-  EXPECT_GT(disparity[4], low);
-  EXPECT_EQ(disparity[9], kNoDisparity);   // no label
-  EXPECT_EQ(disparity[10], kNoDisparity);  // nothing known beside it
 }
 
 }  // namespace

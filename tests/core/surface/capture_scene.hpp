@@ -10,6 +10,7 @@
 
 #include "core/image_view/image_view.hpp"
 #include "tests/support/capture_truth.hpp"
+#include "tests/support/pictures.hpp"
 
 namespace traygauge::testing {
 
@@ -44,15 +45,6 @@ struct CaptureScene {
 inline std::vector<std::string> single_dish_captures() {
   return {"angles/a01", "meals/m01",        "meals/m04",      "meals/m06",     "meals/m08",
           "meals/m11",  "plates/c1_dinner", "plates/c1_oval", "plates/c1_soup"};
-}
-
-template <class T>
-ImageView<const T> view_of(const cv::Mat_<T>& mat) {
-  return {mat.template ptr<T>(), mat.cols, mat.rows, static_cast<std::ptrdiff_t>(mat.step1())};
-}
-template <class T>
-ImageView<T> mutable_view_of(cv::Mat_<T>& mat) {
-  return {mat.template ptr<T>(), mat.cols, mat.rows, static_cast<std::ptrdiff_t>(mat.step1())};
 }
 
 // Depth between pixels where the surface is continuous, else the nearest.

@@ -28,7 +28,7 @@ TEST(DepthMap, ExactMatchesGiveTheExactDepthOfDishPixelsOnly) {
         second_pixel = second.camera.pixel(point.head<2>() / point.z());
         return true;
       },
-      testing::mutable_view_of(depth));
+      testing::view_of(depth));
   EXPECT_EQ(report.dish_pixels, 440U * 640U);
   EXPECT_EQ(report.known_pixels, 430U * 640U);
   for (int y = 0; y < depth.rows; ++y) {

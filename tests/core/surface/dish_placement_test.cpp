@@ -11,6 +11,7 @@
 #include "tests/core/surface/block.hpp"
 #include "tests/core/surface/capture_scene.hpp"
 #include "tests/core/surface/edge_outlines.hpp"
+#include "tests/support/cameras.hpp"
 
 namespace traygauge {
 namespace {
@@ -152,11 +153,7 @@ TEST(RimProjection, DerivativesAreTheNumericOnes) {
 
 // A label picture sampled at pixel centres, with a lens.
 TEST(DishOutline, LiesOnTheDishsEdgeAndLeavesItsFoodOut) {
-  LensModel lens;
-  lens.width = 800;
-  lens.height = 600;
-  lens.pinhole = {700.0, 700.0, 395.0, 305.0};
-  lens.k1 = -0.08;
+  const LensModel lens = testing::phone_lens(0.5);
   const double radius = 0.3;
   cv::Mat1b labels(lens.height, lens.width, std::uint8_t{0});
   for (int y = 0; y < labels.rows; ++y) {

@@ -7,16 +7,14 @@
 
 #include "core/base/table_frame.hpp"
 #include "core/surface/rim_residual.hpp"
+#include "tests/support/cameras.hpp"
 
 namespace traygauge::testing {
 
 // A camera so many degrees off the vertical, looking at the origin from 500 mm.
 inline Pose camera_at(double tilt_deg, double azimuth_deg) {
   const double degree = std::numbers::pi / 180.0;
-  const Mat3 down = Eigen::AngleAxisd(std::numbers::pi, Vec3::UnitX()).toRotationMatrix();
-  const Mat3 tilt = Eigen::AngleAxisd(tilt_deg * degree, Vec3::UnitX()).toRotationMatrix();
-  const Mat3 turn = Eigen::AngleAxisd(azimuth_deg * degree, Vec3::UnitZ()).toRotationMatrix();
-  return {down * tilt * turn, Vec3(0.0, 0.0, 500.0)};
+  return camera_above(tilt_deg * degree, azimuth_deg * degree, 500.0);
 }
 
 inline TableCameras two_cameras() {

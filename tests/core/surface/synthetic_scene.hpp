@@ -3,11 +3,13 @@
 
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <opencv2/core.hpp>
 
 #include "core/base/geometry.hpp"
 #include "core/image/camera.hpp"
 #include "core/image_view/image_view.hpp"
+#include "tests/support/cameras.hpp"
 
 namespace traygauge::testing {
 
@@ -28,13 +30,7 @@ inline SyntheticView look_at_origin(double distance_mm, double tilt_rad, double 
   const Vec3 direction(std::sin(tilt_rad) * std::cos(azimuth_rad), std::sin(tilt_rad) * std::sin(azimuth_rad),
                        std::cos(tilt_rad));
   SyntheticView view;
-  const Vec3 forward = -direction;
-  const Vec3 helper = std::abs(forward.y()) < 0.9 ? Vec3::UnitY() : Vec3::UnitX();
-  const Vec3 right = helper.cross(forward).normalized();
-  view.camera_from_world.rotation.row(0) = right.transpose();
-  view.camera_from_world.rotation.row(1) = forward.cross(right).transpose();
-  view.camera_from_world.rotation.row(2) = forward.transpose();
-  view.camera_from_world.translation = -(view.camera_from_world.rotation * (direction * distance_mm));
+  view.camera_from_world = looking_at(direction * distance_mm, Vec3::Zero(), std::numbers::pi);
   return view;
 }
 

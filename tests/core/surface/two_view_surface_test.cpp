@@ -71,8 +71,8 @@ struct CapturePair {
     }
   }
   Status run(Stage& stage) const {
-    return reconstruct_surface(views, labels_on_dish(kDishLabel), bottom_mm, top_mm + 8.0, stage.params,
-                               stage.workspace, stage.grids, stage.report);
+    return reconstruct_surface(views, labels_on_dish(labels_of_single_dish()), bottom_mm, top_mm + 8.0,
+                               stage.params, stage.workspace, stage.grids, stage.report);
   }
 };
 

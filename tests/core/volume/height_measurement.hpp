@@ -20,15 +20,14 @@ struct HeightMeasurement {
   Allocated<LevelLiquidWorkspace> liquid_space;
   HeightMap map;
   LevelLiquid liquid;
+  OverhangParams overhang{.min_undercut_share = 0.2};  // true depth shows all of an undercut
 
   Status run(std::span<const SurfaceGrid> views, const InnerSurface& dish,
-             const HeightMapParams& params = {}) {
+             const HeightMapParams& params = {.hidden_steepness = 1.0}) {
     const Status built = build_height_map(views, dish, params, *map_space, map);
     if (!built.ok()) return built;
-    liquid = level_liquid(dish, {}, *liquid_space, map);
+    liquid = level_liquid(views, dish, {}, *liquid_space, map);
     const Status integrated = integrate_height_map(map, dish, {}, *volume_space);
-    OverhangParams overhang;
-    overhang.min_undercut_share = 0.2;  // true depth shows all of an undercut
     close_overhangs(views, map, dish, overhang, volume_space->items);
     return integrated;
   }

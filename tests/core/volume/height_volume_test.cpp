@@ -112,6 +112,22 @@ TEST(HeightVolume, OfHeightFieldsFromTwoPerfectViews) {
   EXPECT_LT(std::abs(sum / count), 0.004);
 }
 
+// Of a cone's slope at a third of its height, of a box's lid in the middle.
+TEST(HeightVolume, KnowsTheCentresOfItems) {
+  const SolidScene scene = plate_of_fields();
+  const Vec2& c = scene.dish.place.centre_mm;
+  const Vec3 cone(c.x() - 40.0, c.y() + 30.0, kBottomMm + 40.0 / 3.0);
+  const Vec3 box(c.x() - 35.0, c.y() - 40.0, 30.0);
+  for (const CameraPairOfScene& cameras : camera_pairs()) {
+    SceneMeasurement measured(scene, cameras);
+    ASSERT_TRUE(measured.status().ok());
+    std::printf("%.2f %.2f\n", (measured.item(2).centre_mm - cone).norm(),
+                (measured.item(4).centre_mm - box).norm());
+    EXPECT_LT((measured.item(2).centre_mm - cone).norm(), 0.5);
+    EXPECT_LT((measured.item(4).centre_mm - box).norm(), 0.5);
+  }
+}
+
 TEST(HeightVolume, SurvivesDepthAndLabelNoise) {
   const SolidScene scene = plate_of_fields();
   SceneNoise noise;

@@ -129,6 +129,34 @@ TEST_F(EvaluateCommand, WritesFilesThatParse) {
     EXPECT_EQ(find_xml_fault(read_text(folder / plot)), "") << plot;
 }
 
+// 2 pairs with 3 seeds, then once for each of 7 variants; the fake estimator shows no stage.
+TEST_F(EvaluateCommand, StagesMeasureEveryPairOnceAVariant) {
+  write_truth(R"({"items": [{"label": 2, "name": "rice", "volume_ml": 100.0},
+                            {"label": 3, "name": "peas", "volume_ml": 50.0}],
+                  "poses": [[[1,0,0,0],[0,-1,0,0],[0,0,-1,400],[0,0,0,1]],
+                            [[1,0,0,9],[0,-1,0,0],[0,0,-1,400],[0,0,0,1]],
+                            [[1,0,0,0],[0,-1,0,9],[0,0,-1,400],[0,0,0,1]]]})");
+  const CommandResult result = evaluate({"--stages", "--out", out_.path().string()});
+  EXPECT_EQ(result.status, 0) << result.error;
+  EXPECT_EQ(fake_estimator().estimates, 2 * (3 + 7));
+  EXPECT_EQ(fake_estimator().seed, 1U);
+  const std::string stages = read_text(out_.path() / "stages.csv");
+  EXPECT_EQ(count_lines(stages), 5U);
+  EXPECT_NE(
+      stages.find(",2,rice,heightfield,100.000,104.000,104.000,104.000,104.000,104.000,104.000,104.000\n"),
+      std::string::npos)
+      << stages;
+  EXPECT_EQ(count_lines(read_text(out_.path() / "heights.csv")), 1U) << "no surface was seen";
+}
+
+TEST_F(EvaluateCommand, StagesNeedPoses) {
+  const CommandResult result = evaluate({"--stages", "--out", out_.path().string()});
+  EXPECT_EQ(result.status, 0) << result.error;
+  EXPECT_EQ(fake_estimator().estimates, 6) << "the usual ones";
+  EXPECT_NE(read_text(out_.path() / "stages.csv").find(",2,rice,heightfield,100.000,,,,,,,\n"),
+            std::string::npos);
+}
+
 TEST_F(EvaluateCommand, ATrayIsSkippedByAProfileThatMeasuresOneDish) {
   Json dish = files_.document["dish"];
   files_.document.erase("dish");
@@ -157,6 +185,8 @@ TEST_F(EvaluateCommand, WrongUseIsNamed) {
            {{"--profile", "worst"}, "--profile"},
            {{"--labels", "none"}, "--labels"},
            {{"--jobs", "0"}, "--jobs"},
+           {{"--stages", "--profile", "paper"}, "leave --profile paper out"},
+           {{"--stages", "--json"}, "name a folder with --out instead of --json"},
            {{"--out", (out_.path() / "file").string()}, "file"},
            {{"--out", (out_.path() / "file" / "below").string()}, "below"}}) {
     const CommandResult result = evaluate(options);

@@ -89,7 +89,7 @@ TRAYGAUGE_FAKE Status Estimator::add_view(const ViewInput& view) {
   return fake_estimator().views.size() == 2 ? fake_estimator().second_view : Status();
 }
 
-TRAYGAUGE_FAKE const Measurement& Estimator::estimate(std::uint64_t seed) {
+TRAYGAUGE_FAKE const Measurement& Estimator::estimate(std::uint64_t seed, StageTap*) {
   fake_estimator().seed = seed;
   ++fake_estimator().estimates;
   return fake_estimator().measurement;
