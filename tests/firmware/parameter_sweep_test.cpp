@@ -174,7 +174,7 @@ TEST_P(ParameterSweep, OneAtATime) {
 
 TEST_P(ParameterSweep, SeveralAtOnce) {
   constexpr int kDraws = 40;
-  constexpr double kShare = 0.1;
+  constexpr double kShare = 0.04;
   Random random(seed_);
   for (int i = 0; i < kDraws; ++i) {
     Configuration changed = configuration();
