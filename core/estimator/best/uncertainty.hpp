@@ -14,7 +14,7 @@ struct UncertaintyParams {
   // Of the volume: matching errors that follow the food, shine and roughness; and per mean height over the
   // square root of the area, because steep sides are matched and filled worse than flat tops. Both from the
   // spread of the rendered captures' errors.
-  double surface_share = 0.007;
+  double surface_share = 0.010;
   double steepness_share = 0.06;
   double dish_height_mm = 0.10;  // of the dish's inner surface: firing, glaze, feet
 };
