@@ -5,6 +5,7 @@
 
 #include "core/segmentation/label_regions.hpp"
 #include "core/surface/known_dish.hpp"
+#include "core/volume/densest_window.hpp"
 
 namespace traygauge {
 namespace {
@@ -51,17 +52,7 @@ ContactLevel find_contact_level(std::span<const SurfaceGrid> views, const InnerS
   }
   const auto window =
       static_cast<std::size_t>(std::clamp(2.0 * tolerance_mm / kContactBinMm, 1.0, 0.5 * last));
-  std::uint32_t inside = 0;
-  std::uint32_t most = 0;
-  std::size_t best = 0;
-  for (std::size_t end = 0; end < histogram.size(); ++end) {
-    inside += histogram[end];
-    if (end >= window) inside -= histogram[end - window];
-    if (inside > most) {
-      most = inside;
-      best = end;
-    }
-  }
+  const auto [best, most] = find_densest_window(histogram, window);
   if (most == 0) return level;
   double sum = 0.0;
   for (std::size_t bin = best + 1 - std::min(window, best + 1); bin <= best; ++bin)

@@ -5,6 +5,7 @@
 
 #include "core/segmentation/label_regions.hpp"
 #include "core/volume/contact_level.hpp"
+#include "core/volume/densest_window.hpp"
 
 namespace traygauge {
 namespace {
@@ -46,17 +47,7 @@ double find_level(const HeightMap& map, std::uint8_t label, double tolerance_mm,
     seen += 1.0;
   });
   const auto window = static_cast<std::size_t>(std::clamp(2.0 * tolerance_mm / kBinMm, 1.0, 0.5 * bins));
-  std::uint32_t inside = 0;
-  std::uint32_t most = 0;
-  std::size_t best = 0;
-  for (std::size_t end = 0; end < histogram.size(); ++end) {
-    inside += histogram[end];
-    if (end >= window) inside -= histogram[end - window];
-    if (inside > most) {
-      most = inside;
-      best = end;
-    }
-  }
+  const std::size_t best = find_densest_window(histogram, window).last;
   double level = kLowestMm + kBinMm * (static_cast<double>(best) + 1.0) - tolerance_mm;
   double within = 0.0;
   for (int step = 0; step < 3; ++step) {
