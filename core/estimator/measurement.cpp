@@ -33,6 +33,9 @@ constexpr std::array<WarningText, kWarningCount> kWarnings = {{
     {"exposure_differs", "One picture is much brighter than the other; keep light and exposure the same."},
     {"white_balance_differs",
      "The colours of the two pictures differ; keep light and white balance the same."},
+    {"item_hardly_matched",
+     "Large parts of an item could not be found in both views, as on smooth, shining food; its volume may be "
+     "far off."},
 }};
 
 }  // namespace

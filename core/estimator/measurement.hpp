@@ -49,8 +49,9 @@ enum class Warning : std::uint8_t {
   little_texture,
   exposure_differs,
   white_balance_differs,
+  item_hardly_matched,  // large parts of an item were found in one view only
 };
-inline constexpr std::size_t kWarningCount = static_cast<std::size_t>(Warning::white_balance_differs) + 1;
+inline constexpr std::size_t kWarningCount = static_cast<std::size_t>(Warning::item_hardly_matched) + 1;
 const char* name(Warning warning);
 const char* sentence(Warning warning);
 

@@ -276,6 +276,16 @@ TEST_P(Faults, NeverFarOffWithoutAWord) {
 }
 
 // All pairs of all captures, trays by one of their dishes: no doubt about the pictures.
+// A banana's skin is so plain that its volume comes out a fifth too small.
+TEST(FoodWithoutTexture, IsDoubted) {
+  if (captures_folder().empty()) GTEST_SKIP() << "TRAYGAUGE_CAPTURES names no captures";
+  const Capture capture = read_capture(captures_folder() / "meals/m06");
+  CaptureSession session(capture, {0, 2}, capture.dishes);
+  const Measurement& measurement = session.measure(1);
+  EXPECT_TRUE(measurement.status.ok()) << name(measurement.status.code());
+  EXPECT_TRUE(measurement.warnings[static_cast<std::size_t>(Warning::item_hardly_matched)]);
+}
+
 TEST(PicturesWithoutAFault, RaiseNoDoubt) {
   if (captures_folder().empty()) GTEST_SKIP() << "TRAYGAUGE_CAPTURES names no captures";
   constexpr std::array<Warning, 7> kDoubts = {Warning::blurred,

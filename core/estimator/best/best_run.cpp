@@ -82,7 +82,7 @@ void run_best(BestMemory& memory, const Configuration& configuration, std::uint6
                            : check_angle(measurement.relative_angle_deg, configuration.geometry);
   if (!measurement.status.ok()) return;
   for (std::size_t d = 0; d < geometry.dish_count; ++d) {
-    measure_dish(views, geometry, d, configuration, dish, tap, clock, measurement.report);
+    measure_dish(views, geometry, d, configuration, dish, tap, clock, measurement);
   }
   if (measurement.report.dish_index >= 0) {
     const auto index = static_cast<std::size_t>(measurement.report.dish_index);

@@ -106,10 +106,12 @@ void visit_volume_parameters(Params& best, Visit&& visit) {
   visit("best.uncertainty.outline_px", sigma.outline_px, Range{0, 100});
   visit("best.uncertainty.surface_share", sigma.surface_share, Range{0, 100});
   visit("best.uncertainty.steepness_share", sigma.steepness_share, Range{0, 100});
+  visit("best.uncertainty.filled_share", sigma.filled_share, Range{0, 100});
   visit("best.uncertainty.dish_height_mm", sigma.dish_height_mm, Range{0, 100});
   visit("best.pipeline.summit_margin_mm", pipeline.summit_margin_mm, Range{0, 400});
   visit("best.pipeline.min_top_mm", pipeline.min_top_mm, Range{0, 400});
   visit("best.pipeline.min_rim_inlier_share", pipeline.min_rim_inlier_share, Range{0, 1});
+  visit("best.pipeline.min_matched_share", pipeline.min_matched_share, Range{0, 1});
   visit("best.pipeline.max_outline_points", pipeline.max_outline_points, Range{16, 65536});
   visit("best.pipeline.max_contour_sides", pipeline.max_contour_sides, Range{256, 1 << 20});
   visit("best.pipeline.max_height_cells", pipeline.max_height_cells, Range{1024, 1 << 22});

@@ -7,6 +7,7 @@
 #include "core/estimator/best/food_agreement.hpp"
 #include "core/estimator/best/uncertainty.hpp"
 #include "core/surface/known_dish.hpp"
+#include "core/surface/matched_share.hpp"
 #include "core/surface/triangulation.hpp"
 
 namespace traygauge {
@@ -58,7 +59,8 @@ void for_each_item(const ViewPair& views, const DishOnTray& dish, Action&& actio
 
 void measure_dish(const ViewPair& views, const SceneGeometry& geometry, std::size_t index,
                   const Configuration& configuration, DishMeasurementWorkspace& workspace, StageTap* tap,
-                  StageClock& clock, MeasurementReport& report) {
+                  StageClock& clock, Measurement& measurement) {
+  MeasurementReport& report = measurement.report;
   const BestParams& best = configuration.best;
   const DishOnTray& dish = geometry.dishes[index];
   const auto refuse = [&](Status status) {
@@ -124,7 +126,9 @@ void measure_dish(const ViewPair& views, const SceneGeometry& geometry, std::siz
   workspace.surfaces.push_back({dish.label, map, inner});
 
   clock.enter(Stage::volume);
-  level_liquid(grids, inner, best.liquid, workspace.liquid, map);
+  std::array<double, 256> matched = matched_shares(grids);
+  const LevelLiquid liquid = level_liquid(grids, inner, best.liquid, workspace.liquid, map);
+  if (liquid.label != 0) matched[liquid.label] = 1.0;  // its outline says how high it stands
   status = integrate_height_map(map, inner, best.volume, workspace.volume);
   if (!status.ok()) return refuse(status);
   close_overhangs(grids, map, inner, best.overhang, workspace.volume.items);
@@ -141,7 +145,9 @@ void measure_dish(const ViewPair& views, const SceneGeometry& geometry, std::siz
     item.area_mm2 = volume.area_mm2;
     item.mean_height_mm = volume.mean_height_mm;
     item.max_height_mm = volume.max_height_mm;
-    const UncertaintyInput input{volume, height_per_px_mm, dense.column_step_mm};
+    if (item.status == StatusCode::ok && matched[label] < best.pipeline.min_matched_share)
+      measurement.warn(Warning::item_hardly_matched, true);
+    const UncertaintyInput input{volume, matched[label], height_per_px_mm, dense.column_step_mm};
     item.sigma_ml = estimate_sigma_ml(input, geometry.joint.camera_from_table, geometry.joint.covariance,
                                       best.uncertainty);
     workspace.items.push_back(item);

@@ -44,6 +44,6 @@ struct DishMeasurementWorkspace {
 // `workspace.surfaces`. What fails here fails for all of them: every item then carries that status.
 void measure_dish(const ViewPair& views, const SceneGeometry& geometry, std::size_t index,
                   const Configuration& configuration, DishMeasurementWorkspace& workspace, StageTap* tap,
-                  StageClock& clock, MeasurementReport& report);
+                  StageClock& clock, Measurement& measurement);
 
 }  // namespace traygauge

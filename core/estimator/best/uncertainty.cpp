@@ -60,6 +60,7 @@ double estimate_sigma_ml(const UncertaintyInput& input, const TableCameras& came
            params.dish_height_mm * params.dish_height_mm) +
       std::pow(params.hidden_share * kMm3PerMl * item.hidden_volume_ml, 2) + edge_mm3 * edge_mm3 +
       std::pow(params.surface_share * volume_mm3, 2) +
+      std::pow(params.filled_share * volume_mm3 * std::pow(1.0 - input.matched_share, 2), 2) +
       std::pow(params.steepness_share * volume_mm3 * item.mean_height_mm / std::sqrt(item.area_mm2), 2);
   return std::sqrt(variance_mm6) / kMm3PerMl;
 }

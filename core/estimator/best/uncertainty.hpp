@@ -12,16 +12,20 @@ struct UncertaintyParams {
   double hidden_share = 0.5;        // of the volume that no view sees
   double outline_px = 0.3;          // of an item's outline, all along it
   // Of the volume: matching errors that follow the food, shine and roughness; and per mean height over the
-  // square root of the area, because steep sides are matched and filled worse than flat tops. Both from the
-  // spread of the rendered captures' errors.
-  double surface_share = 0.010;
-  double steepness_share = 0.06;
+  // square root of the area, because steep sides are matched worse than flat tops. These and the next
+  // from the spread of the rendered captures' errors.
+  double surface_share = 0.01;
+  double steepness_share = 0.02;
+  // Of the volume, times the squared share that was filled instead of matched: the wider a gap, the less its
+  // rims say about it.
+  double filled_share = 0.7;
   double dish_height_mm = 0.10;  // of the dish's inner surface: firing, glaze, feet
 };
 
 // What an item's uncertainty follows from.
 struct UncertaintyInput {
   HeightVolume volume;
+  double matched_share = 1.0;     // of its samples
   double height_per_px_mm = 0.0;  // of disparity
   double px_mm = 0.0;             // of the samples, on the dish
 };

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/segmentation/label_regions.hpp"
+#include "core/surface/matched_share.hpp"
 #include "tests/core/surface/solid_scene.hpp"
 
 namespace traygauge {
@@ -224,6 +225,21 @@ TEST_F(SettledSamples, LevelWithTheCameraStayAsTheyAre) {
   settled_ = noisy_;
   settle_dish_samples(scene_.dish, noisy_.view(), settled_.points, settled_.evidence);
   EXPECT_EQ(at(settled_, k), at(noisy_, k));
+}
+
+TEST(MatchedShare, CountsTheSamplesOfAllViews) {
+  using enum SurfaceEvidence;
+  const std::vector<std::uint8_t> labels{2, 2, 2, 2, 3, 0};
+  const std::vector<SurfaceEvidence> first{both, single, filled, none, filled, none};
+  const std::vector<SurfaceEvidence> second{both, both, both, both, filled, none};
+  std::array<SurfaceGrid, 2> views;
+  for (SurfaceGrid& view : views) view.labels = {labels.data(), 6, 1};
+  views[0].evidence = {first.data(), 6, 1};
+  views[1].evidence = {second.data(), 6, 1};
+  const std::array<double, 256> shares = matched_shares(views);
+  EXPECT_DOUBLE_EQ(shares[2], 0.75);
+  EXPECT_DOUBLE_EQ(shares[3], 0.0);
+  EXPECT_DOUBLE_EQ(shares[4], 1.0) << "a label without samples";
 }
 
 }  // namespace
