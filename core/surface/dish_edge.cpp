@@ -1,28 +1,18 @@
 #include "core/surface/dish_edge.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 namespace traygauge {
 namespace {
 
 // Of a dish that nothing is known of: these keep the problem regular, no more.
-constexpr double kFreeAzimuthSigmaRad = 0.5;
 constexpr double kFreeHeightSigmaMm = 100.0;
 constexpr double kFreeSizeSigmaMm = 500.0;
 constexpr int kLeastViewPoints = 3;  // times those of placement: both views are needed to tell a height
 
-double information(double sigma) {
-  return 1.0 / (sigma * sigma);
-}
-
 PlacePrior free_prior(const DishPlace& place, const DishPlacementParams& params) {
-  PlacePrior prior{as_vector(place), PlaceVector::Zero()};
+  PlacePrior prior = loose_prior(place, kFreeHeightSigmaMm, kFreeSizeSigmaMm, params);
   prior.mean[kPlaceDrop] = params.edge_drop_mm;
-  prior.information[kPlaceAzimuth] = information(kFreeAzimuthSigmaRad);
-  prior.information[kPlaceHeight] = information(kFreeHeightSigmaMm);
-  prior.information.segment<2>(kPlaceSize).setConstant(information(kFreeSizeSigmaMm));
-  prior.information[kPlaceDrop] = information(params.edge_drop_sigma_mm);
   return prior;
 }
 
@@ -61,19 +51,6 @@ class EdgeSearch {
     fit(robust_scale_px(outlines_, cameras_, focals_px_, place, placement_, workspace_, unused), place);
   }
 
-  // Both views' points lie on the place.
-  bool agrees(const DishPlace& place) const {
-    for (std::size_t view = 0; view < 2; ++view) {
-      DishOutlines alone;
-      alone[view] = outlines_[view];
-      OutlineFit fit;
-      robust_scale_px(alone, cameras_, focals_px_, place, placement_, workspace_, fit);
-      if (fit.inliers < placement_.min_inlier_share * fit.points || fit.rms_px > placement_.max_rms_px)
-        return false;
-    }
-    return true;
-  }
-
  private:
   PlacementProblem problem(const PlacePrior& prior, double scale_px) const {
     return {outlines_, cameras_, focals_px_, prior, placement_.point_sigma_px, scale_px, step_};
@@ -105,7 +82,9 @@ Status measure_dish_edge(const DishOutlines& outlines, const TableCameras& camer
   if (!search.find_level(params, place)) return StatusCode::rim_not_found;
   search.refine(place);
   if (!as_vector(place).allFinite()) return StatusCode::rim_not_found;
-  return search.agrees(place) ? StatusCode::ok : StatusCode::labels_inconsistent;
+  return contradicts(outlines, cameras, focals_px, place, placement, workspace)
+             ? StatusCode::labels_inconsistent
+             : StatusCode::ok;
 }
 
 }  // namespace traygauge

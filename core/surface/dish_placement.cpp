@@ -8,7 +8,7 @@ namespace traygauge {
 namespace {
 
 constexpr std::size_t kMaxCandidates = 32;
-constexpr double kFreeAzimuthSigmaRad = 0.5;    // of a measured place: keeps a round one regular
+constexpr double kLooseAzimuthSigmaRad = 0.5;   // of a measured place: keeps a round one regular
 constexpr double kRoundAzimuthSigmaRad = 0.01;  // of a round dish, whose azimuth means nothing
 constexpr double kRoundMm = 0.5;                // axes that differ by less
 constexpr double kHold = 1e4;                   // times the information of a described size and height
@@ -22,12 +22,7 @@ double information(double sigma) {
 
 // About a described dish, as far as the choice would let another differ from it.
 PlacePrior prior_of_measurement(const DishPlace& described, const DishPlacementParams& params) {
-  PlacePrior prior{as_vector(described), PlaceVector::Zero()};
-  prior.information[kPlaceAzimuth] = information(kFreeAzimuthSigmaRad);
-  prior.information[kPlaceHeight] = information(params.choice.height_tolerance_mm);
-  prior.information.segment<2>(kPlaceSize).setConstant(information(params.choice.size_tolerance_mm));
-  prior.information[kPlaceDrop] = information(params.edge_drop_sigma_mm);
-  return prior;
+  return loose_prior(described, params.choice.height_tolerance_mm, params.choice.size_tolerance_mm, params);
 }
 
 int choose_candidate(std::span<const DishModel> candidates, const DishPlace& measured,
@@ -38,21 +33,6 @@ int choose_candidate(std::span<const DishModel> candidates, const DishPlace& mea
     known[i] = {candidates[i].outer_size_mm, edge_height_mm(candidates[i])};
   }
   return choose_dish(std::span(known).first(count), measured.size_mm, measured.edge_height_mm, params);
-}
-
-// Whether one of the views that have a say contradicts the place found.
-bool contradicts(const DishOutlines& outlines, const TableCameras& cameras, const FocalsPx& focals_px,
-                 const DishPlace& place, const DishPlacementParams& params,
-                 DishPlacementWorkspace& workspace) {
-  for (std::size_t view = 0; view < 2; ++view) {
-    if (outlines[view].size() < static_cast<std::size_t>(params.min_view_points)) continue;
-    DishOutlines alone;
-    alone[view] = outlines[view];
-    OutlineFit fit;
-    robust_scale_px(alone, cameras, focals_px, place, params, workspace, fit);
-    if (fit.inliers < params.min_inlier_share * fit.points || fit.rms_px > params.max_rms_px) return true;
-  }
-  return false;
 }
 
 // The start for a known dish: its own size, turned so that its axes lie as measured.
@@ -195,6 +175,30 @@ bool guess_place(const DishOutlines& outlines, const TableCameras& cameras, doub
   place.edge_height_mm = height_mm;
   place.size_mm = ellipse.size_mm;
   return as_vector(place).allFinite();
+}
+
+PlacePrior loose_prior(const DishPlace& place, double height_sigma_mm, double size_sigma_mm,
+                       const DishPlacementParams& params) {
+  PlacePrior prior{as_vector(place), PlaceVector::Zero()};
+  prior.information[kPlaceAzimuth] = information(kLooseAzimuthSigmaRad);
+  prior.information[kPlaceHeight] = information(height_sigma_mm);
+  prior.information.segment<2>(kPlaceSize).setConstant(information(size_sigma_mm));
+  prior.information[kPlaceDrop] = information(params.edge_drop_sigma_mm);
+  return prior;
+}
+
+bool contradicts(const DishOutlines& outlines, const TableCameras& cameras, const FocalsPx& focals_px,
+                 const DishPlace& place, const DishPlacementParams& params,
+                 DishPlacementWorkspace& workspace) {
+  for (std::size_t view = 0; view < 2; ++view) {
+    if (outlines[view].size() < static_cast<std::size_t>(params.min_view_points)) continue;
+    DishOutlines alone;
+    alone[view] = outlines[view];
+    OutlineFit fit;
+    robust_scale_px(alone, cameras, focals_px, place, params, workspace, fit);
+    if (fit.inliers < params.min_inlier_share * fit.points || fit.rms_px > params.max_rms_px) return true;
+  }
+  return false;
 }
 
 double edge_height_mm(const DishModel& model) {

@@ -76,6 +76,15 @@ double edge_height_mm(const DishModel& model);
 // The prior of a dish of this kind, about whose azimuth nothing is known unless it is round.
 PlacePrior prior_of(const DishModel& model, double azimuth_rad, const DishPlacementParams& params);
 
+// About a measured place, about whose azimuth little is known.
+PlacePrior loose_prior(const DishPlace& place, double height_sigma_mm, double size_sigma_mm,
+                       const DishPlacementParams& params);
+
+// Whether one of the views that have a say contradicts the place found.
+bool contradicts(const DishOutlines& outlines, const TableCameras& cameras, const FocalsPx& focals_px,
+                 const DishPlace& place, const DishPlacementParams& params,
+                 DishPlacementWorkspace& workspace);
+
 // The robust scale for these outlines about this place; and, into `fit`, how well they agree.
 double robust_scale_px(const DishOutlines& outlines, const TableCameras& cameras, const FocalsPx& focals_px,
                        const DishPlace& place, const DishPlacementParams& params,

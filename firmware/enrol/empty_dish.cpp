@@ -1,10 +1,10 @@
 #include "firmware/enrol/empty_dish.hpp"
 
-#include <bitset>
 #include <cmath>
 #include <string>
 
 #include "core/segmentation/label_regions.hpp"
+#include "firmware/measure/label_list.hpp"
 
 namespace traygauge {
 namespace {
@@ -13,21 +13,14 @@ const ViewDescription& view_of(const Capture& capture, int index) {
   return capture.views[static_cast<std::size_t>(index)];
 }
 
-// Labels of food and of further dishes.
-std::string list_other_labels(const Picture& labels) {
-  std::bitset<256> present;
-  for (const std::uint8_t label : labels.pixels) present.set(label);
-  std::string list;
-  for (std::size_t label = kFirstItemLabel; label <= kLastFurtherDishLabel; ++label) {
-    if (present.test(label)) list += (list.empty() ? "" : ", ") + std::to_string(label);
-  }
-  return list;
+bool is_food_or_further_dish(std::size_t label) {
+  return label >= kFirstItemLabel && label <= kLastFurtherDishLabel;
 }
 
 // Nobody enrols a dish with food in it.
 LoadedView load_empty_dish(const ViewDescription& description) {
   LoadedView view = load_view(description);
-  const std::string others = list_other_labels(view.labels);
+  const std::string others = list_labels(view.labels, is_food_or_further_dish);
   if (!others.empty()) {
     throw InputError(*description.labels, "one empty dish: labels 0, 1 and 255",
                      "a dish that is not empty, labels " + others,

@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "firmware/base/json_number.hpp"
 #include "firmware/base/text.hpp"
 #include "simulator/capture/input_error.hpp"
 
@@ -46,10 +47,6 @@ std::string profile_rows(const DishDescription& dish) {
             pad_left(fixed(point.height_mm, 2), kNumberWidth) + "\n";
   }
   return text + "\n";
-}
-
-Json number_or_null(double number, bool measured) {
-  return measured ? Json(number) : Json(nullptr);
 }
 
 Json dish_of(const DishDescription& dish) {

@@ -59,22 +59,20 @@ void write_files(const std::filesystem::path& folder, const Evaluation& evaluati
   write_text(folder / "volumes.svg", plot_volumes(evaluation));
 }
 
-std::vector<PairRuns> run_with_progress(const EvaluateOptions& options, const ProtocolOptions& protocol,
-                                        std::vector<std::string>& skipped, std::ostream& error) {
+// `run` takes a ShowProgress.
+template <class Run>
+auto run_with_progress(std::ostream& error, Run run) {
   Progress progress(error, is_on_terminal(error));
-  return run_protocol(options.set, protocol, skipped,
-                      [&](std::size_t done, std::size_t all) { progress.show(done, all); });
+  return run([&](std::size_t done, std::size_t all) { progress.show(done, all); });
 }
 
 // Compares the stages with the truth, and returns the tables for the terminal.
 std::string report_stages(const EvaluateOptions& options, const ProtocolOptions& protocol,
                           std::ostream& error) {
   std::vector<std::string> skipped;  // the protocol has named them
-  const StageRuns runs = [&] {
-    Progress progress(error, is_on_terminal(error));
-    return run_stages(options.set, protocol, skipped,
-                      [&](std::size_t done, std::size_t all) { progress.show(done, all); });
-  }();
+  const StageRuns runs = run_with_progress(error, [&](const ShowProgress& progress) {
+    return run_stages(options.set, protocol, skipped, progress);
+  });
   const StageAnalysis analysis = analyse_stages(runs);
   if (!options.out.empty()) {
     const std::filesystem::path folder = options.out;
@@ -126,7 +124,9 @@ int run_evaluate(const EvaluateOptions& options, std::ostream& out, std::ostream
   protocol.config = options.config;
   if (!options.out.empty()) create_folder(options.out);
   std::vector<std::string> skipped;
-  const std::vector<PairRuns> runs = run_with_progress(options, protocol, skipped, error);
+  const std::vector<PairRuns> runs = run_with_progress(error, [&](const ShowProgress& progress) {
+    return run_protocol(options.set, protocol, skipped, progress);
+  });
   const Evaluation evaluation = evaluate_runs(options.set, protocol, runs, skipped);
   if (!options.out.empty()) write_files(options.out, evaluation, runs);
   if (options.stages) out << report_stages(options, protocol, error);

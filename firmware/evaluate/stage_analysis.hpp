@@ -12,7 +12,7 @@
 namespace traygauge {
 
 struct StageVariant {
-  const char* key = "";    // in CSV and JSON
+  const char* key = "";    // in CSV
   const char* title = "";  // for people
   TrueStages replaced{};
 };

@@ -72,7 +72,7 @@ void StageSubstitution::on_surfaces(const TableCameras& camera_from_table,
   if (!surface_) return;
   for (std::size_t v = 0; v < 2; ++v) {
     const Pose world_from_table = camera_from_world_[v].inverse() * camera_from_table[v];
-    compare_surface(world_from_table, grids[v]);
+    if (replaced_ == TrueStages{}) compare_surface(world_from_table, grids[v]);
     if (is_replaced(TrueStage::surface)) replace_surface(world_from_table, grids[v], kept_[v]);
   }
 }

@@ -43,7 +43,7 @@ class StageSubstitution final : public StageTap {
   void on_geometry(JointResult& joint, std::span<const DishOnTray> dishes) override;
   void on_surfaces(const TableCameras& camera_from_table, std::array<SurfaceGrid, 2>& grids) override;
 
-  // Of the surfaces as found, before any is replaced.
+  // Of the surfaces as found; empty where a stage is replaced.
   const HeightErrorsByLabel& height_errors() const { return height_errors_; }
 
  private:

@@ -1,9 +1,10 @@
 #include "firmware/measure/capture_session.hpp"
 
 #include <algorithm>
-#include <bitset>
 #include <cmath>
 #include <cstddef>
+
+#include "firmware/measure/label_list.hpp"
 
 namespace traygauge {
 namespace {
@@ -14,15 +15,9 @@ const ViewDescription* view_of(const Capture& capture, int index) {
   return &capture.views[static_cast<std::size_t>(index)];
 }
 
-// Labels that the format gives no meaning to: 200 and 250 to 254.
-std::string list_unknown_labels(const Picture& labels) {
-  std::bitset<256> present;
-  for (const std::uint8_t label : labels.pixels) present.set(label);
-  std::string list;
-  for (const std::size_t label : {200U, 250U, 251U, 252U, 253U, 254U}) {
-    if (present.test(label)) list += (list.empty() ? "" : ", ") + std::to_string(label);
-  }
-  return list;
+// Labels that the format gives no meaning to.
+bool is_meaningless(std::size_t label) {
+  return label == 200 || (label >= 250 && label <= 254);
 }
 
 bool same_lens(const LensModel& a, const LensModel& b) {
@@ -52,7 +47,7 @@ void CaptureSession::check_inputs(const Capture& capture) {
                        "coefficients that hold up to the corners of the picture", "a lens that folds it over",
                        "calibrate the camera again, with corners near the edge of the picture");
     }
-    const std::string unknown = list_unknown_labels(views_[i].labels);
+    const std::string unknown = list_labels(views_[i].labels, is_meaningless);
     if (!unknown.empty()) {
       warnings_.push_back(printable(descriptions_[i]->labels->path.string()) +
                           ": labels without a meaning (" + unknown + ") count as background.");

@@ -1,6 +1,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "firmware/base/json_number.hpp"
 #include "firmware/measure/measure_report.hpp"
 
 namespace traygauge {
@@ -9,10 +10,6 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr int kVersion = 1;
-
-Json number_or_null(double number, bool measured) {
-  return measured ? Json(number) : Json(nullptr);  // numbers that are not finite become null, too
-}
 
 Json item_of(const ItemResult& item) {
   const bool measured = item.status == StatusCode::ok;

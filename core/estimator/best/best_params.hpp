@@ -26,8 +26,8 @@ struct BestPipelineParams {
   // Of a dish's outlines on the rim found; fewer: the outlines are of another picture. Right ones reach 0.93
   // and more, those of a view 5 degrees off 0.63 to 0.80.
   double min_rim_inlier_share = 0.88;
-  // Of an item's samples; fewer: its volume is doubtful. Food with texture reaches 0.7 and more, a banana
-  // 0.6.
+  // Of an item's samples; fewer: its volume is doubtful. Food with texture reaches 0.65 and more between
+  // 10 and 30 degrees, a banana 0.6.
   double min_matched_share = 0.62;
   std::size_t max_outline_points = 1024;   // of one dish in one view: a contour of 8 sides a point
   std::size_t max_contour_sides = 8192;    // of one dish in one view, twice what a round one of 1600 px has

@@ -143,6 +143,12 @@ TEST_F(TrackedScene, WithoutLabelsAllIsTableAndTheBoxIsStillFound) {
   EXPECT_GT(static_cast<double>(good), 0.95 * static_cast<double>(tracks_.size()));
 }
 
+SeenPoint seen_point(const Vec3& table_mm, const TableCameras& cameras) {
+  const Vec3 first = cameras[0] * table_mm;
+  const Vec3 second = cameras[1] * table_mm;
+  return {table_mm, first.head<2>() / first.z(), second.head<2>() / second.z(), false};
+}
+
 TEST(PoseCorrection, FindsThePoseFromTableAndOtherPointsDespiteWrongOnes) {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     SCOPED_TRACE(::testing::Message() << "seed " << seed);
@@ -154,22 +160,16 @@ TEST(PoseCorrection, FindsThePoseFromTableAndOtherPointsDespiteWrongOnes) {
     truth[1] = look_at({80, -60, 430}, Vec3::Zero(), 0.3, 1, 1, 1).camera_from_world;
     std::vector<SeenPoint> points;
     for (int i = 0; i < 60; ++i) {
-      SeenPoint point;
-      point.height_known = i % 2 == 0;
-      point.table_mm = {place(random), place(random), point.height_known ? 0.0 : height(random)};
-      const Vec3 first = truth[0] * point.table_mm;
-      const Vec3 second = truth[1] * point.table_mm;
-      point.first = first.head<2>() / first.z();
-      point.second = second.head<2>() / second.z();
-      if (i % 10 == 0) point.second += Vec2(0.1, -0.05);  // 100 px
-      points.push_back(point);
+      const bool on_table = i % 2 == 0;
+      points.push_back(seen_point({place(random), place(random), on_table ? 0.0 : height(random)}, truth));
+      points.back().height_known = on_table;
+      if (i % 10 == 0) points.back().second += Vec2(0.1, -0.05);  // 100 px
     }
     TableCameras corrected = {truth[0], testing::perturbed(truth[1], 0.5, 3.0, seed)};
     correct_second_pose(points, 1000.0, {}, corrected);
     for (const SeenPoint& point : points) {
-      const Vec3 expected = truth[1] * point.table_mm;
-      const Vec3 seen = corrected[1] * point.table_mm;
-      EXPECT_LT(1000.0 * (seen.head<2>() / seen.z() - expected.head<2>() / expected.z()).norm(), 0.5);
+      const Vec2 expected = seen_point(point.table_mm, truth).second;
+      EXPECT_LT(1000.0 * (seen_point(point.table_mm, corrected).second - expected).norm(), 0.5);
     }
   }
 }
@@ -187,10 +187,7 @@ TEST(PoseCorrection, WithoutAKnownHeightTheMotionKeepsItsLength) {
     std::uniform_real_distribution<double> mistake(-0.03, 0.03);
     std::vector<SeenPoint> points;
     for (int i = 0; i < 50; ++i) {
-      const Vec3 point_mm(place(random), place(random), height(random));
-      const Vec3 first = truth[0] * point_mm;
-      const Vec3 second = truth[1] * point_mm;
-      points.push_back({Vec3::Zero(), first.head<2>() / first.z(), second.head<2>() / second.z(), false});
+      points.push_back(seen_point({place(random), place(random), height(random)}, truth));
       if (i % 5 == 0) points.back().second += Vec2(mistake(random), mistake(random));
     }
     TableCameras corrected = {truth[0], testing::perturbed(truth[1], 0.5, 3.0, seed)};
