@@ -66,11 +66,10 @@ lint: configure
 
 sanitize: asan-ubsan tsan
 
-# Whole sets of captures take too long here; single ones are measured by other tests.
 asan-ubsan: packages
 	cmake --preset asan-ubsan $(launcher)
 	cmake --build --preset asan-ubsan -j $(JOBS)
-	$(ctest) --test-dir build-asan-ubsan -E '^captures_'
+	$(ctest) --test-dir build-asan-ubsan
 
 # Where there is concurrency: the devices. The measurement runs on one thread.
 TSAN_TESTS = drivers_test simulated_devices_test
