@@ -48,10 +48,10 @@ void visit_paper_pose(Config& c, Visit&& visit) {
   visit("pose.min_inlier_rate", c.pose.min_inlier_rate, Range{0, 1});
   visit("pose.local_optimisation", c.pose.local_optimisation);
   visit("pose.local_samples", c.pose.local_samples, Range{5, 32});
-  visit("pose.local_iterations", c.pose.local_iterations, Range{0, 1000});
+  visit("pose.local_iterations", c.pose.local_iterations, Range{0, 100});
   visit("pose.max_restarts", c.pose.max_restarts, Range{0, 1000});
   visit("pose.min_iterations", c.pose.min_iterations, Range{1, 10'000});
-  visit("pose.max_iterations", c.pose.max_iterations, Range{1, 100'000});
+  visit("pose.max_iterations", c.pose.max_iterations, Range{1, 10'000});
   visit("pose.refine", c.pose.refine);
   visit("pose.try_planar_twin", c.pose.try_planar_twin);
   visit("pose.robust_scale", c.pose.robust_scale, Range{0.01, 1e6});
