@@ -22,16 +22,18 @@ class SimulatedIndicator final : public Indicator {
 
   // Everything that was shown, in order.
   const std::vector<ShownSignal>& history() const { return history_; }
+  // What a person sees now, whatever the station believes; dark while it is off.
+  ShownSignal seen() const { return faults_.is_off() || history_.empty() ? ShownSignal{} : history_.back(); }
   // Asked once a start and a show.
   FaultScript& faults() { return faults_; }
 
  private:
-  DeviceStatus do_start() override { return faults_.next(); }
+  DeviceStatus do_start() override { return faults_.next_start(clock_.now()); }
   void do_stop() override {}
   DeviceStatus do_show(Signal signal) override {
-    const DeviceStatus status = faults_.next();
-    if (status.ok()) history_.push_back({signal, clock_.now()});
-    return status;
+    const FaultAction fault = faults_.next(clock_.now(), set_of({FaultKind::off, FaultKind::stuck}));
+    if (fault.is(FaultKind::none)) history_.push_back({signal, clock_.now()});
+    return fault.code();
   }
 
   const Clock& clock_;

@@ -103,7 +103,7 @@ struct StationRig {
         arm(clock, &player),
         camera(clock, player, has_arm ? &arm : nullptr),
         lamp(clock),
-        trigger(clock, lamp, (has_arm ? 1 : 2) * captures.capture_count(), std::chrono::seconds(1)) {
+        trigger(clock, lamp, (has_arm ? 1 : 2) * captures.capture_count()) {
     trigger.before_press([this] { player.handle_press(); });
     measurer.on_view = [this] { return arm.is_homed() && arm_speed() > 0.0; };
     devices.emplace(StationDevices{camera, trigger, has_arm ? &arm : nullptr, lamp, clock});
