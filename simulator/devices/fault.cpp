@@ -20,7 +20,7 @@ constexpr auto kKinds = std::to_array<KindText>({
     {"late", {"by_ms", 1.0, 3.6e6}},
     {"garbage", {}},
     {"torn", {}},
-    {"mixed", {"row_share", 0.01, 0.99}},
+    {"mixed", {"row_share", -0.99, 0.99}},
     {"wrong_size", {"side_share", 0.01, 0.99}},
     {"bounce", {"edges", 2.0, 1000.0}},
     {"wrong_angle", {"by_deg", -90.0, 90.0}},

@@ -27,7 +27,8 @@ enum class FaultKind : std::uint8_t {
   late,          // by so many ms: a picture, a press, the end of a sleep
   garbage,       // noise, delivered as a picture
   torn,          // half of a picture, reported as such
-  mixed,         // the last rows are the other view's, delivered as a picture
+  mixed,         // the last rows, or with a negative share the first, are the last picture's; delivered as a
+                 // picture
   wrong_size,    // the upper left part of the picture, delivered as a picture
   bounce,        // a press closes the contact so many times within some ms
   wrong_angle,   // a move ends so many degrees from where the arm says it stands

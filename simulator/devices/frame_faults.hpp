@@ -12,7 +12,7 @@ namespace traygauge {
 FrameView copy_part(const FrameView& source, int columns, int rows, std::span<std::uint8_t> buffer);
 FrameView copy_frame(const FrameView& source, std::span<std::uint8_t> buffer);
 
-// The last `share` of the rows are those of `other`, which has the same size.
+// The last `share` of the rows are those of `other`, which has the same size; the first when it is negative.
 FrameView mix_frames(const FrameView& source, const FrameView& other, double share,
                      std::span<std::uint8_t> buffer);
 

@@ -65,23 +65,21 @@ FrameView SimulatedCamera::deliver(const FaultAction& fault, const PlayedFrame& 
     return copy_frame(last_view_, buffer);
   }
   player_.note_played(seen);
-  switch (fault.kind) {
-    case FaultKind::garbage:
-      return fill_with_noise(whole, seen.sequence, buffer);
-    case FaultKind::mixed:
-      return mix_frames(whole, pixels_of(1 - seen.view), fault.amount, buffer);
-    case FaultKind::wrong_size: {
-      const auto part = [&fault](int side) {
-        return std::max(1, static_cast<int>(std::lround(fault.amount * side)));
-      };
-      return copy_part(whole, part(whole.width), part(whole.height), buffer);
-    }
-    default:
-      break;
-  }
-  const FrameView delivered = copy_frame(whole, buffer);
-  if (!faults_.empty()) remember(delivered);
+  const FrameView delivered = spoil(fault, whole, seen.sequence, buffer);
+  if (!faults_.empty()) remember(whole);
   return delivered;
+}
+
+FrameView SimulatedCamera::spoil(const FaultAction& fault, const FrameView& whole, std::uint64_t sequence,
+                                 std::span<std::uint8_t> buffer) const {
+  const bool has_other = last_view_.width == whole.width && last_view_.height == whole.height;
+  if (fault.is(FaultKind::garbage)) return fill_with_noise(whole, sequence, buffer);
+  if (fault.is(FaultKind::mixed) && has_other) return mix_frames(whole, last_view_, fault.amount, buffer);
+  if (!fault.is(FaultKind::wrong_size)) return copy_frame(whole, buffer);
+  const auto part = [&fault](int side) {
+    return std::max(1, static_cast<int>(std::lround(fault.amount * side)));
+  };
+  return copy_part(whole, part(whole.width), part(whole.height), buffer);
 }
 
 void SimulatedCamera::remember(const FrameView& view) {

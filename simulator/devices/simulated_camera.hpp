@@ -26,7 +26,8 @@ class SimulatedCamera final : public Camera {
                   const SimulatedCameraParams& params = {});
 
   // Asked once a start and a capture. torn leaves half of the picture in the buffer, stale repeats the last
-  // frame's number; a frame that is late beyond the timeout is lost.
+  // frame's number, stuck and mixed show what the sensor saw at the last capture; a frame that is late beyond
+  // the timeout is lost.
   FaultScript& faults() { return faults_; }
 
  private:
@@ -38,6 +39,8 @@ class SimulatedCamera final : public Camera {
   // The view that is seen now.
   PlayedFrame look() const;
   FrameView deliver(const FaultAction& fault, const PlayedFrame& seen, std::span<std::uint8_t> buffer);
+  FrameView spoil(const FaultAction& fault, const FrameView& whole, std::uint64_t sequence,
+                  std::span<std::uint8_t> buffer) const;
   void remember(const FrameView& view);
   FrameView pixels_of(int view) const {
     return player_.captures().pair()[static_cast<std::size_t>(view)].frame;
@@ -49,7 +52,7 @@ class SimulatedCamera final : public Camera {
   SimulatedCameraParams params_;
   FaultScript faults_;
   std::uint64_t last_sequence_ = 0;
-  FrameView last_view_;                    // in last_pixels_
+  FrameView last_view_;                    // that the sensor saw; in last_pixels_
   std::vector<std::uint8_t> last_pixels_;  // kept while there are faults to play
 };
 
