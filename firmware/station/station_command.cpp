@@ -22,10 +22,8 @@ constexpr std::string_view kSimulatorPrefix = "simulator:";
 // Retries of a device that does not come back, about ten minutes: a script may switch it off for ever.
 constexpr int kMaxRetries = 120;
 
-// A press a scan, two where a hand moves the camera.
-std::uint64_t press_count(const StationCommand& command, const CaptureSource& captures) {
-  const std::uint64_t scans = command.scans > 0 ? command.scans : captures.capture_count();
-  return command.by_hand ? 2 * scans : scans;
+std::uint64_t scan_count(const StationCommand& command, const CaptureSource& captures) {
+  return command.scans > 0 ? command.scans : captures.capture_count();
 }
 
 int play(const StationCommand& command, Profile profile, const FaultPlan& faults,
@@ -35,8 +33,10 @@ int play(const StationCommand& command, Profile profile, const FaultPlan& faults
   SimulatedArm arm(clock, &player);
   SimulatedCamera camera(clock, player, command.by_hand ? nullptr : &arm);
   SimulatedIndicator lamp(clock);
-  SimulatedTrigger trigger(clock, lamp, press_count(command, captures));
+  const std::uint64_t scans = scan_count(command, captures);
+  SimulatedTrigger trigger(clock, lamp, command.by_hand ? 2 * scans : scans);
   trigger.before_press([&player] { player.handle_press(); });
+  lamp.on_signal([&player](Signal signal) { player.handle_signal(signal); });
   faults.apply(SimulatedDevice::camera, camera.faults());
   faults.apply(SimulatedDevice::button, trigger.faults());
   faults.apply(SimulatedDevice::arm, arm.faults());
@@ -48,7 +48,7 @@ int play(const StationCommand& command, Profile profile, const FaultPlan& faults
   ScanPrinter printer(out, log, command.json ? ScanPrinter::Format::json : ScanPrinter::Format::text);
   StationParams params;
   params.second_view_deg = command.second_view_deg;
-  params.max_scans = command.scans;
+  params.max_scans = scans;
   params.max_retries = kMaxRetries;
   if (!command.by_hand && !arm.limits().contains(params.second_view_deg)) {
     throw UsageError("--second-view: expected " + std::to_string(arm.limits().min_deg) + " to " +

@@ -1,6 +1,8 @@
 // A lamp that remembers what it showed.
 #pragma once
 
+#include <functional>
+#include <utility>
 #include <vector>
 
 #include "drivers/clock.hpp"
@@ -24,6 +26,8 @@ class SimulatedIndicator final : public Indicator {
   const std::vector<ShownSignal>& history() const { return history_; }
   // What a person sees now, whatever the station believes; dark while it is off.
   ShownSignal seen() const { return faults_.is_off() || history_.empty() ? ShownSignal{} : history_.back(); }
+  // Who looks at the lamp; called for each signal that lights up.
+  void on_signal(std::function<void(Signal)> action) { on_signal_ = std::move(action); }
   // Asked once a start and a show.
   FaultScript& faults() { return faults_; }
 
@@ -32,13 +36,16 @@ class SimulatedIndicator final : public Indicator {
   void do_stop() override {}
   DeviceStatus do_show(Signal signal) override {
     const FaultAction fault = faults_.next(clock_.now(), set_of({FaultKind::off, FaultKind::stuck}));
-    if (fault.is(FaultKind::none)) history_.push_back({signal, clock_.now()});
-    return fault.code();
+    if (!fault.is(FaultKind::none)) return fault.code();
+    history_.push_back({signal, clock_.now()});
+    if (on_signal_) on_signal_(signal);
+    return DeviceCode::ok;
   }
 
   const Clock& clock_;
   FaultScript faults_;
   std::vector<ShownSignal> history_;
+  std::function<void(Signal)> on_signal_;
 };
 
 }  // namespace traygauge

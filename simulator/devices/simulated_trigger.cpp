@@ -53,7 +53,11 @@ int SimulatedTrigger::do_pending() const {
 
 void SimulatedTrigger::do_discard_pending() {
   const Instant now = clock_.now();
-  std::erase_if(edges_, [now](const Edge& edge) { return edge.seen_at <= now; });
+  std::erase_if(edges_, [this, now](const Edge& edge) {
+    const bool is_forgotten = edge.seen_at <= now;
+    if (is_forgotten && edge.is_press && lamp_ != nullptr) --pressed_;  // the person tries again
+    return is_forgotten;
+  });
   while (pressed_ < schedule_.size() && schedule_[pressed_] <= now) ++pressed_;
 }
 

@@ -11,15 +11,21 @@ constexpr double kHomeTolerance_deg = 0.05;
 }  // namespace
 
 void TrayPlayer::handle_press() {
-  if (mover_ == CameraMover::hand && has_tray_ && !at_second_view_) {
+  if (mover_ == CameraMover::hand && has_tray_ && !at_second_view_ && !scan_has_ended_) {
     at_second_view_ = true;
     return;
   }
+  scan_has_ended_ = false;
   at_second_view_ = false;
   last_played_ = {};
   capture_index_ = next_capture_;
   has_tray_ = captures_.open(capture_index_);
   next_capture_ = (capture_index_ + 1) % captures_.capture_count();
+}
+
+void TrayPlayer::handle_signal(Signal signal) {
+  if (signal == Signal::done || signal == Signal::try_again || signal == Signal::fault)
+    scan_has_ended_ = true;
 }
 
 std::optional<double> TrayPlayer::second_view_angle_deg() const {

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <optional>
 
+#include "drivers/indicator.hpp"
 #include "simulator/devices/capture_source.hpp"
 
 namespace traygauge {
@@ -31,6 +32,9 @@ class TrayPlayer {
   // A person presses the button, having put the next tray there (after the last, the first again), or having
   // moved the camera.
   void handle_press();
+  // The person sees the lamp: done, try_again and fault end the scan, so that the next press comes with the
+  // next tray although the second view was not taken.
+  void handle_signal(Signal signal);
 
   // Whether a tray lies there and its pictures could be read; problem() says why not.
   bool has_tray() const { return has_tray_; }
@@ -62,6 +66,7 @@ class TrayPlayer {
   std::size_t capture_index_ = 0;
   bool has_tray_ = false;
   bool at_second_view_ = false;
+  bool scan_has_ended_ = false;
   std::array<PlayedFrame, 2> last_played_;  // newest first
 };
 

@@ -52,6 +52,21 @@ TEST(TrayPlayer, EveryOtherPressMovesTheHand) {
   }
 }
 
+TEST(TrayPlayer, AHandStartsOverWhenTheLampHasEndedTheScan) {
+  SyntheticCaptures captures(3);
+  TrayPlayer player(captures, CameraMover::hand);
+  player.handle_press();
+  player.handle_signal(Signal::hold_still);
+  player.handle_signal(Signal::try_again);
+  player.handle_press();
+  EXPECT_EQ(player.capture_index(), 1U);
+  EXPECT_EQ(player.view_seen_by_hand(), 0);
+  player.handle_signal(Signal::ready);
+  player.handle_press();
+  EXPECT_EQ(player.capture_index(), 1U);
+  EXPECT_EQ(player.view_seen_by_hand(), 1);
+}
+
 TEST(TrayPlayer, FindsAFrameOfThisTrayByItsNumber) {
   SyntheticCaptures captures(1);
   TrayPlayer player(captures);
