@@ -56,7 +56,14 @@ int play(const StationCommand& command, Profile profile, const FaultPlan& faults
   }
   Station station({camera, trigger, command.by_hand ? nullptr : &arm, lamp, clock}, measurer, printer, stop,
                   params);
-  return station.run().all_worked() ? kExitMeasured : kExitNotMeasurable;
+  const StationTotals& totals = station.run();
+  const bool is_complete = totals.scans >= scans || stop;
+  if (!is_complete) {
+    log << "Ended after " << totals.scans << " of " << scans
+        << " scans: " << (totals.gave_up ? "a device did not come back." : "no press came through any more.")
+        << std::endl;
+  }
+  return totals.all_worked() && is_complete ? kExitMeasured : kExitNotMeasurable;
 }
 
 }  // namespace

@@ -139,6 +139,12 @@ TEST(StationCommandUse, SaysWhatIsWrong) {
   EXPECT_THROW(run_station(command, open_recorded_captures, stop, out, out), UsageError);
   command.devices = "simulator:/nowhere/at/all";
   EXPECT_THROW(run_station(command, open_recorded_captures, stop, out, out), InputError);
+  command.devices = "simulator:" TRAYGAUGE_SOURCE_DIR "/simulator/demo";
+  command.faults = "/nowhere/faults.toml";
+  EXPECT_THROW(run_station(command, open_recorded_captures, stop, out, out), InputError);
+  command.faults = TRAYGAUGE_SOURCE_DIR "/simulator/demo/faults.toml";
+  command.by_hand = true;
+  EXPECT_THROW(run_station(command, open_recorded_captures, stop, out, out), UsageError);
   EXPECT_EQ(out.str(), "");
 }
 
@@ -151,9 +157,10 @@ TEST(StationCommandUse, TakesItsOptions) {
     app.parse(words);
     return command;
   };
-  const StationCommand command = parse(
-      {"station", "--devices", "simulator:x", "--scans", "3", "--json", "--by-hand", "--second-view", "15"});
+  const StationCommand command = parse({"station", "--devices", "simulator:x", "--scans", "3", "--json",
+                                        "--by-hand", "--second-view", "15", "--faults", "f.toml"});
   EXPECT_EQ(command.devices, "simulator:x");
+  EXPECT_EQ(command.faults, "f.toml");
   EXPECT_EQ(command.scans, 3U);
   EXPECT_TRUE(command.json);
   EXPECT_TRUE(command.by_hand);

@@ -26,11 +26,11 @@ struct Played {
   int exit_status = 0;
 };
 
-Played play(const std::filesystem::path& faults, bool by_hand = false) {
+Played play(const std::filesystem::path& faults, bool by_hand = false, std::uint64_t scans = kScans) {
   StationCommand command;
   command.devices = "simulator:" TRAYGAUGE_SOURCE_DIR "/simulator/demo";
   command.faults = faults.string();
-  command.scans = kScans;
+  command.scans = scans;
   command.json = true;
   command.by_hand = by_hand;
   const std::atomic<bool> stop = false;
@@ -78,11 +78,8 @@ class StationOnPictures : public testing::Test {
             << scan;
       }
     }
-    if (measured < static_cast<int>(played.scans.size())) {
-      EXPECT_EQ(played.exit_status, kExitNotMeasurable);
-    } else if (played.scans.size() == kScans) {
-      EXPECT_EQ(played.exit_status, kExitMeasured);
-    }
+    const bool all_measured = played.scans.size() == kScans && measured == kScans;
+    EXPECT_EQ(played.exit_status, all_measured ? kExitMeasured : kExitNotMeasurable);
     return measured;
   }
 
@@ -135,6 +132,18 @@ TEST_F(StationOnPictures, AWrongAngleIsWarnedOfOnce) {
   EXPECT_TRUE(played.scans[1]["warnings"].empty());
 }
 
+TEST(StationOnNoPictures, EndsAndSaysSoWhenNothingComesBack) {
+  const Played gone = play(
+      FaultFile(fault_text(SimulatedDevice::camera, FaultKind::off, 0.0) + "times = \"forever\"\n").path());
+  EXPECT_EQ(gone.exit_status, kExitNotMeasurable);
+  EXPECT_NE(gone.log.find("simulated camera: The device has disappeared"), std::string::npos) << gone.log;
+  EXPECT_NE(gone.log.find("Ended after 0 of 3 scans: a device did not come back."), std::string::npos);
+  const Played lost = play(
+      FaultFile(fault_text(SimulatedDevice::button, FaultKind::stuck, 0.0) + "times = \"forever\"\n").path());
+  EXPECT_EQ(lost.exit_status, kExitNotMeasurable);
+  EXPECT_EQ(lost.log, "Ended after 0 of 3 scans: no press came through any more.\n");
+}
+
 TEST_F(StationOnPictures, RandomScriptsLeaveNoVolumeWrong) {
   int measured = 0;
   for (unsigned seed = 0; seed < 60; ++seed) {
@@ -146,6 +155,16 @@ TEST_F(StationOnPictures, RandomScriptsLeaveNoVolumeWrong) {
   }
   EXPECT_GT(measured, 90);
   EXPECT_LT(measured, 180);
+}
+
+// As its comments say; simulator/README.md shows it to newcomers.
+TEST_F(StationOnPictures, TheDemosScriptTellsItsStory) {
+  const Played played = play(TRAYGAUGE_SOURCE_DIR "/simulator/demo/faults.toml", false, 7);
+  std::vector<std::string> statuses;
+  for (const json& scan : played.scans) statuses.push_back(scan["status"]);
+  EXPECT_EQ(statuses,
+            (std::vector<std::string>{"ok", "stalled", "ok", "card_not_found", "ok", "device_gone", "ok"}));
+  EXPECT_EQ(played.scans.at(4)["warnings"], json::array({"arm_angle_disagrees"}));
 }
 
 TEST_F(StationOnPictures, TheSameScriptGivesTheSameHistory) {
