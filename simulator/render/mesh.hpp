@@ -8,8 +8,8 @@
 
 namespace traygauge {
 
-// Counter-clockwise seen from outside. `normals`, of unit length, one a vertex, shade a smooth surface; none: flat
-// triangles.
+// Counter-clockwise seen from outside. `normals`, of unit length, one a vertex, shade a smooth surface; none:
+// flat triangles.
 struct TriangleMesh {
   std::vector<Eigen::Vector3f> vertices;
   std::vector<Eigen::Vector3f> normals;

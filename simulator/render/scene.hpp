@@ -17,7 +17,8 @@ struct SceneObject {
   std::uint8_t label = 0;  // as in labels_N.png
 };
 
-// A parallelogram that shines to the side of edge_u × edge_v. Not visible to the camera itself, only in reflections.
+// A parallelogram that shines to the side of edge_u × edge_v. Not visible to the camera itself, only in
+// reflections.
 struct AreaLight {
   Eigen::Vector3f corner_mm = Eigen::Vector3f::Zero();
   Eigen::Vector3f edge_u_mm = Eigen::Vector3f::Zero();
@@ -28,7 +29,8 @@ struct AreaLight {
 struct Scene {
   std::vector<SceneObject> objects;
   std::vector<AreaLight> lights;
-  Eigen::Vector3f ambient = Eigen::Vector3f::Zero();  // radiance of what rays hit that leave the scene: the room
+  Eigen::Vector3f ambient =
+      Eigen::Vector3f::Zero();  // radiance of what rays hit that leave the scene: the room
 };
 
 }  // namespace traygauge
