@@ -23,8 +23,10 @@ SurfaceResponse::SurfaceResponse(const Reflectance& reflectance, const Eigen::Ve
       to_viewer_(to_viewer),
       base_(Eigen::Vector3f::Zero()),
       mirror_(Eigen::Vector3f::Zero()),
+      is_metal_(reflectance.is_metal),
       alpha_(std::clamp(reflectance.roughness, kMinAlpha, 1.0F)),
       viewer_cosine_(std::max(normal.dot(to_viewer), kMinCosine)) {
+  viewer_seen_ = ggx::seen(viewer_cosine_, alpha_);
   const Eigen::Vector3f base = reflectance.base.cwiseMax(0.0F).cwiseMin(1.0F);
   if (reflectance.is_metal) {
     mirror_ = base;
@@ -56,33 +58,34 @@ Eigen::Vector3f SurfaceResponse::base_factor(const Eigen::Vector3f& to_light) co
   return base_albedo() * (base_entry(to_light) * cosine / kPi);
 }
 
-Eigen::Vector3f SurfaceResponse::coat_factor(const Eigen::Vector3f& to_light) const {
-  const float light_cosine = normal_.dot(to_light);
-  if (light_cosine <= 0.0F) return Eigen::Vector3f::Zero();
-  const Eigen::Vector3f half = (to_light + to_viewer_).normalized();
-  const float spread = ggx::distribution(normal_.dot(half), alpha_);
-  const float seen = ggx::seen_both_ways(viewer_cosine_, light_cosine, alpha_);
-  return fresnel(half.dot(to_light)) * (spread * seen / (4.0F * viewer_cosine_));
+// Of a direction whose half vector has this cosine to the normal.
+float SurfaceResponse::density_of(float half_cosine) const {
+  return ggx::distribution(half_cosine, alpha_) * viewer_seen_ / (4.0F * viewer_cosine_);
 }
 
-float SurfaceResponse::coat_density(const Eigen::Vector3f& to_light) const {
-  if (normal_.dot(to_light) <= 0.0F) return 0.0F;
+SurfaceResponse::CoatFactor SurfaceResponse::coat_factor(const Eigen::Vector3f& to_light) const {
+  const float light_cosine = normal_.dot(to_light);
+  if (light_cosine <= 0.0F) return {};
   const Eigen::Vector3f half = (to_light + to_viewer_).normalized();
-  return ggx::distribution(normal_.dot(half), alpha_) * ggx::seen(viewer_cosine_, alpha_) /
-         (4.0F * viewer_cosine_);
+  const float density = density_of(normal_.dot(half));
+  const float seen_too = ggx::seen_both_ways(viewer_cosine_, light_cosine, alpha_) / viewer_seen_;
+  return {fresnel(half.dot(to_light)) * (density * seen_too), density};
 }
 
 std::optional<SurfaceResponse::CoatSample> SurfaceResponse::sample_coat(const Eigen::Vector2f& place) const {
   const Eigen::Matrix3f frame = ggx::frame_about(normal_);
   Eigen::Vector3f viewer = frame.transpose() * to_viewer_;
   viewer.z() = viewer_cosine_;
-  const Eigen::Vector3f half = frame * ggx::visible_normal(viewer, alpha_, place);
+  const Eigen::Vector3f local_half = ggx::visible_normal(viewer, alpha_, place);
+  const Eigen::Vector3f half = frame * local_half;
+  const float half_cosine = half.dot(to_viewer_);
   CoatSample sample;
-  sample.to_light = 2.0F * half.dot(to_viewer_) * half - to_viewer_;
+  sample.to_light = 2.0F * half_cosine * half - to_viewer_;
   const float light_cosine = normal_.dot(sample.to_light);
   if (light_cosine <= 0.0F) return std::nullopt;
-  sample.weight = fresnel(half.dot(to_viewer_)) * (ggx::seen_both_ways(viewer_cosine_, light_cosine, alpha_) /
-                                                   ggx::seen(viewer_cosine_, alpha_));
+  sample.weight =
+      fresnel(half_cosine) * (ggx::seen_both_ways(viewer_cosine_, light_cosine, alpha_) / viewer_seen_);
+  sample.density = density_of(local_half.z());
   return sample;
 }
 
