@@ -33,6 +33,8 @@ class CameraRays {
     Eigen::Matrix2d direction_by_pixel = Eigen::Matrix2d::Identity();
   };
   Pixel pixel(int x, int y) const;
+  bool has_aperture() const { return aperture_radius_mm_ > 0.0; }
+  bool moves() const { return moves_; }
   // Of a pixel in the middle of the picture, at distance 1.
   float pixel_width() const { return pixel_width_; }
 

@@ -59,7 +59,7 @@ Eigen::Vector3f lit(const SurfaceResponse& response, const SurfaceHit& hit, cons
   }
   if (response.has_coat()) {
     const SurfaceResponse::CoatFactor coat = response.coat_factor(light.direction);
-    factor += coat.factor / (light.density + coat.density);
+    factor += coat.factor / (light.density + (response.is_sharp() ? coat.density : 0.0F));
   }
   return factor.cwiseProduct(light.radiance);
 }
@@ -176,8 +176,8 @@ void PathTracer::aim(Round& round, const CameraRays::Pixel& pixel) const {
     const std::uint32_t index = round.first + i;
     RaySample sample;
     sample.in_pixel = round.sequence.point(kInPixel, index);
-    sample.in_aperture = round.sequence.point(kInAperture, index);
-    sample.in_exposure = round.sequence.point(kInExposure, index).x();
+    if (rays_.has_aperture()) sample.in_aperture = round.sequence.point(kInAperture, index);
+    if (rays_.moves()) sample.in_exposure = round.sequence.point(kInExposure, index).x();
     round.rays[i] = rays_.ray(pixel, sample);
   }
   scene_.intersect(round.rays, round.hits, RayBundle::coherent);
@@ -260,24 +260,34 @@ Eigen::Vector3f PathTracer::seen_share(const Round& round, std::uint32_t number)
 }
 
 void PathTracer::add_mirrored(Round& round, Sum& sum) const {
+  const std::span<const AreaLight> lights = scene_.scene().lights;
   std::array<Ray, kRound> rays;
   std::array<SurfaceResponse::CoatSample, kRound> samples;
+  std::array<bool, kRound> is_sharp{};
   std::array<std::uint32_t, kRound> indices{};
   std::size_t count = 0;
   for (std::size_t i = 0; i < round.responses.size(); ++i) {
-    if (!round.responses[i].has_coat()) continue;
-    const auto sample = round.responses[i].sample_coat(round.sequence.point(kMirrored, round.index(i)));
+    const SurfaceResponse& response = round.responses[i];
+    if (!response.has_coat()) continue;
+    // A rough coat mirrors lights as add_light sees them, and its surroundings so evenly that half of the
+    // rays will do.
+    const bool is_halved = !response.is_sharp();
+    if (is_halved && round.of_hit[i] >= kRound / 2) continue;
+    const std::uint32_t index = round.index(i) - (is_halved ? round.first / 2 : 0);
+    auto sample = response.sample_coat(round.sequence.point(kMirrored, index));
     if (!sample || !is_above(round.hit(i), sample->to_light)) continue;
+    if (is_halved) sample->weight *= 2.0F;
     rays[count] = {RayScene::leave(round.hit(i), sample->to_light), sample->to_light};
     samples[count] = *sample;
-    indices[count++] = round.index(i);
+    is_sharp[count] = response.is_sharp();
+    indices[count++] = index;
   }
   std::array<SurfaceHit, kRound> hits;
   scene_.intersect({rays.data(), count}, {hits.data(), count}, RayBundle::coherent);
   for (std::size_t k = 0; k < count; ++k) {
     Eigen::Vector3f arriving =
         gather(hits[k], round.sequence, indices[k], settings_.bounces - 1, kMirroredFurther);
-    for (const AreaLight& light : scene_.scene().lights) {
+    for (const AreaLight& light : is_sharp[k] ? lights : lights.first(0)) {
       const auto met = meet_light(light, rays[k].origin_mm, rays[k].direction);
       if (!met || (hits[k].object != nullptr && hits[k].distance < met->distance_mm)) continue;
       arriving += met->radiance * (samples[k].density / (samples[k].density + met->density));

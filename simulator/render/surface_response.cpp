@@ -5,7 +5,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "simulator/render/coat_albedo.hpp"
 #include "simulator/render/ggx.hpp"
 
 namespace traygauge {
@@ -14,6 +13,7 @@ namespace {
 constexpr float kPi = std::numbers::pi_v<float>;
 constexpr float kMinAlpha = 0.01F;  // below, a highlight is sharper than any picture of it
 constexpr float kMinCosine = 1e-4F;
+constexpr float kMinEntry = 1e-3F;  // of light under a coat
 
 }  // namespace
 
@@ -25,8 +25,9 @@ SurfaceResponse::SurfaceResponse(const Reflectance& reflectance, const Eigen::Ve
       mirror_(Eigen::Vector3f::Zero()),
       is_metal_(reflectance.is_metal),
       alpha_(std::clamp(reflectance.roughness, kMinAlpha, 1.0F)),
-      viewer_cosine_(std::max(normal.dot(to_viewer), kMinCosine)) {
-  viewer_seen_ = ggx::seen(viewer_cosine_, alpha_);
+      viewer_cosine_(std::max(normal.dot(to_viewer), kMinCosine)),
+      viewer_seen_(ggx::seen(viewer_cosine_, alpha_)),
+      coat_(std::clamp(reflectance.coat, 0.0F, 1.0F), alpha_) {
   const Eigen::Vector3f base = reflectance.base.cwiseMax(0.0F).cwiseMin(1.0F);
   if (reflectance.is_metal) {
     mirror_ = base;
@@ -34,10 +35,8 @@ SurfaceResponse::SurfaceResponse(const Reflectance& reflectance, const Eigen::Ve
   }
   base_ = base;
   if (!(reflectance.coat > 0.0F)) return;
-  const float coat = std::min(reflectance.coat, 1.0F);
-  mirror_.setConstant(coat);
-  to_viewer_share_ = 1.0F - coat_albedo(coat, alpha_, viewer_cosine_);
-  mean_entry_ = std::max(1.0F - mean_coat_albedo(coat, alpha_), 1e-3F);
+  mirror_.setConstant(std::min(reflectance.coat, 1.0F));
+  to_viewer_share_ = 1.0F - coat_.at(viewer_cosine_);
 }
 
 Eigen::Vector3f SurfaceResponse::fresnel(float cosine) const {
@@ -50,7 +49,7 @@ float SurfaceResponse::base_entry(const Eigen::Vector3f& to_light) const {
   const float cosine = normal_.dot(to_light);
   if (cosine <= 0.0F) return 0.0F;
   if (!has_coat()) return 1.0F;
-  return (1.0F - coat_albedo(mirror_.x(), alpha_, cosine)) / mean_entry_;
+  return (1.0F - coat_.at(cosine)) / std::max(1.0F - coat_.mean(), kMinEntry);
 }
 
 Eigen::Vector3f SurfaceResponse::base_factor(const Eigen::Vector3f& to_light) const {

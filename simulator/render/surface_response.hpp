@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <optional>
 
+#include "simulator/render/coat_albedo.hpp"
 #include "simulator/render/material.hpp"
 
 namespace traygauge {
@@ -22,6 +23,8 @@ class SurfaceResponse {
   bool has_coat() const { return mirror_.maxCoeff() > 0.0F; }
 
   bool is_metal() const { return is_metal_; }
+  // Whether lights show in it by their shape.
+  bool is_sharp() const { return is_metal_ || alpha_ < kSharpAlpha; }
 
   // Share of evenly arriving light that the base returns.
   Eigen::Vector3f base_albedo() const { return to_viewer_share_ * base_; }
@@ -47,6 +50,8 @@ class SurfaceResponse {
   std::optional<CoatSample> sample_coat(const Eigen::Vector2f& place) const;
 
  private:
+  static constexpr float kSharpAlpha = 0.3F;
+
   Eigen::Vector3f fresnel(float cosine) const;
   float density_of(float half_cosine) const;
 
@@ -56,9 +61,9 @@ class SurfaceResponse {
   bool is_metal_;
   float alpha_;
   float viewer_cosine_;
-  float viewer_seen_ = 1.0F;      // share of the small mirrors that the viewer sees
+  float viewer_seen_;             // share of the small mirrors that the viewer sees
   float to_viewer_share_ = 1.0F;  // of what the base sends to the viewer passes the coat
-  float mean_entry_ = 1.0F;       // of evenly arriving light passes the coat
+  CoatAlbedo coat_;               // of the coat over a base
 };
 
 // Unit directions about an axis.

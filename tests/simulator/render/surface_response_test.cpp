@@ -63,7 +63,7 @@ TEST_P(UnderEvenLight, AWhiteBaseUnderACoatReturnsAllLight) {
   EXPECT_NEAR((base + mirrored).x(), 1.0, 0.01);
   EXPECT_NEAR(base.x(), static_cast<double>(response.base_albedo().x()), 0.003);
   const auto cosine = static_cast<float>(std::cos(viewer_deg * kPi / 180.0));
-  EXPECT_NEAR(mirrored.x(), static_cast<double>(coat_albedo(coat, roughness, cosine)), 0.006);
+  EXPECT_NEAR(mirrored.x(), static_cast<double>(CoatAlbedo(coat, roughness).at(cosine)), 0.006);
 }
 
 TEST_P(UnderEvenLight, MirroredRaysAreDrawnAsOftenAsTheirDensitySays) {
@@ -98,7 +98,7 @@ TEST_P(UnderEvenLight, MirroredRaysAreDrawnAsOftenAsTheirDensitySays) {
   };
   EXPECT_NEAR(over_hemisphere(density_in_cap).x(), static_cast<double>(in_cap) / kDraws, 0.015);
   EXPECT_NEAR(weights / kDraws,
-              static_cast<double>(coat_albedo(coat, roughness, kNormal.dot(viewer_at(viewer_deg)))), 0.006);
+              static_cast<double>(CoatAlbedo(coat, roughness).at(kNormal.dot(viewer_at(viewer_deg)))), 0.006);
 }
 
 INSTANTIATE_TEST_SUITE_P(Coats, UnderEvenLight,
