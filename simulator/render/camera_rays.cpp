@@ -28,6 +28,7 @@ Eigen::Isometry3d pose_in_exposure(const ViewCamera& camera, double share) {
 
 CameraRays::CameraRays(const ViewCamera& camera)
     : lens_(camera),
+      pixel_width_(static_cast<float>(1.0 / camera.fx)),
       aperture_radius_mm_(0.5 * camera.aperture_mm),
       focus_mm_(camera.focus_mm),
       moves_(camera.moves),

@@ -33,6 +33,10 @@ class CameraRays {
     Eigen::Matrix2d direction_by_pixel = Eigen::Matrix2d::Identity();
   };
   Pixel pixel(int x, int y) const;
+  bool has_aperture() const { return aperture_radius_mm_ > 0.0; }
+  bool moves() const { return moves_; }
+  // Of a pixel in the middle of the picture, at distance 1.
+  float pixel_width() const { return pixel_width_; }
 
   // Towards whatever is imaged around the pixel's centre; the direction has length 1.
   Ray ray(const Pixel& pixel, const RaySample& sample) const;
@@ -44,6 +48,7 @@ class CameraRays {
   Eigen::Isometry3d world_from_camera(double share) const;
 
   Lens lens_;
+  float pixel_width_;
   double aperture_radius_mm_;
   double focus_mm_;
   bool moves_;

@@ -92,20 +92,21 @@ Line between(const Line& a, const Line& b, float share) {
 
 }  // namespace
 
-float coat_albedo(float coat, float alpha, float cosine) {
-  const Place a = place_of(alpha, kAlphas);
-  const Place c = place_of(cosine, kCosines);
-  const auto& lines = table().lines;
-  const Line low = between(lines[a.index][c.index], lines[a.index][c.index + 1], c.share);
-  const Line high = between(lines[a.index + 1][c.index], lines[a.index + 1][c.index + 1], c.share);
-  const Line line = between(low, high, a.share);
-  return line.constant + coat * line.slope;
+CoatAlbedo::CoatAlbedo(float coat, float alpha) : coat_(coat) {
+  const Place place = place_of(alpha, kAlphas);
+  row_ = place.index;
+  row_share_ = place.share;
+  const Line line = between(table().means[row_], table().means[row_ + 1], row_share_);
+  mean_ = line.constant + coat * line.slope;
 }
 
-float mean_coat_albedo(float coat, float alpha) {
-  const Place a = place_of(alpha, kAlphas);
-  const Line line = between(table().means[a.index], table().means[a.index + 1], a.share);
-  return line.constant + coat * line.slope;
+float CoatAlbedo::at(float cosine) const {
+  const Place c = place_of(cosine, kCosines);
+  const auto& lines = table().lines;
+  const Line low = between(lines[row_][c.index], lines[row_][c.index + 1], c.share);
+  const Line high = between(lines[row_ + 1][c.index], lines[row_ + 1][c.index + 1], c.share);
+  const Line line = between(low, high, row_share_);
+  return line.constant + coat_ * line.slope;
 }
 
 }  // namespace traygauge

@@ -13,7 +13,7 @@ struct SurfaceMap {
   int height = 0;
   std::vector<Eigen::Vector3f> points_mm;
   std::vector<Eigen::Vector3f> normals;
-  std::vector<std::uint32_t> objects;  // 0: nothing
+  std::vector<std::uint32_t> objects;  // 0: nothing or several things, not to be smoothed
   std::vector<float> footprint_mm;     // of a pixel, across the ray
 
   std::size_t index(int x, int y) const {
@@ -21,9 +21,9 @@ struct SurfaceMap {
   }
 };
 
-// Mean of `light` around a pixel, weighed by a Gaussian of sigma_px, by how little the surface turns, and by
+// Mean of `light` around a pixel, weighed by a bell of radius_px, by how little the surface turns, and by
 // how near the other point lies to the plane through this one; of one object only.
-Eigen::Vector3f smooth_at(const SurfaceMap& map, const std::vector<Eigen::Vector3f>& light, float sigma_px,
+Eigen::Vector3f smooth_at(const SurfaceMap& map, const std::vector<Eigen::Vector3f>& light, float radius_px,
                           int x, int y);
 
 }  // namespace traygauge

@@ -14,10 +14,14 @@ float density_of(const Eigen::Vector3f& cross, const Eigen::Vector3f& direction,
 
 }  // namespace
 
+Eigen::Vector3f way_to_light(const AreaLight& light, const Eigen::Vector3f& point_mm,
+                             const Eigen::Vector2f& place) {
+  return light.corner_mm + place.x() * light.edge_u_mm + place.y() * light.edge_v_mm - point_mm;
+}
+
 std::optional<LightSample> sample_light(const AreaLight& light, const Eigen::Vector3f& point_mm,
                                         const Eigen::Vector2f& place) {
-  const Eigen::Vector3f to_light =
-      light.corner_mm + place.x() * light.edge_u_mm + place.y() * light.edge_v_mm - point_mm;
+  const Eigen::Vector3f to_light = way_to_light(light, point_mm, place);
   const Eigen::Vector3f cross = light.edge_u_mm.cross(light.edge_v_mm);
   if (!(cross.dot(to_light) < 0.0F)) return std::nullopt;
   LightSample sample;

@@ -21,6 +21,10 @@ struct LightSample {
 std::optional<LightSample> sample_light(const AreaLight& light, const Eigen::Vector3f& point_mm,
                                         const Eigen::Vector2f& place);
 
+// From the point to the place on the light: not of unit length.
+Eigen::Vector3f way_to_light(const AreaLight& light, const Eigen::Vector3f& point_mm,
+                             const Eigen::Vector2f& place);
+
 // The point of the light that a ray of unit direction meets, with the density with which sample_light draws
 // that direction.
 std::optional<LightSample> meet_light(const AreaLight& light, const Eigen::Vector3f& origin_mm,

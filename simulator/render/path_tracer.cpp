@@ -23,6 +23,7 @@ enum Decision : std::uint32_t {
   kPenumbra = 1024  // likewise
 };
 
+constexpr float kStep_px = 4.0F;       // a surface that jumps by more is more than one
 constexpr float kShadowEnd = 0.9999F;  // of the way to a light: none lies on it
 
 // Where a light's edge would hide first: just within its corners.
@@ -30,10 +31,10 @@ const std::array<Eigen::Vector2f, 4> kCorners = {Eigen::Vector2f(0.02F, 0.02F), 
                                                  Eigen::Vector2f(0.02F, 0.98F),
                                                  Eigen::Vector2f(0.98F, 0.98F)};
 
-Ray shadow_ray(const SurfaceHit& hit, const LightSample& light) {
+Ray shadow_ray(const SurfaceHit& hit, const Eigen::Vector3f& way_mm) {
   Ray ray;
-  ray.origin_mm = RayScene::leave(hit, light.direction);
-  ray.direction = light.direction * light.distance_mm;
+  ray.origin_mm = RayScene::leave(hit, way_mm);
+  ray.direction = way_mm;
   ray.end = kShadowEnd;
   return ray;
 }
@@ -42,32 +43,39 @@ bool is_above(const SurfaceHit& hit, const Eigen::Vector3f& direction) {
   return hit.flat_normal.dot(direction) > 0.0F && hit.normal.dot(direction) > 0.0F;
 }
 
-// What a lit point of a light adds, before shadows.
-Eigen::Vector3f lit(const SurfaceResponse& response, const LightSample& light) {
-  Eigen::Vector3f factor = response.base_factor(light.direction);
-  if (response.has_coat()) {
-    const float share = light.density / (light.density + response.coat_density(light.direction));
-    factor += share * response.coat_factor(light.direction);
+// What a light adds, before shadows: to the base from the whole light where it is in full view, to the coat
+// by a point of it.
+Eigen::Vector3f lit(const SurfaceResponse& response, const SurfaceHit& hit, const LightSample& light,
+                    const LightQuadrature& whole) {
+  Eigen::Vector3f factor = Eigen::Vector3f::Zero();
+  if (response.has_base()) {
+    const auto irradiance = whole.irradiance(hit.point_mm, hit.normal);
+    if (irradiance) {
+      const float entering = response.base_entry(light.direction) * *irradiance;
+      factor = response.base_albedo() * (entering * std::numbers::inv_pi_v<float>);
+    } else {
+      factor = response.base_factor(light.direction) / light.density;
+    }
   }
-  return factor.cwiseProduct(light.radiance) / light.density;
+  if (response.has_coat()) {
+    const SurfaceResponse::CoatFactor coat = response.coat_factor(light.direction);
+    factor += coat.factor / (light.density + (response.is_sharp() ? coat.density : 0.0F));
+  }
+  return factor.cwiseProduct(light.radiance);
 }
 
-// Shadow rays and what each adds if nothing hides the light.
+// How strongly a point of a light shines on a surface, in any unit that the light's points share.
+float light_weight(const AreaLight& light, const SurfaceHit& hit, const Eigen::Vector3f& way_mm) {
+  const float square = way_mm.squaredNorm();
+  return -light.edge_u_mm.cross(light.edge_v_mm).dot(way_mm) * hit.normal.dot(way_mm) / (square * square);
+}
+
+// Up to so many shadow rays, traced together.
 struct ShadowBatch {
   static constexpr std::size_t kCapacity = 16;
   std::array<Ray, kCapacity> rays;
-  std::array<Eigen::Vector3f, kCapacity> additions;
   std::array<std::uint8_t, kCapacity> is_occluded{};
   std::size_t count = 0;
-
-  void add(const SurfaceHit& hit, const SurfaceResponse& response, const AreaLight& light,
-           const Eigen::Vector2f& place) {
-    const auto sample = sample_light(light, hit.point_mm, place);
-    if (!sample || !is_above(hit, sample->direction)) return;
-    rays[count] = shadow_ray(hit, *sample);
-    additions[count] = lit(response, *sample);
-    ++count;
-  }
 
   void trace(const RayScene& scene) {
     scene.occlude({rays.data(), count}, {is_occluded.data(), count}, RayBundle::coherent);
@@ -77,23 +85,24 @@ struct ShadowBatch {
     return std::all_of(is_occluded.begin(), is_occluded.begin() + static_cast<std::ptrdiff_t>(count),
                        [this](std::uint8_t hidden) { return hidden == is_occluded[0]; });
   }
+};
 
-  Eigen::Vector3f sum_of_seen(std::size_t number) const {
-    Eigen::Vector3f sum = Eigen::Vector3f::Zero();
-    for (std::size_t i = 0; i < number; ++i) {
-      if (is_occluded[i] == 0) sum += additions[i];
-    }
-    return sum;
-  }
+// How much of a light is seen: shares of what diffuse surfaces would get from it without shadows.
+struct Visibility {
+  Eigen::Vector3f seen = Eigen::Vector3f::Zero();
+  Eigen::Vector3f all = Eigen::Vector3f::Zero();
 
-  // Traces, sums and empties.
-  Eigen::Vector3f take(const RayScene& scene) {
-    trace(scene);
-    const Eigen::Vector3f sum = sum_of_seen(count);
-    count = 0;
-    return sum;
+  void add(const Eigen::Vector3f& amount, bool is_hidden) {
+    all += amount;
+    if (!is_hidden) seen += amount;
   }
 };
+
+// How much a surface counts in a mean over a pixel's: as it shows. Black and metal a little, so that they
+// have a mean.
+Eigen::Vector3f shade_color(const SurfaceResponse& response) {
+  return response.base_albedo() + Eigen::Vector3f::Constant(1e-3F);
+}
 
 }  // namespace
 
@@ -106,16 +115,29 @@ struct PathTracer::Round {
   std::array<std::size_t, kRound> of_hit;  // whose response it is
 
   const SurfaceHit& hit(std::size_t response) const { return hits[of_hit[response]]; }
+  std::uint32_t index(std::size_t response) const {
+    return first + static_cast<std::uint32_t>(of_hit[response]);
+  }
+};
+
+struct PathTracer::Sum {
+  Eigen::Vector3f direct = Eigen::Vector3f::Zero();
+  Eigen::Vector3f albedo = Eigen::Vector3f::Zero();
+  Eigen::Vector3f indirect = Eigen::Vector3f::Zero();  // weighed
+  Eigen::Vector3f weights = Eigen::Vector3f::Zero();
+  SurfaceHit first;
+  bool is_one_surface = true;
 };
 
 PathTracer::PathTracer(const RayScene& scene, const CameraRays& rays, const RenderSettings& settings)
     : scene_(scene),
       rays_(rays),
       settings_(settings),
+      quadratures_(scene.scene().lights.begin(), scene.scene().lights.end()),
       seed_(hash_of(hash_of(settings.seed), static_cast<std::uint32_t>(settings.view))) {}
 
 PixelLight PathTracer::trace(int x, int y) const {
-  PixelLight sum;
+  Sum sum;
   Round round;
   round.responses.reserve(kRound);
   round.sequence =
@@ -125,15 +147,28 @@ PixelLight PathTracer::trace(int x, int y) const {
   for (std::uint32_t i = 0; i < rounds; ++i) {
     round.first = i * kRound;
     aim(round, pixel);
+    look_for_steps(round, sum);
     add_lights(round, sum);
     add_mirrored(round, sum);
     add_indirect(round, sum);
   }
   const auto samples = static_cast<float>(rounds * kRound);
-  sum.direct /= samples;
-  sum.albedo /= samples;
-  if (sum.indirect_count > 0) sum.indirect /= static_cast<float>(sum.indirect_count);
-  return sum;
+  PixelLight light;
+  light.direct = sum.direct / samples;
+  light.albedo = sum.albedo / samples;
+  if (sum.weights.minCoeff() > 0.0F) light.indirect = sum.indirect.cwiseQuotient(sum.weights);
+  light.is_one_surface = sum.is_one_surface;
+  return light;
+}
+
+// All rays must meet the plane of the first one's surface, within a few pixels' widths.
+void PathTracer::look_for_steps(const Round& round, Sum& sum) const {
+  if (round.first == 0) sum.first = round.hits[0];
+  const float most_mm = kStep_px * rays_.pixel_width() * sum.first.distance;
+  for (const SurfaceHit& hit : round.hits) {
+    const float off_mm = std::abs(sum.first.normal.dot(hit.point_mm - sum.first.point_mm));
+    if (hit.object != sum.first.object || off_mm > most_mm) sum.is_one_surface = false;
+  }
 }
 
 void PathTracer::aim(Round& round, const CameraRays::Pixel& pixel) const {
@@ -141,8 +176,8 @@ void PathTracer::aim(Round& round, const CameraRays::Pixel& pixel) const {
     const std::uint32_t index = round.first + i;
     RaySample sample;
     sample.in_pixel = round.sequence.point(kInPixel, index);
-    sample.in_aperture = round.sequence.point(kInAperture, index);
-    sample.in_exposure = round.sequence.point(kInExposure, index).x();
+    if (rays_.has_aperture()) sample.in_aperture = round.sequence.point(kInAperture, index);
+    if (rays_.moves()) sample.in_exposure = round.sequence.point(kInExposure, index).x();
     round.rays[i] = rays_.ray(pixel, sample);
   }
   scene_.intersect(round.rays, round.hits, RayBundle::coherent);
@@ -156,7 +191,7 @@ void PathTracer::aim(Round& round, const CameraRays::Pixel& pixel) const {
   }
 }
 
-void PathTracer::add_lights(Round& round, PixelLight& sum) const {
+void PathTracer::add_lights(Round& round, Sum& sum) const {
   const std::size_t missed = kRound - round.responses.size();
   sum.direct += static_cast<float>(missed) * scene_.scene().ambient;
   if (round.responses.empty()) return;
@@ -164,97 +199,128 @@ void PathTracer::add_lights(Round& round, PixelLight& sum) const {
   for (std::size_t i = 0; i < lights.size(); ++i) add_light(round, static_cast<std::uint32_t>(i), sum);
 }
 
-// A shadow ray for each ray of the round, and some to the light's corners. Where these disagree, more.
-void PathTracer::add_light(Round& round, std::uint32_t number, PixelLight& sum) const {
+// A shadow ray for each ray of the round, and some to the light's corners. Where these disagree, many more
+// tell how much of the light is seen.
+void PathTracer::add_light(Round& round, std::uint32_t number, Sum& sum) const {
   const AreaLight& light = scene_.scene().lights[number];
-  ShadowBatch first;
-  for (std::size_t i = 0; i < round.responses.size(); ++i) {
-    const auto index = round.first + static_cast<std::uint32_t>(round.of_hit[i]);
-    first.add(round.hit(i), round.responses[i], light, round.sequence.point(kLight + number, index));
-  }
-  const std::size_t own = first.count;
-  for (std::size_t i = 0; i < kCorners.size(); ++i) {
-    const std::size_t at = i * round.responses.size() / kCorners.size();
-    first.add(round.hit(at), round.responses[at], light, kCorners[i]);
-  }
-  first.trace(scene_);
-  const Eigen::Vector3f seen = first.sum_of_seen(own);
-  if (first.is_all_alike() || settings_.penumbra_samples == 0) {
-    sum.direct += seen;
-    return;
-  }
-  const auto further = static_cast<std::uint32_t>(settings_.penumbra_samples);
-  Eigen::Vector3f total = seen;
   ShadowBatch batch;
-  for (std::uint32_t j = 0; j < further; ++j) {
-    if (batch.count + round.responses.size() > ShadowBatch::kCapacity) total += batch.take(scene_);
-    for (std::size_t i = 0; i < round.responses.size(); ++i) {
-      const std::uint32_t index = (round.first + static_cast<std::uint32_t>(round.of_hit[i])) * further + j;
-      batch.add(round.hit(i), round.responses[i], light, round.sequence.point(kPenumbra + number, index));
-    }
+  std::array<Eigen::Vector3f, kRound> additions;
+  for (std::size_t i = 0; i < round.responses.size(); ++i) {
+    const SurfaceHit& hit = round.hit(i);
+    const auto sample =
+        sample_light(light, hit.point_mm, round.sequence.point(kLight + number, round.index(i)));
+    if (!sample || !is_above(hit, sample->direction)) continue;
+    additions[batch.count] = lit(round.responses[i], hit, *sample, quadratures_[number]);
+    batch.rays[batch.count++] = shadow_ray(hit, sample->direction * sample->distance_mm);
   }
-  total += batch.take(scene_);
-  sum.direct += total / static_cast<float>(further + 1);
+  const std::size_t own = batch.count;
+  for (std::size_t i = 0; i < kCorners.size(); ++i) {
+    const SurfaceHit& hit = round.hit(i * round.responses.size() / kCorners.size());
+    const Eigen::Vector3f way_mm = way_to_light(light, hit.point_mm, kCorners[i]);
+    if (is_above(hit, way_mm)) batch.rays[batch.count++] = shadow_ray(hit, way_mm);
+  }
+  batch.trace(scene_);
+  const bool is_penumbra = !batch.is_all_alike() && settings_.penumbra_samples > 0;
+  Eigen::Vector3f total = Eigen::Vector3f::Zero();
+  for (std::size_t i = 0; i < own; ++i) {
+    if (is_penumbra || batch.is_occluded[i] == 0) total += additions[i];
+  }
+  if (is_penumbra) total = total.cwiseProduct(seen_share(round, number));
+  sum.direct += total;
 }
 
-void PathTracer::add_mirrored(Round& round, PixelLight& sum) const {
+// Of a light, as the round's surfaces see it together.
+Eigen::Vector3f PathTracer::seen_share(const Round& round, std::uint32_t number) const {
+  const AreaLight& light = scene_.scene().lights[number];
+  const auto samples = static_cast<std::uint32_t>(settings_.penumbra_samples);
+  Visibility visibility;
+  ShadowBatch batch;
+  std::array<Eigen::Vector3f, ShadowBatch::kCapacity> amounts;
+  const auto trace_batch = [&] {
+    batch.trace(scene_);
+    for (std::size_t k = 0; k < batch.count; ++k) visibility.add(amounts[k], batch.is_occluded[k] != 0);
+    batch.count = 0;
+  };
+  for (std::size_t i = 0; i < round.responses.size(); ++i) {
+    const SurfaceHit& hit = round.hit(i);
+    const Eigen::Vector3f color = shade_color(round.responses[i]);
+    for (std::uint32_t j = 0; j < samples; ++j) {
+      const Eigen::Vector2f place = round.sequence.point(kPenumbra + number, round.index(i) * samples + j);
+      const Eigen::Vector3f way_mm = way_to_light(light, hit.point_mm, place);
+      const float weight = light_weight(light, hit, way_mm);
+      if (!(weight > 0.0F) || !is_above(hit, way_mm)) continue;
+      amounts[batch.count] = weight * color;
+      batch.rays[batch.count++] = shadow_ray(hit, way_mm);
+      if (batch.count == ShadowBatch::kCapacity) trace_batch();
+    }
+  }
+  trace_batch();
+  if (!(visibility.all.minCoeff() > 0.0F)) return Eigen::Vector3f::Zero();
+  return visibility.seen.cwiseQuotient(visibility.all);
+}
+
+void PathTracer::add_mirrored(Round& round, Sum& sum) const {
+  const std::span<const AreaLight> lights = scene_.scene().lights;
   std::array<Ray, kRound> rays;
-  std::array<Eigen::Vector3f, kRound> weights;
-  std::array<std::size_t, kRound> responses{};
+  std::array<SurfaceResponse::CoatSample, kRound> samples;
+  std::array<bool, kRound> is_sharp{};
+  std::array<std::uint32_t, kRound> indices{};
   std::size_t count = 0;
   for (std::size_t i = 0; i < round.responses.size(); ++i) {
     const SurfaceResponse& response = round.responses[i];
     if (!response.has_coat()) continue;
-    const auto index = round.first + static_cast<std::uint32_t>(round.of_hit[i]);
-    const auto sample = response.sample_coat(round.sequence.point(kMirrored, index));
+    // A rough coat mirrors lights as add_light sees them, and its surroundings so evenly that half of the
+    // rays will do.
+    const bool is_halved = !response.is_sharp();
+    if (is_halved && round.of_hit[i] >= kRound / 2) continue;
+    const std::uint32_t index = round.index(i) - (is_halved ? round.first / 2 : 0);
+    auto sample = response.sample_coat(round.sequence.point(kMirrored, index));
     if (!sample || !is_above(round.hit(i), sample->to_light)) continue;
+    if (is_halved) sample->weight *= 2.0F;
     rays[count] = {RayScene::leave(round.hit(i), sample->to_light), sample->to_light};
-    weights[count] = sample->weight;
-    responses[count] = i;
-    ++count;
+    samples[count] = *sample;
+    is_sharp[count] = response.is_sharp();
+    indices[count++] = index;
   }
-  if (count == 0) return;
   std::array<SurfaceHit, kRound> hits;
   scene_.intersect({rays.data(), count}, {hits.data(), count}, RayBundle::coherent);
   for (std::size_t k = 0; k < count; ++k) {
-    const auto index = round.first + static_cast<std::uint32_t>(round.of_hit[responses[k]]);
     Eigen::Vector3f arriving =
-        gather(hits[k], round.sequence, index, settings_.bounces - 1, kMirroredFurther);
-    const float density = round.responses[responses[k]].coat_density(rays[k].direction);
-    for (const AreaLight& light : scene_.scene().lights) {
+        gather(hits[k], round.sequence, indices[k], settings_.bounces - 1, kMirroredFurther);
+    for (const AreaLight& light : is_sharp[k] ? lights : lights.first(0)) {
       const auto met = meet_light(light, rays[k].origin_mm, rays[k].direction);
       if (!met || (hits[k].object != nullptr && hits[k].distance < met->distance_mm)) continue;
-      arriving += met->radiance * (density / (density + met->density));
+      arriving += met->radiance * (samples[k].density / (samples[k].density + met->density));
     }
-    sum.direct += weights[k].cwiseProduct(arriving);
+    sum.direct += samples[k].weight.cwiseProduct(arriving);
   }
 }
 
-void PathTracer::add_indirect(Round& round, PixelLight& sum) const {
+void PathTracer::add_indirect(Round& round, Sum& sum) const {
   std::array<Ray, kRound> rays;
-  std::array<float, kRound> entries{};
+  std::array<Eigen::Vector3f, kRound> weights;
   std::array<std::uint32_t, kRound> indices{};
   const auto wanted = static_cast<std::size_t>(settings_.indirect_samples);
   std::size_t count = 0;
   for (std::size_t i = 0; i < round.responses.size(); ++i) {
     const SurfaceResponse& response = round.responses[i];
     sum.albedo += response.base_albedo();
-    if (i >= wanted) continue;
-    ++sum.indirect_count;
+    if (i >= wanted || response.is_metal()) continue;
+    const Eigen::Vector3f weight = shade_color(response);
+    sum.weights += weight;
     indices[count] =
         round.first / kRound * static_cast<std::uint32_t>(wanted) + static_cast<std::uint32_t>(i);
     const Eigen::Vector3f direction =
         cosine_direction(round.hit(i).normal, round.sequence.point(kIndirect, indices[count]));
-    if (!response.has_base() || !is_above(round.hit(i), direction)) continue;
+    if (!is_above(round.hit(i), direction)) continue;
     rays[count] = {RayScene::leave(round.hit(i), direction), direction};
-    entries[count] = response.base_entry(direction);
-    ++count;
+    weights[count++] = weight * response.base_entry(direction);
   }
   std::array<SurfaceHit, kRound> hits;
   scene_.intersect({rays.data(), count}, {hits.data(), count}, RayBundle::scattered);
   for (std::size_t k = 0; k < count; ++k) {
-    sum.indirect +=
-        entries[k] * gather(hits[k], round.sequence, indices[k], settings_.bounces - 1, kIndirectFurther);
+    sum.indirect += weights[k].cwiseProduct(
+        gather(hits[k], round.sequence, indices[k], settings_.bounces - 1, kIndirectFurther));
   }
 }
 
@@ -285,7 +351,7 @@ Eigen::Vector3f PathTracer::one_light(const SurfaceHit& hit, const SampleSequenc
   const AreaLight& light = lights[std::min(drawn, lights.size() - 1)];
   const auto sample = sample_light(light, hit.point_mm, sequence.point(decision + 1, index));
   if (!sample || !is_above(hit, sample->direction)) return Eigen::Vector3f::Zero();
-  const Ray ray = shadow_ray(hit, *sample);
+  const Ray ray = shadow_ray(hit, sample->direction * sample->distance_mm);
   std::uint8_t is_occluded = 0;
   scene_.occlude({&ray, 1}, {&is_occluded, 1}, RayBundle::scattered);
   if (is_occluded != 0) return Eigen::Vector3f::Zero();

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "simulator/render/camera_rays.hpp"
+#include "simulator/render/light_quadrature.hpp"
 #include "simulator/render/ray_scene.hpp"
 #include "simulator/render/render_settings.hpp"
 #include "simulator/render/sample_sequence.hpp"
@@ -19,8 +20,8 @@ namespace traygauge {
 struct PixelLight {
   Eigen::Vector3f direct = Eigen::Vector3f::Zero();    // from lights, mirrored, or from the room itself
   Eigen::Vector3f albedo = Eigen::Vector3f::Zero();    // of the diffuse base
-  Eigen::Vector3f indirect = Eigen::Vector3f::Zero();  // mean radiance that arrives, weighed by its cosine
-  int indirect_count = 0;                              // rays that it is the mean of
+  Eigen::Vector3f indirect = Eigen::Vector3f::Zero();  // radiance that arrives: mean weighed by albedo
+  bool is_one_surface = true;                          // that all rays meet, without a step
 };
 
 // Next-event estimation at every surface; for coats and metal together with the mirrored ray by multiple
@@ -37,11 +38,15 @@ class PathTracer {
   static constexpr std::uint32_t kRound = 8;  // rays traced at once
   struct Round;
 
+  struct Sum;
+
   void aim(Round& round, const CameraRays::Pixel& pixel) const;
-  void add_lights(Round& round, PixelLight& sum) const;
-  void add_light(Round& round, std::uint32_t number, PixelLight& sum) const;
-  void add_mirrored(Round& round, PixelLight& sum) const;
-  void add_indirect(Round& round, PixelLight& sum) const;
+  void look_for_steps(const Round& round, Sum& sum) const;
+  void add_lights(Round& round, Sum& sum) const;
+  void add_light(Round& round, std::uint32_t number, Sum& sum) const;
+  Eigen::Vector3f seen_share(const Round& round, std::uint32_t number) const;
+  void add_mirrored(Round& round, Sum& sum) const;
+  void add_indirect(Round& round, Sum& sum) const;
   // Radiance from where a ray ended, a surface or the room, but not from lights.
   Eigen::Vector3f gather(const SurfaceHit& hit, const SampleSequence& sequence, std::uint32_t index,
                          int bounces, std::uint32_t decision) const;
@@ -51,6 +56,7 @@ class PathTracer {
   const RayScene& scene_;
   const CameraRays& rays_;
   RenderSettings settings_;
+  std::vector<LightQuadrature> quadratures_;  // of the scene's lights
   std::uint32_t seed_;
 };
 

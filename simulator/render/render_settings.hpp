@@ -11,13 +11,13 @@ struct RenderSettings {
   int samples = 8;
   // Of each 8 rays, 1 to 8 gather light from other surfaces and the room. Fewer: noisier shade, smoothed by
   // the filter.
-  int indirect_samples = 2;
+  int indirect_samples = 8;
   // Where some of a light is hidden, this many further shadow rays for each of the rays.
-  int penumbra_samples = 6;
+  int penumbra_samples = 4;
   // Light that was scattered up to this many times before it reaches what is seen, 0 to 8.
   int bounces = 2;
-  // Light from other surfaces is smoothed over this many pixels (sigma) of like surface; 0: not.
-  float indirect_filter_px = 3.0F;
+  // Light from other surfaces is smoothed over like surface within this many pixels; 0: not.
+  float indirect_filter_px = 6.0F;
   int threads = 0;  // 0: as many as there are cores; the picture is the same for any
   std::uint64_t seed = 1;
   int view = 0;  // its number: views with one seed have different noise

@@ -98,8 +98,7 @@ struct Canvas {
 };
 
 // Truth, at the centres of pixels (x0 … x1 - 1, y).
-void fill_truth(const RayScene& scene, const CameraRays& camera_rays, double fx, int x0, int x1, int y,
-                Canvas& canvas) {
+void fill_truth(const RayScene& scene, const CameraRays& camera_rays, int x0, int x1, int y, Canvas& canvas) {
   std::array<Ray, kTileSide> rays;
   std::array<SurfaceHit, kTileSide> hits;
   const auto count = static_cast<std::size_t>(x1 - x0);
@@ -114,7 +113,7 @@ void fill_truth(const RayScene& scene, const CameraRays& camera_rays, double fx,
     canvas.map.points_mm[at] = hits[i].point_mm;
     canvas.map.normals[at] = hits[i].normal;
     canvas.map.objects[at] = static_cast<std::uint32_t>(hits[i].object - scene.scene().objects.data()) + 1;
-    canvas.map.footprint_mm[at] = hits[i].distance / static_cast<float>(fx);
+    canvas.map.footprint_mm[at] = hits[i].distance * camera_rays.pixel_width();
   }
 }
 
@@ -146,13 +145,14 @@ RenderedView ViewRenderer::render(const ViewCamera& camera, const RenderSettings
     const int y0 = tile / columns * kTileSide;
     const int x1 = std::min(x0 + kTileSide, camera.width);
     for (int y = y0; y < std::min(y0 + kTileSide, camera.height); ++y) {
-      fill_truth(scene_, rays, camera.fx, x0, x1, y, canvas);
+      fill_truth(scene_, rays, x0, x1, y, canvas);
       for (int x = x0; x < x1; ++x) {
         const PixelLight light = tracer.trace(x, y);
         const std::size_t at = canvas.map.index(x, y);
         canvas.view.radiance[at] = light.direct;
         canvas.indirect[at] = light.indirect;
         canvas.albedo[at] = light.albedo;
+        if (!light.is_one_surface) canvas.map.objects[at] = 0;
       }
     }
   });

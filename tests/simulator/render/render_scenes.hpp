@@ -63,8 +63,8 @@ inline TriangleMesh sphere(const Eigen::Vector3f& center, float radius_mm, std::
 }
 
 // A parallelogram light in the plane z = height_mm that shines down.
-inline AreaLight ceiling_light(const Eigen::Vector2f& center_mm, const Eigen::Vector2f& size_mm, float height_mm,
-                               float radiance) {
+inline AreaLight ceiling_light(const Eigen::Vector2f& center_mm, const Eigen::Vector2f& size_mm,
+                               float height_mm, float radiance) {
   return {{center_mm.x() - 0.5F * size_mm.x(), center_mm.y() - 0.5F * size_mm.y(), height_mm},
           {0.0F, size_mm.y(), 0.0F},
           {size_mm.x(), 0.0F, 0.0F},
