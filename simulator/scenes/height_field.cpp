@@ -56,10 +56,8 @@ void cut_away(HeightField& field, const HeightField& other) {
 
 double quadrature_mm3(const HeightField& field) {
   double sum = 0.0;
-  const auto step = static_cast<float>(field.frame.step_mm);
   for (std::size_t i = 0; i < field.height_mm.size(); ++i) {
-    const float share = std::clamp(0.5F + field.inside_mm[i] / step, 0.0F, 1.0F);
-    sum += static_cast<double>(share * field.height_mm[i]);
+    if (field.inside_mm[i] > 0.0F) sum += static_cast<double>(field.height_mm[i]);
   }
   return sum * field.frame.step_mm * field.frame.step_mm;
 }

@@ -47,7 +47,7 @@ void extend_outward(HeightField& field);
 // Takes from the footprint of `field` what lies in that of `other`, over the same frame.
 void cut_away(HeightField& field, const HeightField& other);
 
-// Sum of heights over the footprint, cells at its edge by the share inside; mm^3.
+// Sum of the heights of nodes in the footprint, each for a square of the grid; mm^3.
 double quadrature_mm3(const HeightField& field);
 
 }  // namespace traygauge
