@@ -39,10 +39,6 @@ Ray shadow_ray(const SurfaceHit& hit, const Eigen::Vector3f& way_mm) {
   return ray;
 }
 
-bool is_above(const SurfaceHit& hit, const Eigen::Vector3f& direction) {
-  return hit.flat_normal.dot(direction) > 0.0F && hit.normal.dot(direction) > 0.0F;
-}
-
 // What a light adds, before shadows: to the base from the whole light where it is in full view, to the coat
 // by a point of it.
 Eigen::Vector3f lit(const SurfaceResponse& response, const SurfaceHit& hit, const LightSample& light,
@@ -209,7 +205,7 @@ void PathTracer::add_light(Round& round, std::uint32_t number, Sum& sum) const {
     const SurfaceHit& hit = round.hit(i);
     const auto sample =
         sample_light(light, hit.point_mm, round.sequence.point(kLight + number, round.index(i)));
-    if (!sample || !is_above(hit, sample->direction)) continue;
+    if (!sample || !RayScene::is_above(hit, sample->direction)) continue;
     additions[batch.count] = lit(round.responses[i], hit, *sample, quadratures_[number]);
     batch.rays[batch.count++] = shadow_ray(hit, sample->direction * sample->distance_mm);
   }
@@ -217,7 +213,7 @@ void PathTracer::add_light(Round& round, std::uint32_t number, Sum& sum) const {
   for (std::size_t i = 0; i < kCorners.size(); ++i) {
     const SurfaceHit& hit = round.hit(i * round.responses.size() / kCorners.size());
     const Eigen::Vector3f way_mm = way_to_light(light, hit.point_mm, kCorners[i]);
-    if (is_above(hit, way_mm)) batch.rays[batch.count++] = shadow_ray(hit, way_mm);
+    if (RayScene::is_above(hit, way_mm)) batch.rays[batch.count++] = shadow_ray(hit, way_mm);
   }
   batch.trace(scene_);
   const bool is_penumbra = !batch.is_all_alike() && settings_.penumbra_samples > 0;
@@ -248,7 +244,7 @@ Eigen::Vector3f PathTracer::seen_share(const Round& round, std::uint32_t number)
       const Eigen::Vector2f place = round.sequence.point(kPenumbra + number, round.index(i) * samples + j);
       const Eigen::Vector3f way_mm = way_to_light(light, hit.point_mm, place);
       const float weight = light_weight(light, hit, way_mm);
-      if (!(weight > 0.0F) || !is_above(hit, way_mm)) continue;
+      if (!(weight > 0.0F) || !RayScene::is_above(hit, way_mm)) continue;
       amounts[batch.count] = weight * color;
       batch.rays[batch.count++] = shadow_ray(hit, way_mm);
       if (batch.count == ShadowBatch::kCapacity) trace_batch();
@@ -275,7 +271,7 @@ void PathTracer::add_mirrored(Round& round, Sum& sum) const {
     if (is_halved && round.of_hit[i] >= kRound / 2) continue;
     const std::uint32_t index = round.index(i) - (is_halved ? round.first / 2 : 0);
     auto sample = response.sample_coat(round.sequence.point(kMirrored, index));
-    if (!sample || !is_above(round.hit(i), sample->to_light)) continue;
+    if (!sample || !RayScene::is_above(round.hit(i), sample->to_light)) continue;
     if (is_halved) sample->weight *= 2.0F;
     rays[count] = {RayScene::leave(round.hit(i), sample->to_light), sample->to_light};
     samples[count] = *sample;
@@ -312,7 +308,7 @@ void PathTracer::add_indirect(Round& round, Sum& sum) const {
         round.first / kRound * static_cast<std::uint32_t>(wanted) + static_cast<std::uint32_t>(i);
     const Eigen::Vector3f direction =
         cosine_direction(round.hit(i).normal, round.sequence.point(kIndirect, indices[count]));
-    if (!is_above(round.hit(i), direction)) continue;
+    if (!RayScene::is_above(round.hit(i), direction)) continue;
     rays[count] = {RayScene::leave(round.hit(i), direction), direction};
     weights[count++] = weight * response.base_entry(direction);
   }
@@ -331,7 +327,7 @@ Eigen::Vector3f PathTracer::gather(const SurfaceHit& hit, const SampleSequence& 
   Eigen::Vector3f arriving = one_light(hit, sequence, index, decision);
   if (bounces > 0) {
     const Eigen::Vector3f direction = cosine_direction(hit.normal, sequence.point(decision + 2, index));
-    if (is_above(hit, direction)) {
+    if (RayScene::is_above(hit, direction)) {
       const Ray next{RayScene::leave(hit, direction), direction};
       SurfaceHit next_hit;
       scene_.intersect({&next, 1}, {&next_hit, 1}, RayBundle::scattered);
@@ -350,7 +346,7 @@ Eigen::Vector3f PathTracer::one_light(const SurfaceHit& hit, const SampleSequenc
   const auto drawn = static_cast<std::size_t>(sequence.point(decision, index).x() * count);
   const AreaLight& light = lights[std::min(drawn, lights.size() - 1)];
   const auto sample = sample_light(light, hit.point_mm, sequence.point(decision + 1, index));
-  if (!sample || !is_above(hit, sample->direction)) return Eigen::Vector3f::Zero();
+  if (!sample || !RayScene::is_above(hit, sample->direction)) return Eigen::Vector3f::Zero();
   const Ray ray = shadow_ray(hit, sample->direction * sample->distance_mm);
   std::uint8_t is_occluded = 0;
   scene_.occlude({&ray, 1}, {&is_occluded, 1}, RayBundle::scattered);

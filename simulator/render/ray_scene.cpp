@@ -18,6 +18,7 @@ constexpr std::size_t kShadowPacket = 16;
 
 // A point on a triangle is off by a few units in the last place of its largest coordinate; this is 16.
 constexpr float kLeaveShare = 16.0F * 0x1p-23F;
+constexpr float kMinNormal = 1e-6F;     // of three that cancel out
 constexpr float kLeaveFrom_mm = 50.0F;  // coordinates below this count as this: the ray's own arithmetic
 
 void check_mesh(const SceneObject& object, std::size_t index) {
@@ -56,6 +57,30 @@ RTCIntersectContext context_for(RayBundle bundle) {
   context.flags = bundle == RayBundle::coherent ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT
                                                 : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
   return context;
+}
+
+struct Corner {
+  const Eigen::Vector3f& vertex_mm;
+  const Eigen::Vector3f& normal;
+  float weight;
+};
+
+// The interpolated normal and, seen from outside, the point lifted to the corners' tangent planes, so that
+// facets at the edge of light do not hide from it (Hanika 2021, Hacking the shadow terminator).
+void round_off(std::span<const Corner, 3> corners, bool is_behind, SurfaceHit& hit) {
+  Eigen::Vector3f mean = Eigen::Vector3f::Zero();
+  Eigen::Vector3f lift_mm = Eigen::Vector3f::Zero();
+  for (const auto& [vertex_mm, normal, weight] : corners) {
+    mean += weight * normal;
+    const float below_mm = std::max(normal.dot(vertex_mm - hit.point_mm), 0.0F);
+    lift_mm += (weight * below_mm) * normal;
+  }
+  const float length = mean.norm();
+  if (length < kMinNormal) return;
+  hit.normal = mean / length;
+  if (is_behind) return;
+  hit.is_smooth = true;
+  hit.smooth_point_mm += lift_mm;
 }
 
 template <class Packet>
@@ -128,12 +153,15 @@ SurfaceHit RayScene::hit_of(const Ray& ray, unsigned geometry, unsigned triangle
   hit.point_mm = p + u * to_b + v * to_c;
   hit.flat_normal = to_b.cross(to_c).normalized();
   hit.normal = hit.flat_normal;
+  hit.smooth_point_mm = hit.point_mm;
+  const bool is_behind = hit.flat_normal.dot(ray.direction) > 0.0F;
   if (!mesh.normals.empty()) {
-    const Eigen::Vector3f mean = (1.0F - u - v) * mesh.normals[a] + u * mesh.normals[b] + v * mesh.normals[c];
-    const float length = mean.norm();
-    if (length > 1e-6F) hit.normal = mean / length;
+    const Corner corners[] = {{p, mesh.normals[a], 1.0F - u - v},
+                              {mesh.vertices[b], mesh.normals[b], u},
+                              {mesh.vertices[c], mesh.normals[c], v}};
+    round_off(corners, is_behind, hit);
   }
-  if (hit.flat_normal.dot(ray.direction) > 0.0F) {
+  if (is_behind) {
     hit.flat_normal = -hit.flat_normal;
     hit.normal = -hit.normal;
   }
@@ -182,10 +210,14 @@ void RayScene::occlude(std::span<const Ray> rays, std::span<std::uint8_t> is_occ
   }
 }
 
+bool RayScene::is_above(const SurfaceHit& hit, const Eigen::Vector3f& direction) {
+  return hit.normal.dot(direction) > 0.0F && (hit.is_smooth || hit.flat_normal.dot(direction) > 0.0F);
+}
+
 Eigen::Vector3f RayScene::leave(const SurfaceHit& hit, const Eigen::Vector3f& direction) {
   const float size_mm = std::max(hit.point_mm.cwiseAbs().maxCoeff(), kLeaveFrom_mm);
-  const float side = hit.flat_normal.dot(direction) < 0.0F ? -1.0F : 1.0F;
-  return hit.point_mm + (side * kLeaveShare * size_mm) * hit.flat_normal;
+  const float side = hit.normal.dot(direction) < 0.0F ? -1.0F : 1.0F;
+  return hit.smooth_point_mm + (side * kLeaveShare * size_mm) * hit.flat_normal;
 }
 
 }  // namespace traygauge

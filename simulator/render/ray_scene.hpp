@@ -22,7 +22,10 @@ struct SurfaceHit {
   Eigen::Vector3f point_mm = Eigen::Vector3f::Zero();
   Eigen::Vector3f flat_normal = Eigen::Vector3f::UnitZ();
   Eigen::Vector3f normal = Eigen::Vector3f::UnitZ();  // interpolated
-  float distance = 0.0F;                              // in lengths of the ray's direction
+  Eigen::Vector3f smooth_point_mm =
+      Eigen::Vector3f::Zero();  // on the rounded surface that the normals describe
+  bool is_smooth = false;       // with a rounded surface
+  float distance = 0.0F;        // in lengths of the ray's direction
 };
 
 // Whether neighbouring rays of a call take about the same way: a hint for speed alone.
@@ -45,6 +48,8 @@ class RayScene {
   // 1 where something lies between a ray's origin and its end.
   void occlude(std::span<const Ray> rays, std::span<std::uint8_t> is_occluded, RayBundle bundle) const;
 
+  // Whether light may go this way: not into the surface.
+  static bool is_above(const SurfaceHit& hit, const Eigen::Vector3f& direction);
   // Where a new ray in this direction may start without meeting the surface that it leaves.
   static Eigen::Vector3f leave(const SurfaceHit& hit, const Eigen::Vector3f& direction);
 

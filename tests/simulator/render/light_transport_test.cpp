@@ -252,6 +252,40 @@ TEST(LightTransport, GlossFromLightsMatchesTheIntegralOverThem) {
   }
 }
 
+// Facets must not show at the edge of light: a coarse ball with normals is lit as a round one.
+TEST(LightTransport, ACoarseBallIsLitAsARoundOne) {
+  Scene scene;
+  scene.objects.push_back({sphere({0.0F, 0.0F, 0.0F}, 50.0F, 32), matt(0.8F), 1});
+  constexpr float kFar_mm = 10000.0F;
+  const Eigen::Vector3f to_light =
+      Eigen::Vector3f(1.0F, 0.049F, 0.0F).normalized();  // its shade ends within facets
+  const Eigen::Vector3f across = 100.0F * Eigen::Vector3f::UnitZ().cross(to_light);
+  scene.lights.push_back({kFar_mm * to_light, {0.0F, 0.0F, 100.0F}, across, Eigen::Vector3f::Constant(1e4F)});
+  const ViewCamera camera = camera_at({0.0, -300.0, 0.0}, {0.0, 0.0, 0.0}, 160, 160, 400.0);
+  const RenderedView view = ViewRenderer(scene).render(camera);
+  double worst = 0.0;
+  int lit = 0;
+  for (int y = 0; y < view.height; ++y) {
+    for (int x = 0; x < view.width; ++x) {
+      const Eigen::Vector3d direction((x - camera.cx) / camera.fx, 1.0, -(y - camera.cy) / camera.fy);
+      const double b = direction.y() * -300.0;
+      const double root2 = b * b - direction.squaredNorm() * (300.0 * 300.0 - 48.0 * 48.0);
+      if (root2 < 0.0) continue;  // its outermost ring shows the facets' outline
+      const double outer2 = b * b - direction.squaredNorm() * (300.0 * 300.0 - 50.0 * 50.0);
+      const Eigen::Vector3d normal = (Eigen::Vector3d(0.0, -300.0, 0.0) +
+                                      direction * ((-b - std::sqrt(outer2)) / direction.squaredNorm())) /
+                                     50.0;
+      const double expected = std::max(normal.dot(to_light.cast<double>()), 0.0) * 0.8 / std::numbers::pi;
+      lit += expected > 0.0 ? 1 : 0;
+      const auto found = static_cast<double>(view.radiance[static_cast<std::size_t>(y * view.width + x)].x());
+      worst = std::max(worst, std::abs(found - expected) / (0.8 / std::numbers::pi));
+    }
+  }
+  EXPECT_GT(lit, 2000);
+  std::cout << "worst " << worst << " of full light\n";
+  EXPECT_LT(worst, 0.02);
+}
+
 TEST(LightTransport, TheNumberOfThreadsDoesNotShow) {
   Scene scene;
   scene.ambient = Eigen::Vector3f::Constant(0.2F);
