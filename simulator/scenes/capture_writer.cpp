@@ -26,8 +26,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double kDepthUnitMm = 0.02;
-constexpr double kMeanLevel = 0.20;        // of a phone's automatic exposure, linear
-constexpr double kBrightLevel = 0.80;      // what the brightest hundredth may reach
+constexpr double kMeanLevel = 0.30;        // of a phone's automatic exposure, linear
+constexpr double kBrightLevel = 0.75;      // what the brightest hundredth may reach
 constexpr double kBrightShare = 0.99;
 
 std::string numbered(const char* name, std::size_t view, const char* extension) {

@@ -32,13 +32,18 @@ enum class FoodGroup : std::uint8_t {
   other,  // in meals-14 alone
 };
 
+enum class FoodServing : std::uint8_t { solid, soup, dessert };
+
 struct FoodKind {
   std::string_view name;
   FoodShape shape = nullptr;
   FoodSize size;  // of a usual portion
   FoodGroup group = FoodGroup::canteen;
-  bool is_filled = false;  // a liquid with a level
+  FoodServing serving = FoodServing::solid;
   std::array<FoodTexture, 4> textures{};
+
+  // A liquid with a level.
+  bool is_filled() const { return serving != FoodServing::solid; }
 };
 
 std::span<const FoodKind> food_kinds();

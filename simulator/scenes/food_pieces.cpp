@@ -26,7 +26,7 @@ void paint_round_heap(FoodPainter& painter, Draws& draws, const FoodSize& size, 
                       const Mound& mound) {
   const BlobOutline outline(draws, size.length_mm, size.width_mm, 0.16);
   heap_pieces(painter, draws, outline, mound, 0.9 * radius_mm, food_part(1, 0),
-              tries_for(size, radius_mm * radius_mm, 7.0), 1.45 * radius_mm,
+              tries_for(size, radius_mm * radius_mm, 12.0), 1.3 * radius_mm,
               [&](const Eigen::Vector3d& at, int piece) {
                 const double r = radius_mm * draws.between(1.0 - spread, 1.0 + spread);
                 Superquadric pea{at, {r, r * draws.between(0.92, 1.0), r * draws.between(0.9, 1.0)}};
@@ -48,7 +48,7 @@ void paint_rice(FoodPainter& painter, Draws& draws, const FoodSize& size) {
   heap_pieces(painter, draws, outline, mound, 1.0, food_part(1, 0), tries_for(size, 1.2, 1.0), 0.0,
               [&](const Eigen::Vector3d& at, int piece) {
                 Superquadric grain{at, {draws.between(2.6, 3.6), 0.95, 0.9}};
-                grain.rotation = random_rotation(draws, 0.9);
+                grain.rotation = random_rotation(draws, 0.45);
                 rest(grain, at, draws.between(-0.3, 1.0));
                 painter.superquadric(grain, food_part(0, piece));
               });
@@ -97,7 +97,7 @@ void paint_meatballs(FoodPainter& painter, Draws& draws, const FoodSize& size) {
 void paint_potatoes(FoodPainter& painter, Draws& draws, const FoodSize& size) {
   const BlobOutline outline(draws, size.length_mm, size.width_mm, 0.08);
   int piece = 0;
-  for (const Eigen::Vector2d& place : scatter(draws, outline, 400, 0.85 * size.height_mm, 0.62)) {
+  for (const Eigen::Vector2d& place : scatter(draws, outline, 600, 0.84 * size.height_mm, 0.7)) {
     const double r = 0.5 * size.height_mm * draws.between(0.85, 1.0);
     Superquadric potato{{place.x(), place.y(), 0.95 * r}, {r * draws.between(1.1, 1.45), r * 1.02, r}};
     potato.rotation = random_rotation(draws, 0.25);
@@ -177,7 +177,7 @@ void float_pieces(FoodPainter& painter, Draws& draws, const FoodSize& size, int 
     solid.rotation = random_rotation(draws, 0.9);
     solid.side_exponent = solid.height_exponent = draws.chance(0.3) ? 2.0 : exponent;
     solid.centre_mm = {distance_mm * std::cos(angle), distance_mm * std::sin(angle),
-                       size.height_mm - draws.between(0.85, 1.5) * r};
+                       size.height_mm - draws.between(0.1, 0.95) * r};
     painter.superquadric(solid, food_part(draws.whole(1, 3), piece));
   }
 }

@@ -100,7 +100,7 @@ void paint_bread(FoodPainter& painter, Draws& draws, const FoodSize& size) {
   const double half_y = 0.5 * size.width_mm;
   painter.piece({0.0, 0.0}, std::hypot(half_x, half_y), food_part(0, 0), [&](double x_mm, double y_mm) {
     const double x = x_mm / half_x;
-    const double y = y_mm / half_y * (x > 0.0 ? 1.0 / bulge : 1.0);
+    const double y = y_mm / half_y * (1.0 + (bulge - 1.0) * x * x);
     const double share = std::pow(std::pow(std::abs(x), 4.0) + std::pow(std::abs(y), 4.0), 0.25);
     const double inside_mm = (1.0 - share) * std::min(half_x, half_y);
     return PieceColumn{slab_height(size.height_mm, inside_mm, 1.5, 0.8), inside_mm};
@@ -109,15 +109,21 @@ void paint_bread(FoodPainter& painter, Draws& draws, const FoodSize& size) {
 }
 
 void paint_chicken(FoodPainter& painter, Draws& draws, const FoodSize& size) {
-  // A leg: thigh, shank and the end of the bone.
-  const double h = 0.5 * size.height_mm;
+  // A leg: slices of the thigh, which narrows to the shank, and the end of the bone.
+  constexpr int kSlices = 26;
   const double half_mm = 0.5 * size.length_mm;
-  painter.superquadric({{-0.45 * half_mm, 0.0, 0.92 * h}, {0.55 * half_mm, 0.5 * size.width_mm, h}}, food_part(0, 0));
-  Superquadric shank{{0.25 * half_mm, 0.06 * half_mm, 0.62 * h}, {0.55 * half_mm, 0.3 * size.width_mm, 0.66 * h}};
-  shank.rotation = Eigen::AngleAxisd(0.3, Eigen::Vector3d::UnitZ()).toRotationMatrix();
-  painter.superquadric(shank, food_part(0, 1));
-  painter.rod({{0.5 * half_mm, 0.1 * half_mm, 0.45 * h}, {0.86 * half_mm, 0.24 * half_mm, 0.36 * h}, 0.34 * h},
-              food_part(1, 2));
+  const double bend_mm = draws.between(-0.1, 0.1) * size.length_mm;
+  const double waist = draws.between(0.35, 0.5);
+  const auto bent = [&](double share) { return bend_mm * share * share; };  // -1 to 1 along the leg
+  for (int i = 0; i < kSlices; ++i) {
+    const double share = -0.55 + 1.2 * i / (kSlices - 1);
+    const double narrowing = std::clamp((share + 0.35) / 0.8, 0.0, 1.0);
+    const double width = 1.0 - (1.0 - waist) * narrowing * narrowing * (3.0 - 2.0 * narrowing);
+    const Eigen::Vector3d semi(0.42 * half_mm * width, 0.5 * size.width_mm * width, 0.5 * size.height_mm * width);
+    painter.superquadric({{share * half_mm, bent(share), 0.9 * semi.z()}, semi}, food_part(0, 0));
+  }
+  const double bone_mm = 0.16 * size.height_mm;
+  painter.rod({{0.6 * half_mm, bent(0.6), 1.3 * bone_mm}, {0.92 * half_mm, bent(0.92), 1.1 * bone_mm}, bone_mm}, food_part(1, 2));
   painter.roughen(1.6, 13.0, draws.seed(), 3);
 }
 

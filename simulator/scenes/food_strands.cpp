@@ -17,7 +17,7 @@ struct Strand {
   double lift_mm = 2.0;    // above or below the heap's surface
 };
 
-// A strand that wanders over the heap and turns back at its edge.
+// A strand that wanders over the heap and ends at its edge.
 void paint_strand(FoodPainter& painter, Draws& draws, const BlobOutline& outline, const Mound& mound,
                   const Strand& strand, const Eigen::Vector2d& start, std::uint16_t part) {
   double direction = draws.angle_rad();
@@ -35,32 +35,39 @@ void paint_strand(FoodPainter& painter, Draws& draws, const BlobOutline& outline
     painter.rod({from, to, strand.radius_mm}, part);
     from = to;
     bend = std::clamp(bend + draws.between(-0.5, 0.5) * strand.bend_rad, -strand.bend_rad, strand.bend_rad);
-    direction += outline.share(at.x(), at.y()) > 0.85 ? strand.bend_rad * 2.0 : bend;
+    if (outline.share(at.x(), at.y()) > 0.97) return;
+    direction += bend;
   }
 }
 
+struct Stick {
+  double length_mm = 60.0;
+  double half_mm = 4.0;
+  double exponent = 9.0;
+  double irregularity = 0.15;
+  double spread_rad = 0.7;  // of their directions, about the heap's length
+};
+
 // Straight sticks, crossing, the later above the earlier.
-void paint_sticks(FoodPainter& painter, Draws& draws, const FoodSize& size, int count, double length_mm,
-                  double half_mm, double exponent, double irregularity) {
-  const BlobOutline outline(draws, size.length_mm, size.width_mm, 0.1);
-  const double room_mm = 0.5 * std::min(size.length_mm, size.width_mm);
+void paint_sticks(FoodPainter& painter, Draws& draws, const FoodSize& size, int count, const Stick& kind) {
   for (int piece = 0; piece < count; ++piece) {
     const double layer = static_cast<double>(piece) / count;
-    const double half_length_mm = 0.5 * length_mm * draws.between(0.65, 1.0);
-    const double angle = draws.angle_rad();
-    const double spread = (1.0 - 0.55 * layer) * std::max(0.15, 1.0 - 0.55 * half_length_mm / room_mm);
-    const double away = std::sqrt(draws.between(0.0, 1.0)) * spread;
-    const double around = draws.angle_rad();
-    const double thick_mm = half_mm * draws.between(1.0 - irregularity, 1.0 + irregularity);
+    const double half_length_mm = 0.5 * kind.length_mm * draws.between(0.6, 1.0);
+    const double angle = kind.spread_rad * draws.normal();
+    const double thick_mm = kind.half_mm * draws.between(1.0 - kind.irregularity, 1.0 + kind.irregularity);
+    const double tilt = draws.between(-0.22, 0.22) * layer;
     Superquadric stick{{}, {half_length_mm, thick_mm, thick_mm * draws.between(0.9, 1.05)}};
-    stick.side_exponent = stick.height_exponent = exponent;
-    const double tilt = draws.between(-0.18, 0.18) * layer;
+    stick.side_exponent = stick.height_exponent = kind.exponent;
     stick.rotation = (Eigen::AngleAxisd(angle, Eigen::Vector3d::UnitZ()) *
                       Eigen::AngleAxisd(tilt, Eigen::Vector3d::UnitY()))
                          .toRotationMatrix();
-    stick.centre_mm = {outline.semi_x_mm() * away * std::cos(around), outline.semi_y_mm() * away * std::sin(around),
-                       half_mm + layer * (size.height_mm - 2.0 * half_mm) * (1.0 - 0.5 * away * away)};
-    stick.centre_mm.z() = std::max(stick.centre_mm.z(), half_mm + std::abs(std::sin(tilt)) * half_length_mm);
+    const double narrowing = 1.0 - 0.45 * layer;
+    const double room_x = std::max(6.0, 0.5 * size.length_mm - half_length_mm * std::abs(std::cos(angle)));
+    const double room_y = std::max(6.0, 0.5 * size.width_mm - half_length_mm * std::abs(std::sin(angle)) - thick_mm);
+    const double u = draws.between(-1.0, 1.0) * narrowing;
+    const double v = draws.between(-1.0, 1.0) * narrowing;
+    const double height_mm = kind.half_mm + layer * (size.height_mm - 2.0 * kind.half_mm) * (1.0 - 0.4 * std::max(u * u, v * v));
+    stick.centre_mm = {room_x * u, room_y * v, std::max(height_mm, kind.half_mm + std::abs(std::sin(tilt)) * half_length_mm)};
     painter.superquadric(stick, food_part(0, piece));
   }
 }
@@ -69,12 +76,12 @@ void paint_sticks(FoodPainter& painter, Draws& draws, const FoodSize& size, int 
 
 void paint_fries(FoodPainter& painter, Draws& draws, const FoodSize& size) {
   const int count = static_cast<int>(size.length_mm * size.width_mm * size.height_mm / 4200.0);
-  paint_sticks(painter, draws, size, count, 68.0, 4.6, 9.0, 0.15);
+  paint_sticks(painter, draws, size, count, {66.0, 4.3, 9.0, 0.15, 0.8});
 }
 
 void paint_green_beans(FoodPainter& painter, Draws& draws, const FoodSize& size) {
   const int count = static_cast<int>(size.length_mm * size.width_mm * size.height_mm / 2600.0);
-  paint_sticks(painter, draws, size, count, 75.0, 3.6, 2.3, 0.2);
+  paint_sticks(painter, draws, size, count, {74.0, 3.6, 2.3, 0.2, 0.3});
 }
 
 void paint_penne(FoodPainter& painter, Draws& draws, const FoodSize& size) {
@@ -109,7 +116,7 @@ void paint_slaw(FoodPainter& painter, Draws& draws, const FoodSize& size) {
   heap_pieces(painter, draws, outline, mound, 3.0, food_part(0, 0),
               static_cast<int>(size.length_mm * size.width_mm / 18.0), 0.0,
               [&](const Eigen::Vector3d& at, int piece) {
-                const Strand strand{draws.between(0.7, 1.5), draws.between(14.0, 32.0), 4.0, 0.35, 2.5};
+                const Strand strand{draws.between(0.7, 1.5), draws.between(14.0, 32.0), 4.0, 0.2, 2.5};
                 const int texture = draws.chance(0.2) ? 2 : draws.whole(0, 1);
                 paint_strand(painter, draws, outline, mound, strand, at.head<2>(), food_part(texture, piece));
               });
@@ -135,9 +142,9 @@ void paint_broccoli(FoodPainter& painter, Draws& draws, const FoodSize& size) {
   const BlobOutline outline(draws, size.length_mm, size.width_mm, 0.08);
   const double golden = std::numbers::pi * (3.0 - std::sqrt(5.0));
   int piece = 0;
-  for (const Eigen::Vector2d& place : scatter(draws, outline, 300, 0.72 * size.height_mm, 0.66)) {
-    const double r = 0.46 * size.height_mm * draws.between(0.85, 1.0);
-    const Eigen::Vector3d middle(place.x(), place.y(), size.height_mm - r - draws.between(1.0, 4.0));
+  for (const Eigen::Vector2d& place : scatter(draws, outline, 500, 0.56 * size.height_mm, 0.72)) {
+    const double r = 0.48 * size.height_mm * draws.between(0.7, 1.0);
+    const Eigen::Vector3d middle(place.x(), place.y(), 1.05 * r * draws.between(0.75, 1.0));
     painter.superquadric({middle, {0.92 * r, 0.92 * r, 0.9 * r}}, food_part(1, piece));
     const double bud_mm = draws.between(1.9, 2.5);
     const int buds = static_cast<int>(5.0 * r * r / (bud_mm * bud_mm));

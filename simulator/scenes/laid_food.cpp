@@ -43,14 +43,14 @@ FoodSize room_at_level(const DishShell& shell, const LaidFood& food, double heig
 Order order_of(const LaidFood& food, const DishShell& shell) {
   const FoodKind* kind = find_food_kind(food.kind);
   if (kind == nullptr) throw std::invalid_argument("no kind of food is called " + food.kind);
-  const FoodSize size = kind->is_filled ? room_at_level(shell, food, kind->size.height_mm) : food.size;
+  const FoodSize size = kind->is_filled() ? room_at_level(shell, food, kind->size.height_mm) : food.size;
   return {&food, kind, size};
 }
 
 HeightField paint(const Order& order, const DishShell& shell, double step_mm) {
   const LaidFood& food = *order.food;
   HeightField field(frame_around(std::max(shell.semi_axis_mm(0), shell.semi_axis_mm(1)), step_mm));
-  if (order.kind->is_filled) {
+  if (order.kind->is_filled()) {
     for (int row = 0; row < field.frame.rows; ++row) {
       for (int column = 0; column < field.frame.columns; ++column) {
         const Eigen::Vector2d at = field.frame.node(column, row);
@@ -78,7 +78,7 @@ std::vector<HeightField> paint_all(const std::vector<Order>& orders, const DishS
 
 // Volume above the dish by summing columns of a grid that nothing else uses.
 double summed_volume_mm3(const Order& order, HeightField field, const DishShell& shell) {
-  if (order.kind->is_filled) {
+  if (order.kind->is_filled()) {
     for (int row = 0; row < field.frame.rows; ++row) {
       for (int column = 0; column < field.frame.columns; ++column) {
         const Eigen::Vector2d at = field.frame.node(column, row);
@@ -97,10 +97,10 @@ ServedFood serve(const Order& order, HeightField field, const SceneDescription& 
   extend_outward(field);
   const GroundHeight inner = [&](double x, double y) { return shell.inner_height_mm(x, y); };
   const GroundHeight level = [&](double, double) { return food.level_mm; };
-  FoodSolid solid = mesh_of_field(field, order.kind->is_filled ? level : inner, inner, shell.bottom_height_mm());
+  FoodSolid solid = mesh_of_field(field, order.kind->is_filled() ? level : inner, inner, shell.bottom_height_mm());
 
   const Eigen::Isometry3d world_of_dish = world_from_dish(dish);
-  const double ground_mm = order.kind->is_filled ? food.level_mm : shell.bottom_height_mm();
+  const double ground_mm = order.kind->is_filled() ? food.level_mm : shell.bottom_height_mm();
   const Eigen::Isometry3d dish_from_food =
       placement({food.centre_mm.x(), food.centre_mm.y(), ground_mm}, food.rotation_deg);
   ServedFood served;
@@ -109,7 +109,7 @@ ServedFood serve(const Order& order, HeightField field, const SceneDescription& 
   served.object.material =
       make_food_material(*order.kind, food.seed, (world_of_dish * dish_from_food).inverse(),
                          std::make_shared<const HeightField>(std::move(field)), world_of_dish.inverse());
-  served.is_filled = order.kind->is_filled;
+  served.is_filled = order.kind->is_filled();
   served.fill_level_mm = food.level_mm;
   served.volume_ml = kMlPerMm3 * solid.volume_mm3;
   served.above_bottom_plane_ml = kMlPerMm3 * solid.above_plane_mm3;

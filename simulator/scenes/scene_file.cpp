@@ -156,7 +156,7 @@ LaidFood read_food(const JsonNode& node, const SceneDescription& scene, const st
     table.read("scale_mm", scan.scale_mm, {1e-6, 1e6});
     table.read("turn_deg", scan.turn_deg, kAngleDeg);
     food.scan = scan;
-  } else if (kind->is_filled) {
+  } else if (kind->is_filled()) {
     const DishDescription& dish = scene.dishes[static_cast<std::size_t>(food.dish)].dish;
     food.level_mm = node.member("level_mm").number({dish.bottom_height_mm + 0.5, dish.rim_height_mm - 0.5});
   }

@@ -8,6 +8,7 @@
 #include "simulator/scenes/draws.hpp"
 #include "simulator/scenes/scene_parts.hpp"
 #include "simulator/scenes/scene_views.hpp"
+#include "simulator/scenes/tray_layout.hpp"
 
 namespace traygauge {
 namespace {
@@ -27,9 +28,10 @@ constexpr double kWideFocalPx = 1225.0;   // 66 degrees: a whole tray from 60 cm
 // Deals foods like cards: each kind comes up once before any comes up again.
 class Menu {
  public:
-  Menu(Draws& draws, std::initializer_list<FoodGroup> groups, bool is_filled) : draws_(draws) {
+  Menu(Draws& draws, std::initializer_list<FoodGroup> groups, FoodServing serving) : draws_(draws) {
     for (const FoodKind& kind : food_kinds()) {
-      if (kind.is_filled == is_filled && std::find(groups.begin(), groups.end(), kind.group) != groups.end()) kinds_.push_back(&kind);
+      if (kind.serving != serving) continue;
+      if (std::find(groups.begin(), groups.end(), kind.group) != groups.end()) kinds_.push_back(&kind);
     }
     next_ = kinds_.size();
   }
@@ -77,6 +79,7 @@ void draw_table(SceneDescription& scene, Draws& draws, std::span<const SurfaceKi
 void finish(SceneDescription& scene, Draws& draws) {
   draw_lamps(scene, draws);
   draw_exposures(scene, draws);
+  draws.shuffle(std::span<LaidFood>(scene.foods));  // labels tell nothing
 }
 
 constexpr std::array kTables = {SurfaceKind::wood, SurfaceKind::laminate, SurfaceKind::cloth, SurfaceKind::plastic};
@@ -99,8 +102,7 @@ std::vector<SceneDescription> make_meals(std::uint64_t seed) {
   constexpr std::size_t kMeals = 45;
   constexpr std::size_t kWithThree = 23;
   Draws menu_draws(seed, "meals-45 menu");
-  Menu menu(menu_draws, {FoodGroup::canteen, FoodGroup::fast_food}, false);
-  Menu stews(menu_draws, {FoodGroup::canteen}, true);
+  Menu menu(menu_draws, {FoodGroup::canteen, FoodGroup::fast_food}, FoodServing::solid);
   std::vector<SceneDescription> scenes;
   for (std::size_t i = 0; i < kMeals; ++i) {
     const std::string name = numbered("m", i + 1);
@@ -118,7 +120,7 @@ std::vector<SceneDescription> make_meals(std::uint64_t seed) {
 
 std::vector<SceneDescription> make_angles(std::uint64_t seed) {
   Draws menu_draws(seed, "angles-13 menu");
-  Menu menu(menu_draws, {FoodGroup::canteen, FoodGroup::fast_food}, false);
+  Menu menu(menu_draws, {FoodGroup::canteen, FoodGroup::fast_food}, FoodServing::solid);
   std::vector<SceneDescription> scenes;
   for (std::size_t i = 0; i < 13; ++i) {
     const std::string name = numbered("a", i + 1);
@@ -134,7 +136,7 @@ std::vector<SceneDescription> make_angles(std::uint64_t seed) {
 
 std::vector<SceneDescription> make_plates(std::uint64_t seed) {
   Draws menu_draws(seed, "plates-18 menu");
-  Menu menu(menu_draws, {FoodGroup::fast_food}, false);
+  Menu menu(menu_draws, {FoodGroup::fast_food}, FoodServing::solid);
   std::vector<SceneDescription> scenes;
   for (std::size_t meal = 0; meal < 6; ++meal) {
     const auto kinds = menu.deal(2);
@@ -160,7 +162,7 @@ std::vector<SceneDescription> make_plates(std::uint64_t seed) {
 
 std::vector<SceneDescription> make_other_meals(std::uint64_t seed) {
   Draws menu_draws(seed, "meals-14 menu");
-  Menu menu(menu_draws, {FoodGroup::other}, false);
+  Menu menu(menu_draws, {FoodGroup::other}, FoodServing::solid);
   std::vector<SceneDescription> scenes;
   for (std::size_t i = 0; i < 14; ++i) {
     const std::string name = numbered("n", i + 1);
@@ -174,33 +176,69 @@ std::vector<SceneDescription> make_other_meals(std::uint64_t seed) {
   return scenes;
 }
 
-// A plate with a meal, a bowl with soup and, on the larger tray, a dessert; card, cutlery and napkin where there is room.
-SceneDescription lay_tray(const std::string& name, Draws draws, bool has_three, std::span<const FoodKind* const> meal,
-                          const FoodKind& soup, const FoodKind& dessert) {
+// A plate with a meal, a bowl or plate with soup and, on some, a dessert.
+SceneDescription lay_tray(const std::string& name, Draws draws, bool has_dessert, std::span<const FoodKind* const> meal,
+                          Menu& soups, Menu& desserts) {
   SceneDescription scene = empty_scene(name, draws);
   draw_camera(scene, draws, kWideFocalPx);
   constexpr std::array kTops = {SurfaceKind::plastic, SurfaceKind::wood, SurfaceKind::laminate};
-  scene.tray = Tray{{has_three ? 520.0 : 470.0, 360.0}, draws.pick(std::span<const SurfaceKind>(kTops)), draws.seed()};
+  scene.tray = Tray{{530.0, 380.0}, draws.pick(std::span<const SurfaceKind>(kTops)), draws.seed()};
   draw_table(scene, draws, kTables);
   const DishStyle plate = draws.chance(0.5) ? DishStyle::oval : DishStyle::dinner;
-  const DishStyle deep = has_three && draws.chance(0.5) ? DishStyle::soup : DishStyle::bowl;
-  const double half_x = 0.5 * scene.tray->size_mm[0];
-  LaidDish main_dish = draw_dish(draws, plate, 1.0, 1);
-  main_dish.centre_mm = {plate == DishStyle::oval ? 165.0 - half_x : 145.0 - half_x, plate == DishStyle::oval ? -48.0 : -28.0};
-  main_dish.rotation_deg = plate == DishStyle::oval ? draws.between(-5.0, 5.0) : 0.0;
-  LaidDish soup_dish = draw_dish(draws, deep, 1.0, 201);
-  soup_dish.centre_mm = deep == DishStyle::soup ? Eigen::Vector2d(half_x - 128.0, 48.0) : Eigen::Vector2d(half_x - 97.0, 78.0);
-  scene.dishes = {main_dish, soup_dish};
-  draw_foods(scene, draws, 0, plate, 1.0, meal);
-  draw_filling(scene, draws, 1, soup, deep == DishStyle::soup ? draws.between(0.55, 0.7) : draws.between(0.6, 0.78));
-  if (has_three) {
-    LaidDish cup = draw_dish(draws, DishStyle::dessert_bowl, 1.0, 202);
-    cup.centre_mm = {plate == DishStyle::oval ? 30.0 - 0.1 * half_x : 0.1 * half_x - 8.0, deep == DishStyle::soup && plate == DishStyle::dinner ? -110.0 : 112.0};
-    if (deep == DishStyle::bowl) cup.centre_mm = {35.0, 108.0};
-    scene.dishes.push_back(cup);
-    draw_filling(scene, draws, 2, dessert, draws.between(0.55, 0.8));
-  }
+  const bool is_deep_plate = draws.chance(0.4);
+  const double plate_scale = plate == DishStyle::oval ? 0.92 : 0.95;
+  scene.dishes = {draw_dish(draws, plate, plate_scale, 1),
+                  draw_dish(draws, is_deep_plate ? DishStyle::soup : DishStyle::bowl, is_deep_plate ? 0.85 : 1.0, 201)};
+  if (has_dessert) scene.dishes.push_back(draw_dish(draws, DishStyle::dessert_bowl, 1.0, 202));
+  scene.card.thickness_mm = draws.chance(0.5) ? 0.8 : 0.2;
+  scene.card.design = draws.seed();
+  lay_out_tray(scene, draws);
+  draw_foods(scene, draws, 0, plate, plate_scale, meal);
+  draw_filling(scene, draws, 1, *soups.deal(), is_deep_plate ? draws.between(0.45, 0.62) : draws.between(0.55, 0.78));
+  if (has_dessert) draw_filling(scene, draws, 2, *desserts.deal(), draws.between(0.55, 0.8));
   return scene;
+}
+
+constexpr ViewLimits kTrayViews{500.0, 680.0, 30.0, 8.0, 30.0};
+// Turning a tray shows it from another side only to a camera that looks at a slant.
+constexpr ViewLimits kMovedViews{500.0, 720.0, 42.0, 8.0, 28.0};
+
+std::vector<SceneDescription> make_trays(std::uint64_t seed, const std::string& set, const char* letter,
+                                         std::size_t count, bool is_moved) {
+  Draws menu_draws(seed, set + " menu");
+  Menu menu(menu_draws, {FoodGroup::canteen}, FoodServing::solid);
+  Menu soups(menu_draws, {FoodGroup::canteen}, FoodServing::soup);
+  Menu desserts(menu_draws, {FoodGroup::canteen}, FoodServing::dessert);
+  std::vector<SceneDescription> scenes;
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::string name = numbered(letter, i + 1);
+    Draws draws(seed, set + " " + name);
+    const auto meal = menu.deal(2 + i % 2);
+    SceneDescription scene = lay_tray(name, draws, !is_moved && i % 2 == 0, meal, soups, desserts);
+    if (is_moved) {
+      draw_moved_views(scene, draws, kMovedViews);
+    } else {
+      draw_views(scene, draws, 3, kTrayViews);
+    }
+    finish(scene, draws);
+    scenes.push_back(std::move(scene));
+  }
+  return scenes;
+}
+
+// A quarter of the pixels.
+void halve(CameraDescription& camera) {
+  camera.size = {camera.size.width / 2, camera.size.height / 2};
+  camera.fx_px *= 0.5;
+  camera.fy_px *= 0.5;
+  camera.cx_px = 0.5 * (camera.cx_px + 0.5) - 0.5;
+  camera.cy_px = 0.5 * (camera.cy_px + 0.5) - 0.5;
+}
+
+// The first scenes, spread over what varies in the set.
+void reduce(std::vector<SceneDescription>& scenes, std::size_t count) {
+  scenes.resize(std::min(count, scenes.size()));
+  for (SceneDescription& scene : scenes) halve(scene.photography.camera);
 }
 
 }  // namespace
@@ -210,12 +248,28 @@ std::span<const SceneSet> scene_sets() {
 }
 
 std::vector<SceneDescription> make_scenes(std::string_view set, std::uint64_t seed, bool is_reduced) {
-  (void)is_reduced; (void)lay_tray;
-  if (set == "meals-45") return make_meals(seed);
-  if (set == "angles-13") return make_angles(seed);
-  if (set == "plates-18") return make_plates(seed);
-  if (set == "meals-14") return make_other_meals(seed);
-  throw std::invalid_argument("no set is called " + std::string(set));
+  std::vector<SceneDescription> scenes;
+  std::size_t reduced_count = 1;
+  if (set == "meals-45") {
+    scenes = make_meals(seed);
+    reduced_count = 4;
+  } else if (set == "angles-13") {
+    scenes = make_angles(seed);
+  } else if (set == "plates-18") {
+    scenes = make_plates(seed);
+    reduced_count = 3;
+  } else if (set == "meals-14") {
+    scenes = make_other_meals(seed);
+    reduced_count = 2;
+  } else if (set == "trays-8") {
+    scenes = make_trays(seed, "trays-8", "t", 8, false);
+  } else if (set == "moved-4") {
+    scenes = make_trays(seed, "moved-4", "v", 4, true);
+  } else {
+    throw std::invalid_argument("no set is called " + std::string(set));
+  }
+  if (is_reduced) reduce(scenes, reduced_count);
+  return scenes;
 }
 
 }  // namespace traygauge
