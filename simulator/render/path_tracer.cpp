@@ -132,14 +132,14 @@ PathTracer::PathTracer(const RayScene& scene, const CameraRays& rays, const Rend
       quadratures_(scene.scene().lights.begin(), scene.scene().lights.end()),
       seed_(hash_of(hash_of(settings.seed), static_cast<std::uint32_t>(settings.view))) {}
 
-PixelLight PathTracer::trace(int x, int y) const {
+PixelLight PathTracer::trace(int x, int y, int samples) const {
   Sum sum;
   Round round;
   round.responses.reserve(kRound);
   round.sequence =
       SampleSequence(hash_of(hash_of(seed_, static_cast<std::uint32_t>(y)), static_cast<std::uint32_t>(x)));
   const CameraRays::Pixel pixel = rays_.pixel(x, y);
-  const std::uint32_t rounds = (static_cast<std::uint32_t>(settings_.samples) + kRound - 1) / kRound;
+  const std::uint32_t rounds = (static_cast<std::uint32_t>(samples) + kRound - 1) / kRound;
   for (std::uint32_t i = 0; i < rounds; ++i) {
     round.first = i * kRound;
     aim(round, pixel);
@@ -148,10 +148,10 @@ PixelLight PathTracer::trace(int x, int y) const {
     add_mirrored(round, sum);
     add_indirect(round, sum);
   }
-  const auto samples = static_cast<float>(rounds * kRound);
+  const auto count = static_cast<float>(rounds * kRound);
   PixelLight light;
-  light.direct = sum.direct / samples;
-  light.albedo = sum.albedo / samples;
+  light.direct = sum.direct / count;
+  light.albedo = sum.albedo / count;
   if (sum.weights.minCoeff() > 0.0F) light.indirect = sum.indirect.cwiseQuotient(sum.weights);
   light.is_one_surface = sum.is_one_surface;
   return light;
