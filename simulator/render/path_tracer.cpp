@@ -6,6 +6,7 @@
 #include <span>
 
 #include "simulator/render/light.hpp"
+#include "simulator/render/shadow_batch.hpp"
 
 namespace traygauge {
 namespace {
@@ -23,21 +24,12 @@ enum Decision : std::uint32_t {
   kPenumbra = 1024  // likewise
 };
 
-constexpr float kStep_px = 4.0F;       // a surface that jumps by more is more than one
-constexpr float kShadowEnd = 0.9999F;  // of the way to a light: none lies on it
+constexpr float kStep_px = 4.0F;  // a surface that jumps by more is more than one
 
 // Where a light's edge would hide first: just within its corners.
 const std::array<Eigen::Vector2f, 4> kCorners = {Eigen::Vector2f(0.02F, 0.02F), Eigen::Vector2f(0.98F, 0.02F),
                                                  Eigen::Vector2f(0.02F, 0.98F),
                                                  Eigen::Vector2f(0.98F, 0.98F)};
-
-Ray shadow_ray(const SurfaceHit& hit, const Eigen::Vector3f& way_mm) {
-  Ray ray;
-  ray.origin_mm = RayScene::leave(hit, way_mm);
-  ray.direction = way_mm;
-  ray.end = kShadowEnd;
-  return ray;
-}
 
 // What a light adds, before shadows: to the base from the whole light where it is in full view, to the coat
 // by a point of it.
@@ -65,34 +57,6 @@ float light_weight(const AreaLight& light, const SurfaceHit& hit, const Eigen::V
   const float square = way_mm.squaredNorm();
   return -light.edge_u_mm.cross(light.edge_v_mm).dot(way_mm) * hit.normal.dot(way_mm) / (square * square);
 }
-
-// Up to so many shadow rays, traced together.
-struct ShadowBatch {
-  static constexpr std::size_t kCapacity = 16;
-  std::array<Ray, kCapacity> rays;
-  std::array<std::uint8_t, kCapacity> is_occluded{};
-  std::size_t count = 0;
-
-  void trace(const RayScene& scene) {
-    scene.occlude({rays.data(), count}, {is_occluded.data(), count}, RayBundle::coherent);
-  }
-
-  bool is_all_alike() const {
-    return std::all_of(is_occluded.begin(), is_occluded.begin() + static_cast<std::ptrdiff_t>(count),
-                       [this](std::uint8_t hidden) { return hidden == is_occluded[0]; });
-  }
-};
-
-// How much of a light is seen: shares of what diffuse surfaces would get from it without shadows.
-struct Visibility {
-  Eigen::Vector3f seen = Eigen::Vector3f::Zero();
-  Eigen::Vector3f all = Eigen::Vector3f::Zero();
-
-  void add(const Eigen::Vector3f& amount, bool is_hidden) {
-    all += amount;
-    if (!is_hidden) seen += amount;
-  }
-};
 
 // How much a surface counts in a mean over a pixel's: as it shows. Black and metal a little, so that they
 // have a mean.
@@ -132,14 +96,14 @@ PathTracer::PathTracer(const RayScene& scene, const CameraRays& rays, const Rend
       quadratures_(scene.scene().lights.begin(), scene.scene().lights.end()),
       seed_(hash_of(hash_of(settings.seed), static_cast<std::uint32_t>(settings.view))) {}
 
-PixelLight PathTracer::trace(int x, int y) const {
+PixelLight PathTracer::trace(int x, int y, int samples) const {
   Sum sum;
   Round round;
   round.responses.reserve(kRound);
   round.sequence =
       SampleSequence(hash_of(hash_of(seed_, static_cast<std::uint32_t>(y)), static_cast<std::uint32_t>(x)));
   const CameraRays::Pixel pixel = rays_.pixel(x, y);
-  const std::uint32_t rounds = (static_cast<std::uint32_t>(settings_.samples) + kRound - 1) / kRound;
+  const std::uint32_t rounds = (static_cast<std::uint32_t>(samples) + kRound - 1) / kRound;
   for (std::uint32_t i = 0; i < rounds; ++i) {
     round.first = i * kRound;
     aim(round, pixel);
@@ -148,10 +112,10 @@ PixelLight PathTracer::trace(int x, int y) const {
     add_mirrored(round, sum);
     add_indirect(round, sum);
   }
-  const auto samples = static_cast<float>(rounds * kRound);
+  const auto count = static_cast<float>(rounds * kRound);
   PixelLight light;
-  light.direct = sum.direct / samples;
-  light.albedo = sum.albedo / samples;
+  light.direct = sum.direct / count;
+  light.albedo = sum.albedo / count;
   if (sum.weights.minCoeff() > 0.0F) light.indirect = sum.indirect.cwiseQuotient(sum.weights);
   light.is_one_surface = sum.is_one_surface;
   return light;
@@ -207,13 +171,13 @@ void PathTracer::add_light(Round& round, std::uint32_t number, Sum& sum) const {
         sample_light(light, hit.point_mm, round.sequence.point(kLight + number, round.index(i)));
     if (!sample || !RayScene::is_above(hit, sample->direction)) continue;
     additions[batch.count] = lit(round.responses[i], hit, *sample, quadratures_[number]);
-    batch.rays[batch.count++] = shadow_ray(hit, sample->direction * sample->distance_mm);
+    batch.add(hit, sample->direction * sample->distance_mm);
   }
   const std::size_t own = batch.count;
   for (std::size_t i = 0; i < kCorners.size(); ++i) {
     const SurfaceHit& hit = round.hit(i * round.responses.size() / kCorners.size());
     const Eigen::Vector3f way_mm = way_to_light(light, hit.point_mm, kCorners[i]);
-    if (RayScene::is_above(hit, way_mm)) batch.rays[batch.count++] = shadow_ray(hit, way_mm);
+    if (RayScene::is_above(hit, way_mm)) batch.add(hit, way_mm);
   }
   batch.trace(scene_);
   const bool is_penumbra = !batch.is_all_alike() && settings_.penumbra_samples > 0;
@@ -246,8 +210,8 @@ Eigen::Vector3f PathTracer::seen_share(const Round& round, std::uint32_t number)
       const float weight = light_weight(light, hit, way_mm);
       if (!(weight > 0.0F) || !RayScene::is_above(hit, way_mm)) continue;
       amounts[batch.count] = weight * color;
-      batch.rays[batch.count++] = shadow_ray(hit, way_mm);
-      if (batch.count == ShadowBatch::kCapacity) trace_batch();
+      batch.add(hit, way_mm);
+      if (batch.is_full()) trace_batch();
     }
   }
   trace_batch();
@@ -347,10 +311,10 @@ Eigen::Vector3f PathTracer::one_light(const SurfaceHit& hit, const SampleSequenc
   const AreaLight& light = lights[std::min(drawn, lights.size() - 1)];
   const auto sample = sample_light(light, hit.point_mm, sequence.point(decision + 1, index));
   if (!sample || !RayScene::is_above(hit, sample->direction)) return Eigen::Vector3f::Zero();
-  const Ray ray = shadow_ray(hit, sample->direction * sample->distance_mm);
-  std::uint8_t is_occluded = 0;
-  scene_.occlude({&ray, 1}, {&is_occluded, 1}, RayBundle::scattered);
-  if (is_occluded != 0) return Eigen::Vector3f::Zero();
+  ShadowBatch batch;
+  batch.add(hit, sample->direction * sample->distance_mm);
+  batch.trace(scene_);
+  if (batch.is_occluded[0] != 0) return Eigen::Vector3f::Zero();
   const float cosine = hit.normal.dot(sample->direction);
   return sample->radiance * (count * cosine / (std::numbers::pi_v<float> * sample->density));
 }

@@ -32,7 +32,8 @@ class PathTracer {
   // Refers to scene and rays.
   PathTracer(const RayScene& scene, const CameraRays& rays, const RenderSettings& settings);
 
-  PixelLight trace(int x, int y) const;
+  // By so many rays, rounded up to a multiple of 8.
+  PixelLight trace(int x, int y, int samples) const;
 
  private:
   static constexpr std::uint32_t kRound = 8;  // rays traced at once

@@ -18,7 +18,9 @@ namespace traygauge {
 namespace {
 
 constexpr int kTileSide = 16;
-constexpr double kTraceShare = 0.95;  // of the time; the rest is smoothing
+constexpr int kBlurredEdgeReach_px = 3;
+constexpr double kTruthShare = 0.03;  // of the time
+constexpr double kTraceShare = 0.95;  // until then; the rest is smoothing
 
 void check_range(const char* name, double value, double least, double most) {
   if (value >= least && value <= most) return;
@@ -76,17 +78,13 @@ class Work {
 
 // All that is known about the pixels before the light is smoothed.
 struct Canvas {
-  Canvas(int width, int height) {
-    const std::size_t count = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
-    view.width = map.width = width;
-    view.height = map.height = height;
+  Canvas(int width, int height) : map(width, height) {
+    const std::size_t count = map.objects.size();
+    view.width = width;
+    view.height = height;
     view.radiance.resize(count);
     view.labels.resize(count);
     view.depth_mm.resize(count);
-    map.points_mm.resize(count);
-    map.normals.resize(count);
-    map.objects.resize(count);
-    map.footprint_mm.resize(count);
     indirect.resize(count);
     albedo.resize(count);
   }
@@ -97,17 +95,17 @@ struct Canvas {
   std::vector<Eigen::Vector3f> albedo;
 };
 
-// Truth, at the centres of pixels (x0 … x1 - 1, y).
-void fill_truth(const RayScene& scene, const CameraRays& camera_rays, int x0, int x1, int y, Canvas& canvas) {
-  std::array<Ray, kTileSide> rays;
-  std::array<SurfaceHit, kTileSide> hits;
-  const auto count = static_cast<std::size_t>(x1 - x0);
-  for (int x = x0; x < x1; ++x)
-    rays[static_cast<std::size_t>(x - x0)] = camera_rays.central_ray(camera_rays.pixel(x, y));
-  scene.intersect({rays.data(), count}, {hits.data(), count}, RayBundle::coherent);
-  for (std::size_t i = 0; i < count; ++i) {
+// Truth, at the centres of a row's pixels.
+void fill_truth(const RayScene& scene, const CameraRays& camera_rays, int y, Canvas& canvas) {
+  const auto width = static_cast<std::size_t>(canvas.map.width);
+  std::vector<Ray> rays;
+  std::vector<SurfaceHit> hits(width);
+  rays.reserve(width);
+  for (int x = 0; x < canvas.map.width; ++x) rays.push_back(camera_rays.central_ray(camera_rays.pixel(x, y)));
+  scene.intersect(rays, hits, RayBundle::coherent);
+  for (std::size_t i = 0; i < width; ++i) {
     if (hits[i].object == nullptr) continue;
-    const std::size_t at = canvas.map.index(x0, y) + i;
+    const std::size_t at = canvas.map.index(0, y) + i;
     canvas.view.labels[at] = hits[i].object->label;
     canvas.view.depth_mm[at] = hits[i].distance;
     canvas.map.points_mm[at] = hits[i].point_mm;
@@ -117,10 +115,20 @@ void fill_truth(const RayScene& scene, const CameraRays& camera_rays, int x0, in
   }
 }
 
+void trace_pixel(const PathTracer& tracer, int x, int y, int samples, Canvas& canvas) {
+  const PixelLight light = tracer.trace(x, y, samples);
+  const std::size_t at = canvas.map.index(x, y);
+  canvas.view.radiance[at] = light.direct;
+  canvas.indirect[at] = light.indirect;
+  canvas.albedo[at] = light.albedo;
+  canvas.map.is_mixed[at] = light.is_one_surface ? 0 : 1;
+}
+
 }  // namespace
 
 void RenderSettings::check() const {
   check_range("samples", samples, 8, 4096);
+  check_range("edge_samples", edge_samples, 0, 4096);
   check_range("indirect_samples", indirect_samples, 1, 8);
   check_range("penumbra_samples", penumbra_samples, 0, 1024);
   check_range("bounces", bounces, 1, 8);
@@ -138,21 +146,22 @@ RenderedView ViewRenderer::render(const ViewCamera& camera, const RenderSettings
                           ? settings.threads
                           : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
 
+  Work(camera.height, progress, 0.0, kTruthShare).run(threads, [&](int y) {
+    fill_truth(scene_, rays, y, canvas);
+  });
+
+  const bool is_sharp = !rays.has_aperture() && !rays.moves();
+  const int edge_reach_px = is_sharp ? 1 : kBlurredEdgeReach_px;
+  const int edge_samples = std::max(settings.edge_samples, settings.samples);
   const int columns = (camera.width + kTileSide - 1) / kTileSide;
   const int rows = (camera.height + kTileSide - 1) / kTileSide;
-  Work(columns * rows, progress, 0.0, kTraceShare).run(threads, [&](int tile) {
+  Work(columns * rows, progress, kTruthShare, kTraceShare).run(threads, [&](int tile) {
     const int x0 = tile % columns * kTileSide;
     const int y0 = tile / columns * kTileSide;
-    const int x1 = std::min(x0 + kTileSide, camera.width);
     for (int y = y0; y < std::min(y0 + kTileSide, camera.height); ++y) {
-      fill_truth(scene_, rays, x0, x1, y, canvas);
-      for (int x = x0; x < x1; ++x) {
-        const PixelLight light = tracer.trace(x, y);
-        const std::size_t at = canvas.map.index(x, y);
-        canvas.view.radiance[at] = light.direct;
-        canvas.indirect[at] = light.indirect;
-        canvas.albedo[at] = light.albedo;
-        if (!light.is_one_surface) canvas.map.objects[at] = 0;
+      for (int x = x0; x < std::min(x0 + kTileSide, camera.width); ++x) {
+        const bool is_edge = is_near_edge(canvas.map, edge_reach_px, x, y);
+        trace_pixel(tracer, x, y, is_edge ? edge_samples : settings.samples, canvas);
       }
     }
   });

@@ -14,13 +14,13 @@ struct Table {
   static constexpr int kSide = 40;
 
   Table() {
-    map.width = map.height = kSide;
     for (int y = 0; y < kSide; ++y) {
       for (int x = 0; x < kSide; ++x) {
-        map.points_mm.emplace_back(static_cast<float>(x), static_cast<float>(y), 0.0F);
-        map.normals.emplace_back(Eigen::Vector3f::UnitZ());
-        map.objects.push_back(1);
-        map.footprint_mm.push_back(1.0F);
+        const std::size_t at = map.index(x, y);
+        map.points_mm[at] = Eigen::Vector3f(static_cast<float>(x), static_cast<float>(y), 0.0F);
+        map.normals[at] = Eigen::Vector3f::UnitZ();
+        map.objects[at] = 1;
+        map.footprint_mm[at] = 1.0F;
         light.push_back(Eigen::Vector3f::Constant(is_right(x) ? 1.0F : 3.0F));
       }
     }
@@ -43,7 +43,7 @@ struct Table {
     return true;
   }
 
-  SurfaceMap map;
+  SurfaceMap map{kSide, kSide};
   std::vector<Eigen::Vector3f> light;
 };
 
@@ -63,10 +63,32 @@ TEST(IndirectFilter, SmoothsWithinASurfaceOnly) {
 
 TEST(IndirectFilter, LeavesMixedPixelsAndNoiseWithoutRadiusAsTheyAre) {
   Table table;
-  table.change_right([&](std::size_t i) { table.map.objects[i] = 0; });
+  table.change_right([&](std::size_t i) { table.map.is_mixed[i] = 1; });
   EXPECT_TRUE(table.keeps_sides_apart());
   const Table plain;
   EXPECT_EQ(smooth_at(plain.map, plain.light, 0.0F, 19, 20), plain.light[plain.map.index(19, 20)]);
+}
+
+TEST(IndirectFilter, KnowsEdges) {
+  const auto edge_columns = [](const Table& table, int reach_px) {
+    std::vector<int> columns;
+    for (int x = 0; x < Table::kSide; ++x) {
+      if (is_near_edge(table.map, reach_px, x, 20)) columns.push_back(x);
+    }
+    return columns;
+  };
+  Table table;
+  EXPECT_TRUE(edge_columns(table, 3).empty());
+  table.change_right([&](std::size_t i) { table.map.objects[i] = 2; });
+  EXPECT_EQ(edge_columns(table, 1), (std::vector<int>{19, 20}));
+  EXPECT_EQ(edge_columns(table, 2), (std::vector<int>{18, 19, 20, 21}));
+  Table step;
+  step.change_right([&](std::size_t i) { step.map.points_mm[i].z() = 5.0F; });
+  EXPECT_EQ(edge_columns(step, 1), (std::vector<int>{19, 20}));
+  Table fold;
+  fold.change_right(
+      [&](std::size_t i) { fold.map.normals[i] = Eigen::Vector3f(0.0F, 0.7F, 0.7F).normalized(); });
+  EXPECT_EQ(edge_columns(fold, 1), (std::vector<int>{19, 20}));
 }
 
 // A bell (1 - r²)² over the disc: (∫ w)² / ∫ w² is 5π/9 R² pixels.

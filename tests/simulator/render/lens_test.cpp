@@ -9,6 +9,8 @@
 #include <stdexcept>
 #include <vector>
 
+#include "tests/simulator/render/opencv_view_camera.hpp"
+
 namespace traygauge {
 namespace {
 
@@ -20,14 +22,6 @@ ViewCamera camera_with(const std::array<double, 5>& distortion) {
   camera.cy = 588.7;
   camera.distortion = distortion;
   return camera;
-}
-
-cv::Matx33d matrix_of(const ViewCamera& camera) {
-  return {camera.fx, 0.0, camera.cx, 0.0, camera.fy, camera.cy, 0.0, 0.0, 1.0};
-}
-
-std::vector<double> coefficients_of(const ViewCamera& camera) {
-  return {camera.distortion.begin(), camera.distortion.end()};
 }
 
 std::vector<Eigen::Vector2d> pixels_of(const ViewCamera& camera) {

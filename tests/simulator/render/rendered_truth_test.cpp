@@ -9,18 +9,11 @@
 
 #include "simulator/render/camera_rays.hpp"
 #include "simulator/render/view_renderer.hpp"
+#include "tests/simulator/render/opencv_view_camera.hpp"
 #include "tests/simulator/render/render_scenes.hpp"
 
 namespace traygauge {
 namespace {
-
-cv::Matx33d matrix_of(const ViewCamera& camera) {
-  return {camera.fx, 0.0, camera.cx, 0.0, camera.fy, camera.cy, 0.0, 0.0, 1.0};
-}
-
-std::vector<double> coefficients_of(const ViewCamera& camera) {
-  return {camera.distortion.begin(), camera.distortion.end()};
-}
 
 // Directions of all pixels by OpenCV, z = 1.
 std::vector<Eigen::Vector3d> directions_of(const ViewCamera& camera) {
