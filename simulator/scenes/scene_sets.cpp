@@ -195,11 +195,11 @@ SceneDescription lay_tray(const std::string& name, Draws draws, bool has_dessert
   lay_out_tray(scene, draws);
   draw_foods(scene, draws, 0, plate, plate_scale, meal);
   draw_filling(scene, draws, 1, *soups.deal(), is_deep_plate ? draws.between(0.45, 0.62) : draws.between(0.55, 0.78));
-  if (has_dessert) draw_filling(scene, draws, 2, *desserts.deal(), draws.between(0.55, 0.8));
+  if (has_dessert) draw_filling(scene, draws, 2, *desserts.deal(), draws.between(0.68, 0.85));
   return scene;
 }
 
-constexpr ViewLimits kTrayViews{500.0, 680.0, 30.0, 8.0, 30.0};
+constexpr ViewLimits kTrayViews{500.0, 660.0, 26.0, 8.0, 25.0};
 // Turning a tray shows it from another side only to a camera that looks at a slant.
 constexpr ViewLimits kMovedViews{500.0, 720.0, 42.0, 8.0, 28.0};
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "simulator/scenes/mesh_tools.hpp"
+#include "simulator/scenes/monotone_cubic.hpp"
 
 namespace traygauge {
 namespace {
@@ -51,8 +52,21 @@ constexpr std::array kKnifeBlade = std::to_array<Section>(
 // A flat bar with elliptic sections; a spoon's bowl is hollowed by raising its borders.
 TriangleMesh bar(std::span<const Section> sections, double length_mm, double thickness_mm, double hollow_mm) {
   constexpr int kAround = 24;
-  std::vector<Loop> loops;
+  constexpr int kAlong = 60;
+  std::vector<double> along;
+  std::vector<double> half_width_mm;
+  std::vector<double> rise_mm;
   for (const Section& section : sections) {
+    along.push_back(section.along);
+    half_width_mm.push_back(section.half_width_mm);
+    rise_mm.push_back(section.rise_mm);
+  }
+  const MonotoneCubic width(along, half_width_mm);
+  const MonotoneCubic rise(along, rise_mm);
+  std::vector<Loop> loops;
+  for (int step = 0; step <= kAlong; ++step) {
+    const double share_along = along.front() + (along.back() - along.front()) * step / kAlong;
+    const Section section{share_along, width.value(share_along), rise.value(share_along)};
     Loop loop;
     for (int i = 0; i < kAround; ++i) {
       const double angle = 2.0 * std::numbers::pi * i / kAround;
