@@ -35,8 +35,8 @@ std::string compose_progress(std::size_t done, std::size_t all, double elapsed_s
   const std::string bar = pad_right(std::string(filled, '#'), kBarWidth);
   const std::string percent = pad_left(std::to_string(100 * done / all), 3);
   std::string text = "[";
-  text += bar + "] " + percent + " %, " + std::to_string(done) + " of " + std::to_string(all) +
-          " " + what + ", " + compose_duration(left_s) + " left";
+  text += bar + "] " + percent + " %, " + std::to_string(done) + " of " + std::to_string(all) + " " + what +
+          ", " + compose_duration(left_s) + " left";
   return text;
 }
 

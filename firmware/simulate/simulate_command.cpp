@@ -45,11 +45,13 @@ std::vector<SceneDescription> find_scenes(const RenderOptions& options) {
   } else if (std::filesystem::path(options.what).extension() == ".toml") {
     scenes.push_back(read_scene_file(options.what));
   } else {
-    throw UsageError(options.what + ": expected the name of a set (see traygauge-simulate list) or a scene as .toml");
+    throw UsageError(options.what +
+                     ": expected the name of a set (see traygauge-simulate list) or a scene as .toml");
   }
   if (!options.only.empty()) {
     std::erase_if(scenes, [&](const SceneDescription& scene) { return scene.name != options.only; });
-    if (scenes.empty()) throw UsageError("--only " + options.only + ": " + options.what + " has no scene of that name");
+    if (scenes.empty())
+      throw UsageError("--only " + options.only + ": " + options.what + " has no scene of that name");
   }
   return scenes;
 }
@@ -61,7 +63,8 @@ int run_render(const RenderOptions& options, std::ostream& out, std::ostream& er
   std::vector<SceneDescription> scenes = find_scenes(options);
   const std::filesystem::path folder = options.out;
   const std::size_t all = scenes.size();
-  std::erase_if(scenes, [&](const SceneDescription& scene) { return is_complete_capture(folder / scene.name, scene); });
+  std::erase_if(
+      scenes, [&](const SceneDescription& scene) { return is_complete_capture(folder / scene.name, scene); });
   std::size_t pictures = 0;
   for (const SceneDescription& scene : scenes) pictures += scene.views.size();
 
@@ -90,7 +93,8 @@ int run_list(std::ostream& out) {
 void add_render(CLI::App& app, RenderOptions& options) {
   CLI::App* command = app.add_subcommand("render", "Render a set, or one scene, into capture folders.");
   command->add_option("what", options.what, "a set (see list) or a scene as .toml")->required();
-  command->add_option("--out", options.out, "folder of the captures; complete ones in it are kept")->required();
+  command->add_option("--out", options.out, "folder of the captures; complete ones in it are kept")
+      ->required();
   command->add_option("--seed", options.seed, "of the set's scenes");
   command->add_option("--jobs", options.jobs, "threads; 0: one a core")->check(CLI::Range(0, 256));
   command->add_option("--samples", options.samples, "rays a pixel")->check(CLI::Range(8, 4096));

@@ -74,8 +74,8 @@ void write_png(const std::filesystem::path& file, const FrameView& picture) {
 }
 
 void write_depth_png(const std::filesystem::path& file, const DepthPicture& depth) {
-  write_rows(file, {reinterpret_cast<const std::uint8_t*>(depth.pixels.data()), depth.size.width, depth.size.height,
-                    2 * static_cast<std::ptrdiff_t>(depth.size.width), 16});
+  write_rows(file, {reinterpret_cast<const std::uint8_t*>(depth.pixels.data()), depth.size.width,
+                    depth.size.height, 2 * static_cast<std::ptrdiff_t>(depth.size.width), 16});
 }
 
 }  // namespace traygauge

@@ -83,8 +83,9 @@ void add_angles(Json& json, const LaidScene& laid) {
   const Eigen::Vector3d middle(dish.centre_mm.x(), dish.centre_mm.y(), dish.dish.bottom_height_mm);
   Json angles = Json::object();
   for (const auto& [a, b] : scene.pairs) {
-    const double angle_deg = relative_angle_deg(view_camera(scene, scene.views[static_cast<std::size_t>(a)]),
-                                                view_camera(scene, scene.views[static_cast<std::size_t>(b)]), middle);
+    const double angle_deg =
+        relative_angle_deg(view_camera(scene, scene.views[static_cast<std::size_t>(a)]),
+                           view_camera(scene, scene.views[static_cast<std::size_t>(b)]), middle);
     angles[std::to_string(a) + "-" + std::to_string(b)] = thousandths(angle_deg);
   }
   json["relative_angle_deg"] = angles;
@@ -100,9 +101,12 @@ Json compose_capture(const SceneDescription& scene) {
   const CameraDescription& camera = scene.photography.camera;
   Json json;
   json["version"] = 1;
-  json["camera"] = {{"width", camera.size.width}, {"height", camera.size.height},
-                    {"fx", camera.fx_px},         {"fy", camera.fy_px},
-                    {"cx", camera.cx_px},         {"cy", camera.cy_px},
+  json["camera"] = {{"width", camera.size.width},
+                    {"height", camera.size.height},
+                    {"fx", camera.fx_px},
+                    {"fy", camera.fy_px},
+                    {"cx", camera.cx_px},
+                    {"cy", camera.cy_px},
                     {"distortion", camera.distortion}};
   json["card"] = {{"pattern", "card.png"},
                   {"width_mm", scene.card.width_mm},
@@ -118,7 +122,8 @@ Json compose_capture(const SceneDescription& scene) {
     }
   }
   for (std::size_t i = 0; i < scene.views.size(); ++i) {
-    Json view = {{"image", "view_" + std::to_string(i) + ".jpg"}, {"labels", "labels_" + std::to_string(i) + ".png"}};
+    Json view = {{"image", "view_" + std::to_string(i) + ".jpg"},
+                 {"labels", "labels_" + std::to_string(i) + ".png"}};
     if (scene.views[i].arm_angle_deg) view["arm_angle_deg"] = *scene.views[i].arm_angle_deg;
     json["views"].push_back(view);
   }
@@ -140,7 +145,8 @@ Json compose_truth(const LaidScene& laid, const std::vector<std::vector<std::siz
   const Eigen::Isometry3d card = world_from_card(scene.card);
   const double w = scene.card.width_mm;
   const double h = scene.card.height_mm;
-  for (const Eigen::Vector3d& corner : {Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(w, 0, 0), Eigen::Vector3d(w, h, 0), Eigen::Vector3d(0, h, 0)}) {
+  for (const Eigen::Vector3d& corner : {Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(w, 0, 0),
+                                        Eigen::Vector3d(w, h, 0), Eigen::Vector3d(0, h, 0)}) {
     const Eigen::Vector3d at = card * corner;
     json["card_corners_mm"].push_back({at.x(), at.y(), at.z()});
   }
@@ -153,7 +159,8 @@ Json compose_truth(const LaidScene& laid, const std::vector<std::vector<std::siz
   json["depth"] = "depth_0.png: view 0, z along the optical axis, uint16, 0.02 mm per unit";
   for (const std::vector<std::size_t>& pixels : visible) {
     Json counts = Json::object();
-    for (const FoodTruth& food : laid.foods()) counts[std::to_string(food.object.label)] = pixels[food.object.label];
+    for (const FoodTruth& food : laid.foods())
+      counts[std::to_string(food.object.label)] = pixels[food.object.label];
     json["visible_px"].push_back(counts);
   }
   return json;

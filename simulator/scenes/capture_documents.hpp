@@ -12,6 +12,7 @@ namespace traygauge {
 nlohmann::ordered_json compose_capture(const SceneDescription& scene);
 
 // `visible`: for each view how many pixels each label has.
-nlohmann::ordered_json compose_truth(const LaidScene& laid, const std::vector<std::vector<std::size_t>>& visible);
+nlohmann::ordered_json compose_truth(const LaidScene& laid,
+                                     const std::vector<std::vector<std::size_t>>& visible);
 
 }  // namespace traygauge

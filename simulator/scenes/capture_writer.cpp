@@ -26,8 +26,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double kDepthUnitMm = 0.02;
-constexpr double kMeanLevel = 0.30;        // of a phone's automatic exposure, linear
-constexpr double kBrightLevel = 0.75;      // what the brightest hundredth may reach
+constexpr double kMeanLevel = 0.30;    // of a phone's automatic exposure, linear
+constexpr double kBrightLevel = 0.75;  // what the brightest hundredth may reach
 constexpr double kBrightShare = 0.99;
 
 std::string numbered(const char* name, std::size_t view, const char* extension) {
@@ -39,10 +39,12 @@ double automatic_exposure(const RenderedView& view) {
   std::vector<double> brightness;
   double sum = 0.0;
   for (std::size_t i = 0; i < view.radiance.size(); i += 7) {
-    brightness.push_back(static_cast<double>(view.radiance[i].dot(Eigen::Vector3f(0.2126F, 0.7152F, 0.0722F))));
+    brightness.push_back(
+        static_cast<double>(view.radiance[i].dot(Eigen::Vector3f(0.2126F, 0.7152F, 0.0722F))));
     sum += brightness.back();
   }
-  const auto bright = brightness.begin() + static_cast<std::ptrdiff_t>(kBrightShare * static_cast<double>(brightness.size() - 1));
+  const auto bright = brightness.begin() +
+                      static_cast<std::ptrdiff_t>(kBrightShare * static_cast<double>(brightness.size() - 1));
   std::nth_element(brightness.begin(), bright, brightness.end());
   const double mean = sum / static_cast<double>(brightness.size());
   return std::min(kMeanLevel / std::max(mean, 1e-9), kBrightLevel / std::max(*bright, 1e-9));
@@ -149,7 +151,8 @@ void render_capture(const SceneDescription& scene, const fs::path& folder, const
       exposure = automatic_exposure(view);
       write_depth(out / "depth_0.png", view);
     }
-    const Picture picture = develop(view, sensor_of(scene, photograph, exposure), Draws(scene.seed, numbered("noise", i, "")).seed());
+    const Picture picture = develop(view, sensor_of(scene, photograph, exposure),
+                                    Draws(scene.seed, numbered("noise", i, "")).seed());
     write_jpeg(out / numbered("view", i, ".jpg"), picture, scene.photography.jpeg_quality);
     write_labels(out / numbered("labels", i, ".png"), view);
     std::vector<std::size_t>& pixels = visible.emplace_back(256, 0);

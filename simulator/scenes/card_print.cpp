@@ -16,7 +16,8 @@ namespace traygauge {
 namespace {
 
 constexpr double kTopMm = 0.02;  // what lies deeper is the card's side
-constexpr std::array<const char*, 8> kWords = {"CAMPUS", "MENSA", "BISTRO", "MEAL PLAN", "GUEST", "STAFF", "CANTEEN", "LUNCH"};
+constexpr std::array<const char*, 8> kWords = {"CAMPUS", "MENSA", "BISTRO",  "MEAL PLAN",
+                                               "GUEST",  "STAFF", "CANTEEN", "LUNCH"};
 
 cv::Scalar any_colour(Draws& draws, double low, double high) {
   return {draws.between(low, high), draws.between(low, high), draws.between(low, high)};
@@ -38,7 +39,8 @@ void paint_ground(cv::Mat& print, Draws& draws) {
       const Eigen::Vector3f at(static_cast<float>(x), static_cast<float>(y), 0.0F);
       const double u = 0.5 + 0.7 * static_cast<double>(fractal_noise(at / 330.0F, seed, 4));
       const double v = 0.5 + 0.7 * static_cast<double>(fractal_noise(at / 270.0F, seed + 1U, 4));
-      const cv::Vec3d colour = (corner[0] * (1.0 - u) + corner[1] * u) * (1.0 - v) + (corner[2] * (1.0 - u) + corner[3] * u) * v;
+      const cv::Vec3d colour =
+          (corner[0] * (1.0 - u) + corner[1] * u) * (1.0 - v) + (corner[2] * (1.0 - u) + corner[3] * u) * v;
       for (int i = 0; i < 3; ++i) print.at<cv::Vec3b>(y, x)[i] = cv::saturate_cast<std::uint8_t>(colour[i]);
     }
   }
@@ -54,7 +56,8 @@ void paint_guilloche(cv::Mat& print, Draws& draws) {
     std::vector<cv::Point> points;
     for (int x = -4; x < print.cols + 8; x += 6) {
       const double phase = waves * x + drift * line;
-      const double y = print.rows * (line + 0.5) / 26.0 + amplitude * std::sin(phase) * std::cos(0.37 * phase + 0.2 * line);
+      const double y = print.rows * (line + 0.5) / 26.0 +
+                       amplitude * std::sin(phase) * std::cos(0.37 * phase + 0.2 * line);
       points.emplace_back(x, static_cast<int>(std::lround(y)));
     }
     cv::polylines(print, points, false, colour, 2, cv::LINE_AA);
@@ -70,22 +73,29 @@ void paint_motifs(cv::Mat& print, Draws& draws) {
     const double angle = draws.between(0.0, 360.0);
     const cv::Size axes(static_cast<int>(size), static_cast<int>(size * draws.between(0.25, 0.9)));
     switch (draws.whole(0, 3)) {
-      case 0: cv::ellipse(print, at, axes, angle, 0, 360, colour, cv::FILLED, cv::LINE_AA); break;
-      case 1: cv::ellipse(print, at, axes, angle, 0, draws.between(90, 330), colour, draws.whole(2, 7), cv::LINE_AA); break;
+      case 0:
+        cv::ellipse(print, at, axes, angle, 0, 360, colour, cv::FILLED, cv::LINE_AA);
+        break;
+      case 1:
+        cv::ellipse(print, at, axes, angle, 0, draws.between(90, 330), colour, draws.whole(2, 7),
+                    cv::LINE_AA);
+        break;
       case 2: {
         std::vector<cv::Point> corners;
         const int count = draws.whole(3, 6);
         for (int k = 0; k < count; ++k) {
           const double direction = 6.28318 * k / count + draws.between(-0.3, 0.3);
           const double reach = size * draws.between(0.5, 1.0);
-          corners.emplace_back(at.x + static_cast<int>(reach * std::cos(direction)), at.y + static_cast<int>(reach * std::sin(direction)));
+          corners.emplace_back(at.x + static_cast<int>(reach * std::cos(direction)),
+                               at.y + static_cast<int>(reach * std::sin(direction)));
         }
         cv::fillPoly(print, std::vector<std::vector<cv::Point>>{corners}, colour, cv::LINE_AA);
         break;
       }
       default: {
         const double direction = draws.angle_rad();
-        const cv::Point to = at + cv::Point(static_cast<int>(size * std::cos(direction)), static_cast<int>(size * std::sin(direction)));
+        const cv::Point to = at + cv::Point(static_cast<int>(size * std::cos(direction)),
+                                            static_cast<int>(size * std::sin(direction)));
         cv::line(print, at, to, colour, draws.whole(2, 9), cv::LINE_AA);
       }
     }
@@ -101,7 +111,8 @@ std::string digits(Draws& draws, int count) {
   return text;
 }
 
-void write(cv::Mat& print, const std::string& text, cv::Point at, double size, const cv::Scalar& colour, int width) {
+void write(cv::Mat& print, const std::string& text, cv::Point at, double size, const cv::Scalar& colour,
+           int width) {
   cv::putText(print, text, at, cv::FONT_HERSHEY_DUPLEX, size, colour, width, cv::LINE_AA);
 }
 
@@ -110,7 +121,9 @@ void paint_text(cv::Mat& print, Draws& draws) {
   const std::string word = draws.pick(std::span<const char* const>(kWords));
   const double w = print.cols;
   const double h = print.rows;
-  const auto place = [&](double x, double y) { return cv::Point(static_cast<int>(x * w), static_cast<int>(y * h)); };
+  const auto place = [&](double x, double y) {
+    return cv::Point(static_cast<int>(x * w), static_cast<int>(y * h));
+  };
   write(print, word, place(0.05, 0.17), 4.2, {250, 250, 250}, 14);
   write(print, word, place(0.05, 0.17), 4.2, dark, 7);
   write(print, digits(draws, 16), place(0.06, 0.66), 3.2, {245, 245, 245}, 9);
@@ -121,12 +134,16 @@ void paint_text(cv::Mat& print, Draws& draws) {
   const cv::Point chip = place(0.09, 0.33);
   cv::rectangle(print, chip, chip + cv::Point(230, 180), cv::Scalar(214, 184, 96), cv::FILLED);
   for (int i = 1; i < 4; ++i)
-    cv::line(print, chip + cv::Point(0, 45 * i), chip + cv::Point(230, 45 * i), cv::Scalar(120, 96, 40), 4, cv::LINE_AA);
-  cv::line(print, chip + cv::Point(80, 0), chip + cv::Point(80, 180), cv::Scalar(120, 96, 40), 4, cv::LINE_AA);
-  cv::line(print, chip + cv::Point(150, 0), chip + cv::Point(150, 180), cv::Scalar(120, 96, 40), 4, cv::LINE_AA);
+    cv::line(print, chip + cv::Point(0, 45 * i), chip + cv::Point(230, 45 * i), cv::Scalar(120, 96, 40), 4,
+             cv::LINE_AA);
+  cv::line(print, chip + cv::Point(80, 0), chip + cv::Point(80, 180), cv::Scalar(120, 96, 40), 4,
+           cv::LINE_AA);
+  cv::line(print, chip + cv::Point(150, 0), chip + cv::Point(150, 180), cv::Scalar(120, 96, 40), 4,
+           cv::LINE_AA);
   // A logo of overlapping rings.
   for (int i = 0; i < 3; ++i)
-    cv::circle(print, place(0.80 + 0.05 * i, 0.17), 95, any_colour(draws, 20.0, 230.0), i == 1 ? 22 : 34, cv::LINE_AA);
+    cv::circle(print, place(0.80 + 0.05 * i, 0.17), 95, any_colour(draws, 20.0, 230.0), i == 1 ? 22 : 34,
+               cv::LINE_AA);
 }
 
 class CardMaterial : public Material {
@@ -174,7 +191,9 @@ class CardMaterial : public Material {
 }  // namespace
 
 Picture print_card(double width_mm, double height_mm, std::uint64_t seed) {
-  const auto pixels = [](double length_mm) { return static_cast<int>(std::ceil(kCardPrintPxPerMm * length_mm - 1e-6)); };
+  const auto pixels = [](double length_mm) {
+    return static_cast<int>(std::ceil(kCardPrintPxPerMm * length_mm - 1e-6));
+  };
   Picture picture({pixels(width_mm), pixels(height_mm)}, PixelFormat::rgb8);
   cv::Mat print(picture.size.height, picture.size.width, CV_8UC3, picture.pixels.data());
   Draws draws(seed, "card");

@@ -12,8 +12,8 @@ class DishShell {
  public:
   explicit DishShell(const DishDescription& dish);
 
-  // How far inside the outer edge: d of (x/(a-d))^2 + (y/(b-d))^2 = 1, no more than where the flat bottom begins;
-  // negative outside.
+  // How far inside the outer edge: d of (x/(a-d))^2 + (y/(b-d))^2 = 1, no more than where the flat bottom
+  // begins; negative outside.
   double inset_mm(double x_mm, double y_mm) const;
   // Of the inner surface; outside of the edge that of the edge.
   double inner_height_mm(double x_mm, double y_mm) const;

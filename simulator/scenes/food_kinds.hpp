@@ -15,13 +15,13 @@ struct FoodTexture {
   std::uint32_t base = 0x808080;
   std::uint32_t variant = 0x808080;  // in patches, or in layers
   float patch_mm = 8.0F;
-  float layer_mm = 0.0F;   // above 0: base and variant alternate with the height, this thick
-  float grain = 0.05F;     // spread of brightness over fractions of a mm
-  float tone = 0.0F;       // spread of brightness between pieces
+  float layer_mm = 0.0F;  // above 0: base and variant alternate with the height, this thick
+  float grain = 0.05F;    // spread of brightness over fractions of a mm
+  float tone = 0.0F;      // spread of brightness between pieces
   std::uint32_t speck = 0;
-  float speck_mm = 0.0F;   // radius; 0: none
+  float speck_mm = 0.0F;  // radius; 0: none
   float speck_share = 0.0F;
-  float coat = 0.02F;      // as Reflectance
+  float coat = 0.02F;  // as Reflectance
   float roughness = 0.6F;
 };
 

@@ -26,10 +26,13 @@ class FoodMaterial : public Material {
     seed_ = draws.seed();
     const double brightness = draws.between(1.0 - kTint, 1.0 + kTint);
     Eigen::Vector3f tint;
-    for (float& channel : tint) channel = static_cast<float>(brightness * draws.between(1.0 - kTint, 1.0 + kTint));
+    for (float& channel : tint)
+      channel = static_cast<float>(brightness * draws.between(1.0 - kTint, 1.0 + kTint));
     for (std::size_t i = 0; i < textures_.size(); ++i) {
       const FoodTexture& texture = kind.textures[i];
-      const auto colour = [&](std::uint32_t srgb) { return Eigen::Vector3f(linear_colour(srgb).cwiseProduct(tint)); };
+      const auto colour = [&](std::uint32_t srgb) {
+        return Eigen::Vector3f(linear_colour(srgb).cwiseProduct(tint));
+      };
       textures_[i] = {texture, colour(texture.base), colour(texture.variant), colour(texture.speck)};
     }
   }
@@ -45,7 +48,8 @@ class FoodMaterial : public Material {
     Eigen::Vector3f base = blend(look.base, look.variant, share);
     if (texture.speck_mm > 0.0F) {
       const NearestCell cell = nearest_cell(at / (kSpeckCells * texture.speck_mm), seed_ + 17U);
-      if (hash_share(cell.id * 0xC2B2AE35U) < texture.speck_share && cell.distance < 1.0F / kSpeckCells) base = look.speck;
+      if (hash_share(cell.id * 0xC2B2AE35U) < texture.speck_share && cell.distance < 1.0F / kSpeckCells)
+        base = look.speck;
     }
     const float grain = texture.grain * fractal_noise(at / kGrainMm, seed_ + 31U, 2);
     const float tone = texture.tone * (2.0F * hash_share(hash_cell(part, 7, 3, seed_)) - 1.0F);

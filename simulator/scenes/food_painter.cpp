@@ -9,9 +9,14 @@
 namespace traygauge {
 namespace {
 
-constexpr int kSearchSteps = 30;
+constexpr int kSearchSteps = 16;  // thirds of the span left out, for the least value along a line
+constexpr int kRootSteps = 30;
+constexpr double kSurelyInside = 0.8;  // a gauge below needs no least value
+constexpr double kToleranceMm = 1e-4;
+constexpr double kMarginMm = 0.8;  // around a piece, where its border is interpolated
 
-PieceColumn ellipsoid_column(const Superquadric& piece, const Eigen::Vector3d& at, const Eigen::Vector3d& up) {
+PieceColumn ellipsoid_column(const Superquadric& piece, const Eigen::Vector3d& at,
+                             const Eigen::Vector3d& up) {
   const Eigen::Vector3d p = at.cwiseQuotient(piece.semi_mm);
   const Eigen::Vector3d v = up.cwiseQuotient(piece.semi_mm);
   const double a = v.squaredNorm();
@@ -22,33 +27,81 @@ PieceColumn ellipsoid_column(const Superquadric& piece, const Eigen::Vector3d& a
   return {(-b + std::sqrt(b * b - a * (p.squaredNorm() - 1.0))) / a, inside_mm};
 }
 
-PieceColumn general_column(const Superquadric& piece, const Eigen::Vector3d& at, const Eigen::Vector3d& up) {
-  const auto value = [&](double z) {
-    const Eigen::Vector3d p = (at + z * up).cwiseQuotient(piece.semi_mm).cwiseAbs();
-    const double side = std::pow(p.x(), piece.side_exponent) + std::pow(p.y(), piece.side_exponent);
-    return std::pow(side, piece.height_exponent / piece.side_exponent) + std::pow(p.z(), piece.height_exponent);
-  };
-  const double reach = piece.semi_mm.norm();
-  // The body is convex: along the vertical the value falls to a least one and rises again.
-  double low = -reach;
-  double high = reach;
-  for (int i = 0; i < kSearchSteps; ++i) {
-    const double third = (high - low) / 3.0;
-    if (value(low + third) < value(high - third)) {
-      high -= third;
-    } else {
-      low += third;
+// How much larger the superquadric through a point of its own axes is, 1 on its surface.
+double gauge(const Superquadric& piece, const Eigen::Vector3d& at) {
+  const Eigen::Vector3d p = at.cwiseQuotient(piece.semi_mm).cwiseAbs();
+  const double n = piece.height_exponent;
+  const double side =
+      piece.side_exponent == n
+          ? std::pow(p.x(), n) + std::pow(p.y(), n)
+          : std::pow(std::pow(p.x(), piece.side_exponent) + std::pow(p.y(), piece.side_exponent),
+                     n / piece.side_exponent);
+  return std::pow(side + std::pow(p.z(), n), 1.0 / n);
+}
+
+// The part of a vertical line, from its height above the piece's middle, within a box that is a little
+// larger.
+struct Span {
+  double low = -1e9;
+  double high = 1e9;
+};
+Span span_in_box(const Superquadric& piece, const Eigen::Vector3d& at, const Eigen::Vector3d& up) {
+  Span span;
+  for (Eigen::Index axis = 0; axis < 3; ++axis) {
+    const double half = piece.semi_mm[axis] + kMarginMm;
+    if (std::abs(up[axis]) < 1e-9) {
+      if (std::abs(at[axis]) > half) return {1.0, -1.0};
+      continue;
     }
+    const double one = (-half - at[axis]) / up[axis];
+    const double other = (half - at[axis]) / up[axis];
+    span.low = std::max(span.low, std::min(one, other));
+    span.high = std::min(span.high, std::max(one, other));
   }
-  const double deepest = 0.5 * (low + high);
-  const double least = std::pow(value(deepest), 1.0 / piece.height_exponent);
+  return span;
+}
+
+PieceColumn general_column(const Superquadric& piece, const Eigen::Vector3d& at, const Eigen::Vector3d& up) {
+  const auto value = [&](double z) { return gauge(piece, at + z * up); };
+  const auto [bottom, top] = span_in_box(piece, at, up);
+  if (bottom > top) return {0.0, -kMarginMm};
+  // The body is convex: along the line the gauge falls to a least value and rises again.
+  double deepest = 0.5 * (bottom + top);
+  double least = value(deepest);
+  if (least > kSurelyInside) {
+    double low = bottom;
+    double high = top;
+    for (int i = 0; i < kSearchSteps; ++i) {
+      const double third = (high - low) / 3.0;
+      if (value(low + third) < value(high - third)) {
+        high -= third;
+      } else {
+        low += third;
+      }
+    }
+    deepest = 0.5 * (low + high);
+    least = value(deepest);
+  }
   const double inside_mm = (1.0 - least) * piece.semi_mm.minCoeff();
   if (least >= 1.0) return {0.0, inside_mm};
+  // False position (Illinois) between a point inside and the top of the box.
   double below = deepest;
-  double above = 2.0 * reach;
-  for (int i = 0; i < kSearchSteps; ++i) {
-    const double middle = 0.5 * (below + above);
-    (value(middle) < 1.0 ? below : above) = middle;
+  double above = top;
+  double below_value = least - 1.0;
+  double above_value = value(above) - 1.0;
+  for (int i = 0; i < kRootSteps && above - below > kToleranceMm; ++i) {
+    const double middle = (below * above_value - above * below_value) / (above_value - below_value);
+    const double middle_value = value(middle) - 1.0;
+    if (std::abs(middle_value) < kToleranceMm / piece.semi_mm.maxCoeff()) return {middle, inside_mm};
+    if (middle_value < 0.0) {
+      below = middle;
+      below_value = middle_value;
+      above_value *= 0.5;
+    } else {
+      above = middle;
+      above_value = middle_value;
+      below_value *= 0.5;
+    }
   }
   return {0.5 * (below + above), inside_mm};
 }
@@ -97,7 +150,8 @@ void FoodPainter::superquadric(const Superquadric& piece, std::uint16_t part) {
   const Eigen::Vector3d extent = piece.rotation.cwiseAbs() * piece.semi_mm;
   const double reach_mm = std::max(extent.x(), extent.y());
   this->piece(piece.centre_mm.head<2>(), reach_mm * std::numbers::sqrt2, part, [&](double x_mm, double y_mm) {
-    const Eigen::Vector3d at = to_own * Eigen::Vector3d(x_mm - piece.centre_mm.x(), y_mm - piece.centre_mm.y(), 0.0);
+    const Eigen::Vector3d at =
+        to_own * Eigen::Vector3d(x_mm - piece.centre_mm.x(), y_mm - piece.centre_mm.y(), 0.0);
     PieceColumn column = is_ellipsoid ? ellipsoid_column(piece, at, up) : general_column(piece, at, up);
     column.top_mm += piece.centre_mm.z();
     return column;
@@ -118,7 +172,8 @@ void FoodPainter::rod(const Rod& rod, std::uint16_t part) {
     const double beside_mm = (offset.x() * along.y() - offset.y() * along.x()) / length_mm;
     const double off_mm = rod.has_round_ends ? std::hypot(beside_mm, beyond_mm) : std::abs(beside_mm);
     double inside_mm = rod.radius_mm - off_mm;
-    if (!rod.has_round_ends) inside_mm = std::min(inside_mm, -std::abs(beyond_mm) + std::min(at_mm, length_mm - at_mm));
+    if (!rod.has_round_ends)
+      inside_mm = std::min(inside_mm, -std::abs(beyond_mm) + std::min(at_mm, length_mm - at_mm));
     const double bulge_mm = std::sqrt(std::max(0.0, rod.radius_mm * rod.radius_mm - off_mm * off_mm));
     return PieceColumn{rod.from_mm.z() + rise * kept_mm + upright * bulge_mm, inside_mm};
   });

@@ -1,4 +1,5 @@
-// What foods are made of: pieces, rods and heaps, painted on a height field; where they meet, the highest counts.
+// What foods are made of: pieces, rods and heaps, painted on a height field; where they meet, the highest
+// counts.
 #pragma once
 
 #include <Eigen/Core>
@@ -62,7 +63,8 @@ class BlobOutline {
   std::array<double, kWaves> phase_rad_{};
 };
 
-// Paints in the food's coordinates: origin in its middle, turned by its rotation, z up from what it stands on.
+// Paints in the food's coordinates: origin in its middle, turned by its rotation, z up from what it stands
+// on.
 class FoodPainter {
  public:
   FoodPainter(HeightField& field, const Eigen::Vector2d& centre_mm, double rotation_deg);
@@ -122,7 +124,9 @@ class FoodPainter {
     }
   }
 
-  Eigen::Vector2d local(const Eigen::Vector2d& at_mm) const { return turn_.transpose() * (at_mm - centre_mm_); }
+  Eigen::Vector2d local(const Eigen::Vector2d& at_mm) const {
+    return turn_.transpose() * (at_mm - centre_mm_);
+  }
 
   HeightField& field_;
   Eigen::Vector2d centre_mm_;

@@ -22,8 +22,8 @@ void rest(Superquadric& piece, const Eigen::Vector3d& at, double sunk_share) {
   piece.centre_mm.z() = std::max(at.z() - sunk_share * half_mm, 0.85 * half_mm);
 }
 
-void paint_round_heap(FoodPainter& painter, Draws& draws, const FoodSize& size, double radius_mm, double spread,
-                      const Mound& mound) {
+void paint_round_heap(FoodPainter& painter, Draws& draws, const FoodSize& size, double radius_mm,
+                      double spread, const Mound& mound) {
   const BlobOutline outline(draws, size.length_mm, size.width_mm, 0.16);
   heap_pieces(painter, draws, outline, mound, 0.9 * radius_mm, food_part(1, 0),
               tries_for(size, radius_mm * radius_mm, 12.0), 1.3 * radius_mm,
@@ -125,8 +125,8 @@ void paint_stew(FoodPainter& painter, Draws& draws, const FoodSize& size) {
 
 void paint_beans(FoodPainter& painter, Draws& draws, const FoodSize& size) {
   const BlobOutline outline(draws, size.length_mm, size.width_mm, 0.2);
-  heap_pieces(painter, draws, outline, {size.height_mm, 2.6, 0.7}, 2.0, food_part(1, 0), tries_for(size, 30.0, 5.0),
-              4.5, [&](const Eigen::Vector3d& at, int piece) {
+  heap_pieces(painter, draws, outline, {size.height_mm, 2.6, 0.7}, 2.0, food_part(1, 0),
+              tries_for(size, 30.0, 5.0), 4.5, [&](const Eigen::Vector3d& at, int piece) {
                 Superquadric bean{at, {draws.between(5.5, 7.5), 3.6, 3.2}};
                 bean.rotation = random_rotation(draws, 0.5);
                 rest(bean, at, draws.between(0.2, 0.9));

@@ -1,5 +1,5 @@
-// The shapes of foods, from a seed: each paints one food of about the given size about the origin. A piece of it has
-// texture 0 to 3 of its kind.
+// The shapes of foods, from a seed: each paints one food of about the given size about the origin. A piece of
+// it has texture 0 to 3 of its kind.
 #pragma once
 
 #include "simulator/scenes/draws.hpp"

@@ -37,7 +37,8 @@ void paint_slab(FoodPainter& painter, const BlobOutline& outline, double height_
 }
 
 // A wedge of a round: its point towards -x, its back an arc.
-PieceColumn wedge_column(const FoodSize& size, double x_mm, double y_mm, double height_mm, double rounding_mm) {
+PieceColumn wedge_column(const FoodSize& size, double x_mm, double y_mm, double height_mm,
+                         double rounding_mm) {
   const double from_point = x_mm + 0.5 * size.length_mm;
   const double half_angle = std::atan2(0.5 * size.width_mm, size.length_mm);
   const double side_mm = from_point * std::sin(half_angle) - std::abs(y_mm) * std::cos(half_angle);
@@ -119,11 +120,14 @@ void paint_chicken(FoodPainter& painter, Draws& draws, const FoodSize& size) {
     const double share = -0.55 + 1.2 * i / (kSlices - 1);
     const double narrowing = std::clamp((share + 0.35) / 0.8, 0.0, 1.0);
     const double width = 1.0 - (1.0 - waist) * narrowing * narrowing * (3.0 - 2.0 * narrowing);
-    const Eigen::Vector3d semi(0.42 * half_mm * width, 0.5 * size.width_mm * width, 0.5 * size.height_mm * width);
+    const Eigen::Vector3d semi(0.42 * half_mm * width, 0.5 * size.width_mm * width,
+                               0.5 * size.height_mm * width);
     painter.superquadric({{share * half_mm, bent(share), 0.9 * semi.z()}, semi}, food_part(0, 0));
   }
   const double bone_mm = 0.16 * size.height_mm;
-  painter.rod({{0.6 * half_mm, bent(0.6), 1.3 * bone_mm}, {0.92 * half_mm, bent(0.92), 1.1 * bone_mm}, bone_mm}, food_part(1, 2));
+  painter.rod(
+      {{0.6 * half_mm, bent(0.6), 1.3 * bone_mm}, {0.92 * half_mm, bent(0.92), 1.1 * bone_mm}, bone_mm},
+      food_part(1, 2));
   painter.roughen(1.6, 13.0, draws.seed(), 3);
 }
 
@@ -155,8 +159,9 @@ void paint_pizza(FoodPainter& painter, Draws& draws, const FoodSize& size) {
 }
 
 void paint_cake(FoodPainter& painter, Draws& draws, const FoodSize& size) {
-  painter.piece({0.0, 0.0}, std::hypot(size.length_mm, size.width_mm), food_part(0, 0),
-                [&](double x_mm, double y_mm) { return wedge_column(size, x_mm, y_mm, size.height_mm, 2.0); });
+  painter.piece(
+      {0.0, 0.0}, std::hypot(size.length_mm, size.width_mm), food_part(0, 0),
+      [&](double x_mm, double y_mm) { return wedge_column(size, x_mm, y_mm, size.height_mm, 2.0); });
   painter.roughen(0.5, 5.0, draws.seed(), 3);
 }
 
@@ -164,8 +169,10 @@ void paint_lasagne(FoodPainter& painter, Draws& draws, const FoodSize& size) {
   const double a = 0.5 * size.length_mm;
   const double b = 0.5 * size.width_mm;
   const auto jitter = [&] { return draws.between(0.9, 1.0); };
-  const std::vector<Eigen::Vector2d> corners = {
-      {-a * jitter(), -b * jitter()}, {a * jitter(), -b * jitter()}, {a * jitter(), b * jitter()}, {-a * jitter(), b * jitter()}};
+  const std::vector<Eigen::Vector2d> corners = {{-a * jitter(), -b * jitter()},
+                                                {a * jitter(), -b * jitter()},
+                                                {a * jitter(), b * jitter()},
+                                                {-a * jitter(), b * jitter()}};
   painter.piece({0.0, 0.0}, std::hypot(a, b), food_part(0, 0), [&](double x_mm, double y_mm) {
     const double inside_mm = polygon_inside(corners, x_mm, y_mm);
     return PieceColumn{slab_height(size.height_mm, inside_mm, 4.0, 0.7), inside_mm};

@@ -10,7 +10,8 @@ namespace traygauge {
 
 void paint_mash(FoodPainter& painter, Draws& draws, const FoodSize& size) {
   const BlobOutline outline(draws, size.length_mm, size.width_mm, 0.18);
-  paint_mound(painter, outline, {size.height_mm, draws.between(1.8, 2.4), draws.between(0.7, 1.0)}, food_part(0, 0));
+  paint_mound(painter, outline, {size.height_mm, draws.between(1.8, 2.4), draws.between(0.7, 1.0)},
+              food_part(0, 0));
   painter.roughen(0.14 * size.height_mm, 22.0, draws.seed(), 2);
   // The furrows of a spoon.
   const double direction = draws.angle_rad();

@@ -13,8 +13,8 @@ struct Strand {
   double radius_mm = 1.0;
   double length_mm = 60.0;
   double step_mm = 5.0;
-  double bend_rad = 0.3;   // largest change of direction a step
-  double lift_mm = 2.0;    // above or below the heap's surface
+  double bend_rad = 0.3;  // largest change of direction a step
+  double lift_mm = 2.0;   // above or below the heap's surface
 };
 
 // A strand that wanders over the heap and ends at its edge.
@@ -63,11 +63,14 @@ void paint_sticks(FoodPainter& painter, Draws& draws, const FoodSize& size, int 
                          .toRotationMatrix();
     const double narrowing = 1.0 - 0.45 * layer;
     const double room_x = std::max(6.0, 0.5 * size.length_mm - half_length_mm * std::abs(std::cos(angle)));
-    const double room_y = std::max(6.0, 0.5 * size.width_mm - half_length_mm * std::abs(std::sin(angle)) - thick_mm);
+    const double room_y =
+        std::max(6.0, 0.5 * size.width_mm - half_length_mm * std::abs(std::sin(angle)) - thick_mm);
     const double u = draws.between(-1.0, 1.0) * narrowing;
     const double v = draws.between(-1.0, 1.0) * narrowing;
-    const double height_mm = kind.half_mm + layer * (size.height_mm - 2.0 * kind.half_mm) * (1.0 - 0.4 * std::max(u * u, v * v));
-    stick.centre_mm = {room_x * u, room_y * v, std::max(height_mm, kind.half_mm + std::abs(std::sin(tilt)) * half_length_mm)};
+    const double height_mm =
+        kind.half_mm + layer * (size.height_mm - 2.0 * kind.half_mm) * (1.0 - 0.4 * std::max(u * u, v * v));
+    stick.centre_mm = {room_x * u, room_y * v,
+                       std::max(height_mm, kind.half_mm + std::abs(std::sin(tilt)) * half_length_mm)};
     painter.superquadric(stick, food_part(0, piece));
   }
 }
@@ -86,17 +89,18 @@ void paint_green_beans(FoodPainter& painter, Draws& draws, const FoodSize& size)
 
 void paint_penne(FoodPainter& painter, Draws& draws, const FoodSize& size) {
   const BlobOutline outline(draws, size.length_mm, size.width_mm, 0.15);
-  heap_pieces(painter, draws, outline, {size.height_mm, 2.4, 0.75}, 6.0, food_part(1, 0),
-              static_cast<int>(size.length_mm * size.width_mm / 25.0), 8.0,
-              [&](const Eigen::Vector3d& at, int piece) {
-                const double angle = draws.angle_rad();
-                const double half_mm = draws.between(14.0, 19.0);
-                const double rise_mm = draws.between(-5.0, 5.0);
-                const Eigen::Vector3d along(half_mm * std::cos(angle), half_mm * std::sin(angle), rise_mm);
-                Eigen::Vector3d middle = at;
-                middle.z() = std::max(at.z() - draws.between(0.0, 4.0), 4.2 + std::abs(rise_mm));
-                painter.rod({middle - along, middle + along, draws.between(4.0, 4.6), false}, food_part(0, piece));
-              });
+  heap_pieces(
+      painter, draws, outline, {size.height_mm, 2.4, 0.75}, 6.0, food_part(1, 0),
+      static_cast<int>(size.length_mm * size.width_mm / 25.0), 8.0,
+      [&](const Eigen::Vector3d& at, int piece) {
+        const double angle = draws.angle_rad();
+        const double half_mm = draws.between(14.0, 19.0);
+        const double rise_mm = draws.between(-5.0, 5.0);
+        const Eigen::Vector3d along(half_mm * std::cos(angle), half_mm * std::sin(angle), rise_mm);
+        Eigen::Vector3d middle = at;
+        middle.z() = std::max(at.z() - draws.between(0.0, 4.0), 4.2 + std::abs(rise_mm));
+        painter.rod({middle - along, middle + along, draws.between(4.0, 4.6), false}, food_part(0, piece));
+      });
 }
 
 void paint_spaghetti(FoodPainter& painter, Draws& draws, const FoodSize& size) {

@@ -10,7 +10,7 @@
 namespace traygauge {
 namespace {
 
-constexpr float kMinHeightMm = 0.02F;   // thinner food would leave its upper side on the dish
+constexpr float kMinHeightMm = 0.02F;  // thinner food would leave its upper side on the dish
 constexpr double kOnWallMm = 0.05;
 
 // Node of the grid, or a point on the edge between two of them where the footprint ends.
@@ -72,7 +72,8 @@ class SurfaceMesher {
       const float share = field_.inside_mm[in] / (field_.inside_mm[in] - field_.inside_mm[out]);
       const float kept = std::clamp(share, 0.02F, 0.98F);  // no needles
       const Eigen::Vector2d at = place(in) + static_cast<double>(kept) * (place(out) - place(in));
-      found->second = add_vertex(at, field_.height_mm[in] + kept * (field_.height_mm[out] - field_.height_mm[in]));
+      found->second =
+          add_vertex(at, field_.height_mm[in] + kept * (field_.height_mm[out] - field_.height_mm[in]));
     }
     return found->second;
   }
@@ -166,7 +167,8 @@ class SurfaceMesher {
   // Over the closed surface, in double: the vertices of the mesh are floats.
   double divergence_mm3() const {
     const auto corner = [&](std::uint32_t vertex, bool is_top) {
-      return is_top ? top_[vertex] : Eigen::Vector3d(top_[vertex].x(), top_[vertex].y(), dish_height_[vertex]);
+      return is_top ? top_[vertex]
+                    : Eigen::Vector3d(top_[vertex].x(), top_[vertex].y(), dish_height_[vertex]);
     };
     const auto sixfold = [](const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c) {
       return a.dot(b.cross(c));

@@ -34,10 +34,12 @@ struct Order {
 FoodSize room_at_level(const DishShell& shell, const LaidFood& food, double height_mm) {
   constexpr double kMarginMm = 4.0;
   double inset_mm = shell.flat_inset_mm();
-  while (inset_mm > 0.0 && shell.inner_height_mm(shell.semi_axis_mm(0) - inset_mm, 0.0) < food.level_mm) inset_mm -= 0.1;
+  while (inset_mm > 0.0 && shell.inner_height_mm(shell.semi_axis_mm(0) - inset_mm, 0.0) < food.level_mm)
+    inset_mm -= 0.1;
   if (inset_mm <= 0.0 || food.level_mm <= shell.bottom_height_mm())
     throw std::invalid_argument(food.name + ": the level must lie between the dish's bottom and its rim");
-  return {2.0 * (shell.semi_axis_mm(0) - inset_mm - kMarginMm), 2.0 * (shell.semi_axis_mm(1) - inset_mm - kMarginMm), height_mm};
+  return {2.0 * (shell.semi_axis_mm(0) - inset_mm - kMarginMm),
+          2.0 * (shell.semi_axis_mm(1) - inset_mm - kMarginMm), height_mm};
 }
 
 Order order_of(const LaidFood& food, const DishShell& shell) {
@@ -91,13 +93,15 @@ double summed_volume_mm3(const Order& order, HeightField field, const DishShell&
   return quadrature_mm3(field);
 }
 
-ServedFood serve(const Order& order, HeightField field, const SceneDescription& scene, const DishShell& shell) {
+ServedFood serve(const Order& order, HeightField field, const SceneDescription& scene,
+                 const DishShell& shell) {
   const LaidFood& food = *order.food;
   const LaidDish& dish = scene.dishes[static_cast<std::size_t>(food.dish)];
   extend_outward(field);
   const GroundHeight inner = [&](double x, double y) { return shell.inner_height_mm(x, y); };
   const GroundHeight level = [&](double, double) { return food.level_mm; };
-  FoodSolid solid = mesh_of_field(field, order.kind->is_filled() ? level : inner, inner, shell.bottom_height_mm());
+  FoodSolid solid =
+      mesh_of_field(field, order.kind->is_filled() ? level : inner, inner, shell.bottom_height_mm());
 
   const Eigen::Isometry3d world_of_dish = world_from_dish(dish);
   const double ground_mm = order.kind->is_filled() ? food.level_mm : shell.bottom_height_mm();
@@ -116,7 +120,8 @@ ServedFood serve(const Order& order, HeightField field, const SceneDescription& 
   served.footprint_cm2 = 0.01 * solid.footprint_mm2;
   served.share_on_wall = solid.footprint_mm2 > 0.0 ? solid.on_wall_mm2 / solid.footprint_mm2 : 0.0;
   served.max_height_mm = solid.max_height_mm;
-  served.centre_mm = (world_of_dish * Eigen::Vector3d(solid.centre_mm.x(), solid.centre_mm.y(), 0.0)).head<2>();
+  served.centre_mm =
+      (world_of_dish * Eigen::Vector3d(solid.centre_mm.x(), solid.centre_mm.y(), 0.0)).head<2>();
   return served;
 }
 
@@ -141,15 +146,16 @@ ServedFood serve_scan(const LaidFood& food, const SceneDescription& scene, const
   }
   served.max_height_mm = high.z() - shell.bottom_height_mm();
   served.centre_mm = (world_of_dish * (0.5 * (low + high))).head<2>();
-  const Columns columns = columns_above(mesh, kColumnStepMm, [&](double x, double y) { return shell.inner_height_mm(x, y); });
+  const Columns columns =
+      columns_above(mesh, kColumnStepMm, [&](double x, double y) { return shell.inner_height_mm(x, y); });
   served.column_volume_ml = kMlPerMm3 * columns.volume_mm3;
   served.footprint_cm2 = 0.01 * columns.area_mm2;
   served.volume_ml = kMlPerMm3 * volume_mm3;
   served.check_volume_ml = kMlPerMm3 * solid_columns_mm3(mesh, kColumnStepMm);
   served.above_bottom_plane_ml = served.volume_ml;
   transform(mesh, world_of_dish);
-  served.object.material = make_food_material(*kind, food.seed, (world_of_dish * dish_from_food).inverse(), nullptr,
-                                              world_of_dish.inverse());
+  served.object.material = make_food_material(*kind, food.seed, (world_of_dish * dish_from_food).inverse(),
+                                              nullptr, world_of_dish.inverse());
   return served;
 }
 

@@ -29,9 +29,9 @@ struct ServedFood {
   int dish = 0;
 };
 
-// All foods of one dish, in their order; where two want one place the earlier stands there. `first_label`: of the
-// food that comes first in scene.foods. Throws InputError for a mesh that cannot be read, std::invalid_argument for a
-// kind or a level that does not exist.
+// All foods of one dish, in their order; where two want one place the earlier stands there. `first_label`: of
+// the food that comes first in scene.foods. Throws InputError for a mesh that cannot be read,
+// std::invalid_argument for a kind or a level that does not exist.
 std::vector<ServedFood> serve_foods(const SceneDescription& scene, int dish, const DishShell& shell,
                                     int first_label);
 

@@ -55,8 +55,9 @@ void LaidScene::add_card() {
   const LaidCard& card = description_.card;
   print_ = std::make_shared<const Picture>(print_card(card.width_mm, card.height_mm, card.design));
   const Eigen::Isometry3d pose = world_from_card(card);
-  SceneObject object{box_mesh({0.0, 0.0, 0.0}, {card.width_mm, card.height_mm, card.thickness_mm - kClearanceMm}),
-                     make_card_material(print_, pose.inverse()), kCardLabel};
+  SceneObject object{
+      box_mesh({0.0, 0.0, 0.0}, {card.width_mm, card.height_mm, card.thickness_mm - kClearanceMm}),
+      make_card_material(print_, pose.inverse()), kCardLabel};
   transform(object.mesh, pose);
   scene_.objects.push_back(std::move(object));
 }
@@ -81,10 +82,12 @@ void LaidScene::add_utensils() {
 
 void LaidScene::add_room(const Eigen::Isometry3d& world_of_room) {
   const double table_mm = description_.tray ? -kTrayFloorMm - kClearanceMm : 0.0;
-  SceneObject table{box_mesh({-kTableHalfMm, -kTableHalfMm, table_mm - 25.0}, {2.0 * kTableHalfMm, 2.0 * kTableHalfMm, 25.0}),
+  SceneObject table{box_mesh({-kTableHalfMm, -kTableHalfMm, table_mm - 25.0},
+                             {2.0 * kTableHalfMm, 2.0 * kTableHalfMm, 25.0}),
                     nullptr, 0};
   transform(table.mesh, world_of_room);
-  const Eigen::Isometry3d pattern = world_of_room * placement(Eigen::Vector3d::Zero(), description_.table.rotation_deg);
+  const Eigen::Isometry3d pattern =
+      world_of_room * placement(Eigen::Vector3d::Zero(), description_.table.rotation_deg);
   table.material = make_surface(description_.table.kind, description_.table.seed, pattern.inverse());
   scene_.objects.push_back(std::move(table));
   for (const Lamp& lamp : description_.lamps) {

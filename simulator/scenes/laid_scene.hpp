@@ -39,7 +39,7 @@ class LaidScene {
   std::vector<DishShell> shells_;
   std::vector<FoodTruth> foods_;
   std::shared_ptr<const Picture> print_;
-  Scene scene_;              // what moves with the tray first, then the room
+  Scene scene_;  // what moves with the tray first, then the room
   std::size_t tray_objects_ = 0;
 };
 

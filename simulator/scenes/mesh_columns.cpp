@@ -21,6 +21,8 @@ class ColumnGrid {
       low_ = low_.cwiseMin(vertex.cast<double>());
       high = high.cwiseMax(vertex.cast<double>());
     }
+    // Not where vertices of a regular mesh are: a column through an edge would meet two triangles.
+    low_ -= step_mm * Eigen::Vector3d(0.3183098862, 0.3678794412, 0.0);
     columns_ = static_cast<int>(std::ceil((high.x() - low_.x()) / step_mm));
     rows_ = static_cast<int>(std::ceil((high.y() - low_.y()) / step_mm));
   }
@@ -49,7 +51,8 @@ class ColumnGrid {
           const double v = (x * ac.y() - y * ac.x()) / area;
           const double w = (ab.x() * y - ab.y() * x) / area;
           if (v < 0.0 || w < 0.0 || v + w > 1.0) continue;
-          const auto cell = static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(column);
+          const auto cell = static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) +
+                            static_cast<std::size_t>(column);
           hit(cell, a.z() + v * ab.z() + w * ac.z(), area > 0.0);
         }
       }
@@ -58,8 +61,12 @@ class ColumnGrid {
 
  private:
   Eigen::Vector3d vertex(std::uint32_t index) const { return mesh_.vertices[index].cast<double>(); }
-  double middle(std::size_t index, double low_mm) const { return low_mm + (static_cast<double>(index) + 0.5) * step_mm_; }
-  int first(double offset_mm) const { return std::max(0, static_cast<int>(std::ceil(offset_mm / step_mm_ - 0.5))); }
+  double middle(std::size_t index, double low_mm) const {
+    return low_mm + (static_cast<double>(index) + 0.5) * step_mm_;
+  }
+  int first(double offset_mm) const {
+    return std::max(0, static_cast<int>(std::ceil(offset_mm / step_mm_ - 0.5)));
+  }
   int last(double offset_mm, int count) const {
     return std::min(count - 1, static_cast<int>(std::floor(offset_mm / step_mm_ - 0.5)));
   }
@@ -83,7 +90,8 @@ Columns columns_above(const TriangleMesh& mesh, double step_mm,
   for (std::size_t cell = 0; cell < top.size(); ++cell) {
     if (top[cell] == kNothing) continue;
     columns.area_mm2 += step_mm * step_mm;
-    columns.volume_mm3 += step_mm * step_mm * std::max(0.0, top[cell] - ground_mm(grid.x_mm(cell), grid.y_mm(cell)));
+    columns.volume_mm3 +=
+        step_mm * step_mm * std::max(0.0, top[cell] - ground_mm(grid.x_mm(cell), grid.y_mm(cell)));
   }
   return columns;
 }

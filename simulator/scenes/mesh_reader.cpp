@@ -49,7 +49,8 @@ class Lines {
   std::size_t offset() const { return std::min(at_, text_.size()); }
 
   [[noreturn]] void fail(const std::string& expected) const {
-    throw InputError(file_, expected, "something else in line " + std::to_string(number_), "export the mesh again");
+    throw InputError(file_, expected, "something else in line " + std::to_string(number_),
+                     "export the mesh again");
   }
 
   template <class Number>
@@ -82,7 +83,8 @@ void add_vertex(TriangleMesh& mesh, const InputFile& file, const std::array<doub
 void add_polygon(TriangleMesh& mesh, const InputFile& file, const std::vector<std::uint32_t>& corners) {
   if (corners.size() < 3 || corners.size() > kMaxCorners) fail(file, "faces with 3 to 64 corners", "another");
   if (mesh.triangles.size() >= kMaxElements) fail(file, "at most 4 million faces", "more");
-  for (std::size_t i = 2; i < corners.size(); ++i) mesh.triangles.push_back({corners[0], corners[i - 1], corners[i]});
+  for (std::size_t i = 2; i < corners.size(); ++i)
+    mesh.triangles.push_back({corners[0], corners[i - 1], corners[i]});
 }
 
 TriangleMesh read_obj(const InputFile& file, std::string_view text) {
@@ -101,7 +103,8 @@ TriangleMesh read_obj(const InputFile& file, std::string_view text) {
       corners.clear();
       for (std::size_t i = 1; i < words.size(); ++i) {
         const auto count = static_cast<std::int64_t>(mesh.vertices.size());
-        const auto index = lines.number<std::int64_t>(words[i].substr(0, words[i].find('/')), "the number of a vertex");
+        const auto index =
+            lines.number<std::int64_t>(words[i].substr(0, words[i].find('/')), "the number of a vertex");
         const std::int64_t from_zero = index > 0 ? index - 1 : count + index;  // negative: from the last
         if (index == 0 || from_zero < 0 || from_zero >= count) lines.fail("the number of an earlier vertex");
         corners.push_back(static_cast<std::uint32_t>(from_zero));
@@ -146,8 +149,10 @@ PlyHeader read_ply_header(Lines& lines) {
       header.elements.push_back({std::string(words[1]), count, {}});
     } else if (words[0] == "property" && !header.elements.empty() && words.size() == 3) {
       header.elements.back().properties.push_back({std::string(words[2]), std::string(words[1]), ""});
-    } else if (words[0] == "property" && !header.elements.empty() && words.size() == 5 && words[1] == "list") {
-      header.elements.back().properties.push_back({std::string(words[4]), std::string(words[3]), std::string(words[2])});
+    } else if (words[0] == "property" && !header.elements.empty() && words.size() == 5 &&
+               words[1] == "list") {
+      header.elements.back().properties.push_back(
+          {std::string(words[4]), std::string(words[3]), std::string(words[2])});
     } else {
       lines.fail("a line of a PLY header");
     }
@@ -218,8 +223,10 @@ TriangleMesh read_ply(const InputFile& file, std::string_view text) {
           continue;
         }
         const double count = values.next(property.count_type);
-        if (!(count >= 0.0 && count <= static_cast<double>(kMaxCorners))) fail(file, "lists of up to 64 values", "a longer one");
-        const bool is_face = element.name == "face" && (property.name == "vertex_indices" || property.name == "vertex_index");
+        if (!(count >= 0.0 && count <= static_cast<double>(kMaxCorners)))
+          fail(file, "lists of up to 64 values", "a longer one");
+        const bool is_face =
+            element.name == "face" && (property.name == "vertex_indices" || property.name == "vertex_index");
         corners.clear();
         for (int k = 0; k < static_cast<int>(count); ++k) {
           const double index = values.next(property.type);

@@ -6,9 +6,9 @@
 
 namespace traygauge {
 
-// Wavefront OBJ (.obj) or PLY (.ply: ASCII or binary little-endian); polygons become fans of triangles. Only places and
-// faces are read. Throws InputError: another format, a damaged file, a face without its vertices, more than 4 million
-// vertices or faces.
+// Wavefront OBJ (.obj) or PLY (.ply: ASCII or binary little-endian); polygons become fans of triangles. Only
+// places and faces are read. Throws InputError: another format, a damaged file, a face without its vertices,
+// more than 4 million vertices or faces.
 TriangleMesh read_mesh(const InputFile& file);
 
 }  // namespace traygauge

@@ -70,7 +70,8 @@ void append(TriangleMesh& mesh, const TriangleMesh& more) {
 
 void transform(TriangleMesh& mesh, const Eigen::Isometry3d& placement) {
   for (Eigen::Vector3f& vertex : mesh.vertices) vertex = (placement * vertex.cast<double>()).cast<float>();
-  for (Eigen::Vector3f& normal : mesh.normals) normal = (placement.linear() * normal.cast<double>()).cast<float>();
+  for (Eigen::Vector3f& normal : mesh.normals)
+    normal = (placement.linear() * normal.cast<double>()).cast<float>();
 }
 
 TriangleMesh box_mesh(const Eigen::Vector3d& corner_mm, const Eigen::Vector3d& size_mm) {

@@ -9,8 +9,8 @@
 
 namespace traygauge {
 
-// Loops of equal length, each counter-clockwise seen from where the first looks, joined and closed by fans at both
-// ends: a closed mesh.
+// Loops of equal length, each counter-clockwise seen from where the first looks, joined and closed by fans at
+// both ends: a closed mesh.
 TriangleMesh skin_of_loops(const std::vector<std::vector<Eigen::Vector3f>>& loops);
 
 // One a vertex, weighted by area.

@@ -27,7 +27,8 @@ float slope(std::uint32_t hash, float x, float y, float z) {
 
 std::uint32_t hash_cell(int x, int y, int z, std::uint32_t seed) {
   std::uint32_t hash = seed ^ (static_cast<std::uint32_t>(x) * 0x8DA6B343U) ^
-                       (static_cast<std::uint32_t>(y) * 0xD8163841U) ^ (static_cast<std::uint32_t>(z) * 0xCB1AB31FU);
+                       (static_cast<std::uint32_t>(y) * 0xD8163841U) ^
+                       (static_cast<std::uint32_t>(z) * 0xCB1AB31FU);
   hash = (hash ^ (hash >> 16U)) * 0x7FEB352DU;
   hash = (hash ^ (hash >> 15U)) * 0x846CA68BU;
   return hash ^ (hash >> 16U);
@@ -78,7 +79,8 @@ NearestCell nearest_cell(const Eigen::Vector3f& point, std::uint32_t seed) {
       for (int dx = -1; dx <= 1; ++dx) {
         const Eigen::Vector3i at = cell + Eigen::Vector3i(dx, dy, dz);
         const std::uint32_t id = hash_cell(at.x(), at.y(), at.z(), seed);
-        const Eigen::Vector3f offset(hash_share(id), hash_share(id * 0x9E3779B9U), hash_share(id * 0x85EBCA6BU));
+        const Eigen::Vector3f offset(hash_share(id), hash_share(id * 0x9E3779B9U),
+                                     hash_share(id * 0x85EBCA6BU));
         const float squared = (at.cast<float>() + offset - point).squaredNorm();
         if (squared < nearest.distance) nearest = {squared, id};
       }

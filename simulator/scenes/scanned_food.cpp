@@ -31,7 +31,8 @@ TriangleMesh load_scan(const ScannedFood& scan) {
   const Eigen::Vector3f middle = (0.5 * (low + high)).cast<float>();
   for (Eigen::Vector3f& vertex : mesh.vertices) vertex -= middle;
   if (enclosed_volume_mm3(mesh) <= 0.0)
-    throw InputError(file, "faces counter-clockwise seen from outside", "a mesh that is inside out", "flip its faces");
+    throw InputError(file, "faces counter-clockwise seen from outside", "a mesh that is inside out",
+                     "flip its faces");
   add_smooth_normals(mesh);
   return mesh;
 }

@@ -8,8 +8,8 @@
 
 namespace traygauge {
 
-// In mm, turned, its middle above the origin, with smooth normals. Throws InputError: read_mesh's, a mesh that is not
-// closed, or one that is inside out.
+// In mm, turned, its middle above the origin, with smooth normals. Throws InputError: read_mesh's, a mesh
+// that is not closed, or one that is inside out.
 TriangleMesh load_scan(const ScannedFood& scan);
 
 // Moves the mesh vertically until it touches the ground.

@@ -15,8 +15,8 @@
 
 namespace traygauge {
 
-// World: mm, z up; z = 0 is what dishes and card stand on, the tray's floor where there is a tray, else the table.
-// Rotations are about z, from x towards y.
+// World: mm, z up; z = 0 is what dishes and card stand on, the tray's floor where there is a tray, else the
+// table. Rotations are about z, from x towards y.
 
 struct LaidDish {
   DishDescription dish;
@@ -28,20 +28,20 @@ struct LaidDish {
 
 // A mesh of a scanned food, from a file.
 struct ScannedFood {
-  std::filesystem::path file;  // OBJ or PLY
-  double scale_mm = 1.0;       // length of the file's unit
+  std::filesystem::path file;        // OBJ or PLY
+  double scale_mm = 1.0;             // length of the file's unit
   std::array<double, 3> turn_deg{};  // about x, then y, then z, before it is set down
 };
 
 struct LaidFood {
-  std::string name;         // in truth.json
-  std::string kind;         // of food_kinds(); of a scanned one: whose textures it has
-  int dish = 0;             // index of the dish
+  std::string name;  // in truth.json
+  std::string kind;  // of food_kinds(); of a scanned one: whose textures it has
+  int dish = 0;      // index of the dish
   Eigen::Vector2d centre_mm = Eigen::Vector2d::Zero();  // in the dish's coordinates
   double rotation_deg = 0.0;
-  FoodSize size;            // of filled food: no matter
+  FoodSize size;  // of filled food: no matter
   std::uint64_t seed = 1;
-  double level_mm = 0.0;    // of filled food, above what the dish stands on
+  double level_mm = 0.0;  // of filled food, above what the dish stands on
   std::optional<ScannedFood> scan;
 };
 

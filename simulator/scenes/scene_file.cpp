@@ -42,13 +42,16 @@ class SceneTable {
     if (const auto found = find(key)) value = found->number(range);
   }
   void read(const char* key, std::uint64_t& value) const {
-    if (const auto found = find(key)) value = static_cast<std::uint64_t>(found->integer(0, std::numeric_limits<int>::max()));
+    if (const auto found = find(key))
+      value = static_cast<std::uint64_t>(found->integer(0, std::numeric_limits<int>::max()));
   }
   void read(const char* key, Eigen::Vector2d& value, NumberRange range) const {
-    if (const auto found = find(key)) value = Eigen::Map<const Eigen::Vector2d>(found->numbers(2, range).data());
+    if (const auto found = find(key))
+      value = Eigen::Map<const Eigen::Vector2d>(found->numbers(2, range).data());
   }
   void read(const char* key, Eigen::Vector3d& value, NumberRange range) const {
-    if (const auto found = find(key)) value = Eigen::Map<const Eigen::Vector3d>(found->numbers(3, range).data());
+    if (const auto found = find(key))
+      value = Eigen::Map<const Eigen::Vector3d>(found->numbers(3, range).data());
   }
   template <std::size_t Count>
   void read(const char* key, std::array<double, Count>& value, NumberRange range) const {
@@ -59,7 +62,8 @@ class SceneTable {
     const auto found = find(key);
     if (!found) return;
     const std::string text = found->text();
-    if (text.size() != 7 || text[0] != '#' || text.find_first_not_of("0123456789abcdefABCDEF", 1) != std::string::npos)
+    if (text.size() != 7 || text[0] != '#' ||
+        text.find_first_not_of("0123456789abcdefABCDEF", 1) != std::string::npos)
       found->fail("a colour as \"#RRGGBB\"", "correct the value");
     srgb = static_cast<std::uint32_t>(std::stoul(text.substr(1), nullptr, 16));
   }
@@ -70,7 +74,8 @@ class SceneTable {
     const auto name = std::ranges::find(names, found->text());
     if (name == names.end()) {
       std::string list;
-      for (const std::string_view known : names) list += (list.empty() ? "one of " : ", ") + std::string(known);
+      for (const std::string_view known : names)
+        list += (list.empty() ? "one of " : ", ") + std::string(known);
       found->fail(list, "correct the value");
     }
     choice = static_cast<Choice>(name - names.begin());
@@ -81,8 +86,9 @@ class SceneTable {
 };
 
 void read_camera(const JsonNode& node, PhotographySettings& photography) {
-  const SceneTable table(node, {"width", "height", "fx", "fy", "cx", "cy", "distortion", "aperture_mm", "corner_loss",
-                                "full_well_electrons", "read_noise_electrons", "jpeg_quality"});
+  const SceneTable table(
+      node, {"width", "height", "fx", "fy", "cx", "cy", "distortion", "aperture_mm", "corner_loss",
+             "full_well_electrons", "read_noise_electrons", "jpeg_quality"});
   CameraDescription& camera = photography.camera;
   camera.size = {node.member("width").integer(kMinPictureSide, kMaxPictureSide),
                  node.member("height").integer(kMinPictureSide, kMaxPictureSide)};
@@ -103,7 +109,8 @@ void read_camera(const JsonNode& node, PhotographySettings& photography) {
 }
 
 LaidDish read_laid_dish(const JsonNode& node, const std::filesystem::path& folder, std::size_t number) {
-  const SceneTable table(node, {"file", "centre_mm", "rotation_deg", "seed", "colour", "roughness", "decoration", "lines", "specks"});
+  const SceneTable table(node, {"file", "centre_mm", "rotation_deg", "seed", "colour", "roughness",
+                                "decoration", "lines", "specks"});
   LaidDish laid;
   laid.dish = read_dish_file(folder / node.member("file").text());
   laid.dish.label = number == 0 ? 1 : kFirstFurtherDish + static_cast<int>(number) - 1;
@@ -126,22 +133,25 @@ LaidDish read_laid_dish(const JsonNode& node, const std::filesystem::path& folde
 }
 
 LaidFood read_food(const JsonNode& node, const SceneDescription& scene, const std::filesystem::path& folder) {
-  const SceneTable table(node, {"kind", "name", "dish", "centre_mm", "rotation_deg", "size_mm", "seed", "level_mm",
-                                "mesh", "scale_mm", "turn_deg"});
+  const SceneTable table(node, {"kind", "name", "dish", "centre_mm", "rotation_deg", "size_mm", "seed",
+                                "level_mm", "mesh", "scale_mm", "turn_deg"});
   LaidFood food;
   food.kind = node.member("kind").text();
   const FoodKind* kind = find_food_kind(food.kind);
   if (kind == nullptr) {
     std::string list;
-    for (const FoodKind& known : food_kinds()) list += (list.empty() ? "one of " : ", ") + std::string(known.name);
+    for (const FoodKind& known : food_kinds())
+      list += (list.empty() ? "one of " : ", ") + std::string(known.name);
     node.member("kind").fail(list, "correct the value");
   }
   food.name = food.kind;
   if (const auto name = table.find("name")) food.name = name->text();
   if (const auto label = table.find("dish")) {
     const int wanted = label->integer(1, kFirstFurtherDish + static_cast<int>(kMaxDishes));
-    const auto dish = std::ranges::find(scene.dishes, wanted, [](const LaidDish& laid) { return laid.dish.label; });
-    if (dish == scene.dishes.end()) label->fail("the label of a dish: 1 for the first, 201, 202, … for further ones", "correct the value");
+    const auto dish =
+        std::ranges::find(scene.dishes, wanted, [](const LaidDish& laid) { return laid.dish.label; });
+    if (dish == scene.dishes.end())
+      label->fail("the label of a dish: 1 for the first, 201, 202, … for further ones", "correct the value");
     food.dish = static_cast<int>(dish - scene.dishes.begin());
   }
   table.read("centre_mm", food.centre_mm, kPlaceMm);
@@ -164,7 +174,8 @@ LaidFood read_food(const JsonNode& node, const SceneDescription& scene, const st
 }
 
 void read_card(const JsonNode& node, LaidCard& card) {
-  const SceneTable table(node, {"width_mm", "height_mm", "thickness_mm", "centre_mm", "rotation_deg", "design"});
+  const SceneTable table(node,
+                         {"width_mm", "height_mm", "thickness_mm", "centre_mm", "rotation_deg", "design"});
   table.read("width_mm", card.width_mm, {20.0, 300.0});
   table.read("height_mm", card.height_mm, {20.0, 300.0});
   table.read("thickness_mm", card.thickness_mm, {0.05, 10.0});
@@ -174,8 +185,9 @@ void read_card(const JsonNode& node, LaidCard& card) {
 }
 
 Photograph read_view(const JsonNode& node) {
-  const SceneTable table(node, {"target_mm", "distance_mm", "tilt_deg", "azimuth_deg", "roll_deg", "exposure", "white_balance",
-                                "focus_error_mm", "arm_angle_deg", "tray_shift_mm", "tray_turn_deg"});
+  const SceneTable table(
+      node, {"target_mm", "distance_mm", "tilt_deg", "azimuth_deg", "roll_deg", "exposure", "white_balance",
+             "focus_error_mm", "arm_angle_deg", "tray_shift_mm", "tray_turn_deg"});
   Photograph view;
   table.read("target_mm", view.target_mm, kPlaceMm);
   table.read("distance_mm", view.distance_mm, {50.0, 5000.0});
@@ -254,7 +266,8 @@ SceneDescription read_scene_file(const std::filesystem::path& file) {
   const nlohmann::json document = read_toml(file, kMaxFileBytes, "a scene in TOML");
   const std::filesystem::path folder = file.parent_path();
   const JsonNode node(document, file);
-  const SceneTable root(node, {"name", "seed", "camera", "dishes", "foods", "card", "table", "tray", "utensils", "lamps", "ambient", "views", "pairs"});
+  const SceneTable root(node, {"name", "seed", "camera", "dishes", "foods", "card", "table", "tray",
+                               "utensils", "lamps", "ambient", "views", "pairs"});
   SceneDescription scene;
   scene.name = file.stem().string();
   if (const auto name = root.find("name")) scene.name = name->text();
@@ -265,11 +278,13 @@ SceneDescription read_scene_file(const std::filesystem::path& file) {
   for (const JsonNode& dish : node.member("dishes").elements(1, kMaxDishes))
     scene.dishes.push_back(read_laid_dish(dish, folder, scene.dishes.size()));
   if (const auto foods = root.find("foods")) {
-    for (const JsonNode& food : foods->elements(0, kMaxFoods)) scene.foods.push_back(read_food(food, scene, folder));
+    for (const JsonNode& food : foods->elements(0, kMaxFoods))
+      scene.foods.push_back(read_food(food, scene, folder));
   }
   if (const auto card = root.find("card")) read_card(*card, scene.card);
   read_surroundings(root, scene);
-  for (const JsonNode& view : node.member("views").elements(1, kMaxViews)) scene.views.push_back(read_view(view));
+  for (const JsonNode& view : node.member("views").elements(1, kMaxViews))
+    scene.views.push_back(read_view(view));
   read_pairs(root, scene);
   return scene;
 }

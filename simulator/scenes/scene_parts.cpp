@@ -23,7 +23,8 @@ DishDescription usual_dish(DishStyle style) {
     case DishStyle::soup:
       dish.style = "soup";
       dish.outer_size_mm = {230.0, 230.0};
-      dish.profile = {{0, 39.4}, {1.6, 40.0}, {4.5, 39.6}, {19, 36.6}, {25, 31.5}, {32, 18.5}, {39, 8.6}, {45, 5.5}};
+      dish.profile = {{0, 39.4},  {1.6, 40.0}, {4.5, 39.6}, {19, 36.6},
+                      {25, 31.5}, {32, 18.5},  {39, 8.6},   {45, 5.5}};
       break;
     case DishStyle::oval:
       dish.style = "oval";
@@ -33,12 +34,14 @@ DishDescription usual_dish(DishStyle style) {
     case DishStyle::bowl:
       dish.style = "bowl";
       dish.outer_size_mm = {150.0, 150.0};
-      dish.profile = {{0, 53.4}, {1.5, 54.2}, {3.0, 53.0}, {8, 39.0}, {14, 27.5}, {21, 18.5}, {30, 11.0}, {40, 6.6}, {50, 5.2}};
+      dish.profile = {{0, 53.4},  {1.5, 54.2}, {3.0, 53.0}, {8, 39.0}, {14, 27.5},
+                      {21, 18.5}, {30, 11.0},  {40, 6.6},   {50, 5.2}};
       break;
     case DishStyle::dessert_bowl:
       dish.style = "dessert_bowl";
       dish.outer_size_mm = {104.0, 104.0};
-      dish.profile = {{0, 41.4}, {1.4, 42.0}, {3.0, 41.0}, {6.5, 29.5}, {10, 21.5}, {15, 13.5}, {22, 7.6}, {32, 4.4}};
+      dish.profile = {{0, 41.4},  {1.4, 42.0}, {3.0, 41.0}, {6.5, 29.5},
+                      {10, 21.5}, {15, 13.5},  {22, 7.6},   {32, 4.4}};
       break;
   }
   dish.rim_height_mm = dish.profile[1].height_mm;
@@ -52,7 +55,8 @@ double tenths(double value) {
 
 void scale_dish(DishDescription& dish, double scale) {
   for (double& size : dish.outer_size_mm) size = tenths(scale * size);
-  for (ProfilePoint& point : dish.profile) point = {tenths(scale * point.inset_mm), tenths(scale * point.height_mm)};
+  for (ProfilePoint& point : dish.profile)
+    point = {tenths(scale * point.inset_mm), tenths(scale * point.height_mm)};
   dish.rim_height_mm = tenths(scale * dish.rim_height_mm);
   dish.bottom_height_mm = tenths(scale * dish.bottom_height_mm);
 }
@@ -72,20 +76,23 @@ std::vector<Slot> slots(DishStyle style, std::size_t count) {
   const bool is_deep = style == DishStyle::soup;
   if (count == 2) {
     const double x = is_deep ? 33.0 : 38.0;
-    return {{-x, 0, 90, is_deep ? 100.0 : 118.0, is_deep ? 60.0 : 72.0}, {x, 0, 90, is_deep ? 100.0 : 118.0, is_deep ? 60.0 : 72.0}};
+    return {{-x, 0, 90, is_deep ? 100.0 : 118.0, is_deep ? 60.0 : 72.0},
+            {x, 0, 90, is_deep ? 100.0 : 118.0, is_deep ? 60.0 : 72.0}};
   }
   const double r = is_deep ? 37.0 : 44.0;
   std::vector<Slot> around;
   for (int i = 0; i < 3; ++i) {
     const double angle = radians(90.0 + 120.0 * i);
-    around.push_back({r * std::cos(angle), r * std::sin(angle), 180.0 + 120.0 * i, is_deep ? 72.0 : 88.0, is_deep ? 54.0 : 66.0});
+    around.push_back({r * std::cos(angle), r * std::sin(angle), 180.0 + 120.0 * i, is_deep ? 72.0 : 88.0,
+                      is_deep ? 54.0 : 66.0});
   }
   return around;
 }
 
 FoodSize portion(Draws& draws, const FoodKind& kind, const Slot& slot, double scale) {
   const double wanted = draws.between(0.88, 1.12);
-  const double room = scale * std::min(slot.length_mm / kind.size.length_mm, slot.width_mm / kind.size.width_mm);
+  const double room =
+      scale * std::min(slot.length_mm / kind.size.length_mm, slot.width_mm / kind.size.width_mm);
   const double plan = std::min(wanted, room);
   // A smaller portion is lower, too, but not by as much.
   const double height = std::sqrt(std::min(1.0, plan)) * draws.between(0.9, 1.12);
@@ -98,10 +105,11 @@ struct LightColour {
 };
 
 // Lamps as sold (warm white, neutral white, cool daylight), already seen by a camera set to daylight.
-const std::array<Eigen::Vector3d, 3> kLightColours = {Eigen::Vector3d(1.18, 0.98, 0.74), Eigen::Vector3d(1.04, 1.0, 0.93),
-                                                      Eigen::Vector3d(0.93, 1.0, 1.09)};
+const std::array<Eigen::Vector3d, 3> kLightColours = {
+    Eigen::Vector3d(1.18, 0.98, 0.74), Eigen::Vector3d(1.04, 1.0, 0.93), Eigen::Vector3d(0.93, 1.0, 1.09)};
 
-Lamp ceiling_lamp(double x_mm, double y_mm, double height_mm, double u_mm, double v_mm, const Eigen::Vector3d& radiance) {
+Lamp ceiling_lamp(double x_mm, double y_mm, double height_mm, double u_mm, double v_mm,
+                  const Eigen::Vector3d& radiance) {
   return {{x_mm, y_mm, height_mm}, {u_mm, 0.0, 0.0}, {0.0, v_mm, 0.0}, radiance};
 }
 
@@ -120,7 +128,8 @@ LaidDish draw_dish(Draws& draws, DishStyle style, double scale, int label) {
   laid.glaze.roughness = static_cast<float>(draws.between(0.06, 0.18));
   const int decoration = draws.whole(0, 4);
   if (decoration == 1) laid.glaze.lines = {{4.0, 2.2}};
-  if (decoration == 2) laid.glaze.lines = {{3.0, 1.2}, {draws.between(10.0, 18.0), 0.8}, {draws.between(19.0, 21.0), 0.6}};
+  if (decoration == 2)
+    laid.glaze.lines = {{3.0, 1.2}, {draws.between(10.0, 18.0), 0.8}, {draws.between(19.0, 21.0), 0.6}};
   if (decoration == 3) laid.glaze.speck_share = draws.between(0.1, 0.35);
   return laid;
 }
@@ -136,7 +145,8 @@ void draw_foods(SceneDescription& scene, Draws& draws, int dish, DishStyle style
     food.kind = kinds[i]->name;
     food.name = food.kind;
     food.dish = dish;
-    food.centre_mm = scale * (turn * Eigen::Vector2d(slot.x_mm + draws.between(-3.0, 3.0), slot.y_mm + draws.between(-4.0, 4.0)));
+    food.centre_mm = scale * (turn * Eigen::Vector2d(slot.x_mm + draws.between(-3.0, 3.0),
+                                                     slot.y_mm + draws.between(-4.0, 4.0)));
     food.rotation_deg = slot.rotation_deg + turn_deg + draws.between(-8.0, 8.0) + 180.0 * draws.whole(0, 1);
     food.size = portion(draws, *kinds[i], slot, scale);
     food.seed = draws.seed();
@@ -152,7 +162,8 @@ void draw_filling(SceneDescription& scene, Draws& draws, int dish, const FoodKin
   food.dish = dish;
   food.rotation_deg = draws.between(0.0, 360.0);
   food.seed = draws.seed();
-  food.level_mm = tenths(description.bottom_height_mm + level_share * (description.rim_height_mm - description.bottom_height_mm));
+  food.level_mm = tenths(description.bottom_height_mm +
+                         level_share * (description.rim_height_mm - description.bottom_height_mm));
   scene.foods.push_back(food);
 }
 
@@ -166,7 +177,8 @@ void draw_lamps(SceneDescription& scene, Draws& draws) {
     case 0:  // panels of 600 mm in a grid
       for (int i = 0; i < 4; ++i) {
         const double pitch = 1800.0;
-        scene.lamps.push_back(ceiling_lamp(x + pitch * (i % 2 - 0.5), y + pitch * (i / 2 - 0.5), height, 595.0, 595.0, 10.0 * colour));
+        scene.lamps.push_back(ceiling_lamp(x + pitch * (i % 2 - 0.5), y + pitch * (i / 2 - 0.5), height,
+                                           595.0, 595.0, 10.0 * colour));
       }
       break;
     case 1:  // two rows of tubes
@@ -178,14 +190,17 @@ void draw_lamps(SceneDescription& scene, Draws& draws) {
       const double c = std::cos(direction);
       const double s = std::sin(direction);
       const double away = draws.between(1100.0, 1800.0);
-      scene.lamps.push_back({{away * c, away * s, 900.0}, {-1300.0 * s, 1300.0 * c, 0.0}, {0.0, 0.0, 1300.0},
+      scene.lamps.push_back({{away * c, away * s, 900.0},
+                             {-1300.0 * s, 1300.0 * c, 0.0},
+                             {0.0, 0.0, 1300.0},
                              6.0 * Eigen::Vector3d(0.95, 1.0, 1.06)});
       scene.lamps.push_back(ceiling_lamp(x, y, height, 595.0, 595.0, 7.0 * colour));
       room_share = 0.22;
       break;
     }
     default:  // a lamp hung over the table, and others far away
-      scene.lamps.push_back(ceiling_lamp(0.6 * x, 0.6 * y, draws.between(950.0, 1200.0), 380.0, 380.0, 9.0 * colour));
+      scene.lamps.push_back(
+          ceiling_lamp(0.6 * x, 0.6 * y, draws.between(950.0, 1200.0), 380.0, 380.0, 9.0 * colour));
       scene.lamps.push_back(ceiling_lamp(x + 1500.0, y, height, 595.0, 595.0, 5.0 * colour));
       break;
   }
@@ -195,7 +210,8 @@ void draw_lamps(SceneDescription& scene, Draws& draws) {
     const Eigen::Vector3d to = lamp.centre_mm;
     irradiance += lamp.radiance.y() * std::abs(normal.dot(to)) * to.z() / std::pow(to.norm(), 4.0);
   }
-  scene.ambient = room_share * draws.between(0.8, 1.3) * irradiance / 3.14159 * Eigen::Vector3d(0.5 * (colour + Eigen::Vector3d::Ones()));
+  scene.ambient = room_share * draws.between(0.8, 1.3) * irradiance / 3.14159 *
+                  Eigen::Vector3d(0.5 * (colour + Eigen::Vector3d::Ones()));
   for (Photograph& view : scene.views) {
     view.white_balance = {std::pow(colour.y() / colour.x(), 0.85), std::pow(colour.y() / colour.z(), 0.85)};
   }
@@ -237,14 +253,17 @@ void draw_card(SceneDescription& scene, Draws& draws) {
     // Beside the dish along the picture's width, where there is more room.
     const double direction = draws.between(-0.55, 0.55) + (draws.chance(0.5) ? 3.14159 : 0.0);
     const double away = draws.between(130.0, 240.0);
-    card.centre_mm = scene.dishes.front().centre_mm + away * Eigen::Vector2d(std::cos(direction), std::sin(direction));
+    card.centre_mm =
+        scene.dishes.front().centre_mm + away * Eigen::Vector2d(std::cos(direction), std::sin(direction));
     card.rotation_deg = draws.between(0.0, 360.0);
     const Eigen::Isometry3d world_of_card = world_from_card(card);
     bool is_near = false;
     bool is_free = true;
     for (int i = 0; i <= 8; ++i) {
       for (int k = 0; k <= 8; ++k) {
-        const Eigen::Vector3d at = dish_from_world * (world_of_card * Eigen::Vector3d(card.width_mm * i / 8.0, card.height_mm * k / 8.0, 0.0));
+        const Eigen::Vector3d at =
+            dish_from_world *
+            (world_of_card * Eigen::Vector3d(card.width_mm * i / 8.0, card.height_mm * k / 8.0, 0.0));
         is_free = is_free && !shell.contains(at.x(), at.y(), -10.0);
         is_near = is_near || shell.contains(at.x(), at.y(), -30.0);
       }

@@ -44,7 +44,8 @@ ViewCamera view_camera(const SceneDescription& scene, const Photograph& view) {
 
   const double tilt = radians(view.tilt_deg);
   const double azimuth = radians(view.azimuth_deg);
-  const Eigen::Vector3d back(std::sin(tilt) * std::cos(azimuth), std::sin(tilt) * std::sin(azimuth), std::cos(tilt));
+  const Eigen::Vector3d back(std::sin(tilt) * std::cos(azimuth), std::sin(tilt) * std::sin(azimuth),
+                             std::cos(tilt));
   // Without roll the picture's x is the world's as nearly as the axis allows.
   Eigen::Matrix3d room_from_camera;
   room_from_camera.col(2) = -back;
@@ -58,7 +59,8 @@ ViewCamera view_camera(const SceneDescription& scene, const Photograph& view) {
   return camera;
 }
 
-double relative_angle_deg(const ViewCamera& first, const ViewCamera& second, const Eigen::Vector3d& point_mm) {
+double relative_angle_deg(const ViewCamera& first, const ViewCamera& second,
+                          const Eigen::Vector3d& point_mm) {
   const auto direction = [&](const ViewCamera& camera) {
     return (camera.camera_from_world.inverse().translation() - point_mm).normalized();
   };

@@ -82,8 +82,10 @@ void finish(SceneDescription& scene, Draws& draws) {
   draws.shuffle(std::span<LaidFood>(scene.foods));  // labels tell nothing
 }
 
-constexpr std::array kTables = {SurfaceKind::wood, SurfaceKind::laminate, SurfaceKind::cloth, SurfaceKind::plastic};
-constexpr std::array kOtherTables = {SurfaceKind::granite, SurfaceKind::checked_cloth, SurfaceKind::cork, SurfaceKind::steel};
+constexpr std::array kTables = {SurfaceKind::wood, SurfaceKind::laminate, SurfaceKind::cloth,
+                                SurfaceKind::plastic};
+constexpr std::array kOtherTables = {SurfaceKind::granite, SurfaceKind::checked_cloth, SurfaceKind::cork,
+                                     SurfaceKind::steel};
 constexpr std::array kPlates = {DishStyle::dinner, DishStyle::soup, DishStyle::oval};
 
 // One dish with foods on it, the table and the card; no views yet.
@@ -142,7 +144,9 @@ std::vector<SceneDescription> make_plates(std::uint64_t seed) {
     const auto kinds = menu.deal(2);
     SceneDescription first;
     for (const DishStyle style : {DishStyle::soup, DishStyle::dinner, DishStyle::oval}) {
-      const std::string plate = style == DishStyle::soup ? "soup" : style == DishStyle::dinner ? "dinner" : "oval";
+      const std::string plate = style == DishStyle::soup     ? "soup"
+                                : style == DishStyle::dinner ? "dinner"
+                                                             : "oval";
       const std::string name = numbered("c", meal + 1) + "_" + plate;
       Draws draws(seed, "plates-18 " + name);
       SceneDescription scene = lay_meal(name, draws, style, 1.0, kinds, kTables);
@@ -168,7 +172,8 @@ std::vector<SceneDescription> make_other_meals(std::uint64_t seed) {
     const std::string name = numbered("n", i + 1);
     Draws draws(seed, "meals-14 " + name);
     const auto kinds = menu.deal(2 + (i % 3) / 2);
-    SceneDescription scene = lay_meal(name, draws, kPlates[i % 3], draws.between(0.92, 1.08), kinds, kOtherTables);
+    SceneDescription scene =
+        lay_meal(name, draws, kPlates[i % 3], draws.between(0.92, 1.08), kinds, kOtherTables);
     draw_views(scene, draws, 3, {});
     finish(scene, draws);
     scenes.push_back(std::move(scene));
@@ -177,8 +182,8 @@ std::vector<SceneDescription> make_other_meals(std::uint64_t seed) {
 }
 
 // A plate with a meal, a bowl or plate with soup and, on some, a dessert.
-SceneDescription lay_tray(const std::string& name, Draws draws, bool has_dessert, std::span<const FoodKind* const> meal,
-                          Menu& soups, Menu& desserts) {
+SceneDescription lay_tray(const std::string& name, Draws draws, bool has_dessert,
+                          std::span<const FoodKind* const> meal, Menu& soups, Menu& desserts) {
   SceneDescription scene = empty_scene(name, draws);
   draw_camera(scene, draws, kWideFocalPx);
   constexpr std::array kTops = {SurfaceKind::plastic, SurfaceKind::wood, SurfaceKind::laminate};
@@ -187,14 +192,16 @@ SceneDescription lay_tray(const std::string& name, Draws draws, bool has_dessert
   const DishStyle plate = draws.chance(0.5) ? DishStyle::oval : DishStyle::dinner;
   const bool is_deep_plate = draws.chance(0.4);
   const double plate_scale = plate == DishStyle::oval ? 0.92 : 0.95;
-  scene.dishes = {draw_dish(draws, plate, plate_scale, 1),
-                  draw_dish(draws, is_deep_plate ? DishStyle::soup : DishStyle::bowl, is_deep_plate ? 0.85 : 1.0, 201)};
+  scene.dishes = {
+      draw_dish(draws, plate, plate_scale, 1),
+      draw_dish(draws, is_deep_plate ? DishStyle::soup : DishStyle::bowl, is_deep_plate ? 0.85 : 1.0, 201)};
   if (has_dessert) scene.dishes.push_back(draw_dish(draws, DishStyle::dessert_bowl, 1.0, 202));
   scene.card.thickness_mm = draws.chance(0.5) ? 0.8 : 0.2;
   scene.card.design = draws.seed();
   lay_out_tray(scene, draws);
   draw_foods(scene, draws, 0, plate, plate_scale, meal);
-  draw_filling(scene, draws, 1, *soups.deal(), is_deep_plate ? draws.between(0.45, 0.62) : draws.between(0.55, 0.78));
+  draw_filling(scene, draws, 1, *soups.deal(),
+               is_deep_plate ? draws.between(0.45, 0.62) : draws.between(0.55, 0.78));
   if (has_dessert) draw_filling(scene, draws, 2, *desserts.deal(), draws.between(0.68, 0.85));
   return scene;
 }

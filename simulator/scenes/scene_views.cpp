@@ -31,7 +31,8 @@ std::vector<Eigen::Vector3d> outline_of(const SceneDescription& scene) {
   }
   const Eigen::Isometry3d card = world_from_card(scene.card);
   for (int i = 0; i < 4; ++i) {
-    points.emplace_back(card * Eigen::Vector3d(i % 2 == 0 ? 0.0 : scene.card.width_mm, i < 2 ? 0.0 : scene.card.height_mm, 0.0));
+    points.emplace_back(card * Eigen::Vector3d(i % 2 == 0 ? 0.0 : scene.card.width_mm,
+                                               i < 2 ? 0.0 : scene.card.height_mm, 0.0));
   }
   return points;
 }
@@ -76,7 +77,8 @@ bool is_all_in_picture(const SceneDescription& scene, const Photograph& view) {
     const Eigen::Vector3d at = camera.camera_from_world * point;
     if (at.z() <= 1.0) return false;
     const Eigen::Vector2d pixel = lens.pixel_of(at.head<2>() / at.z());
-    return pixel.x() > border && pixel.y() > border && pixel.x() < camera.width - border && pixel.y() < camera.height - border;
+    return pixel.x() > border && pixel.y() > border && pixel.x() < camera.width - border &&
+           pixel.y() < camera.height - border;
   });
 }
 
@@ -89,12 +91,14 @@ void draw_views(SceneDescription& scene, Draws& draws, int count, const ViewLimi
     const std::optional<Photograph> view = draw_view(scene, draws, limits, target_mm);
     if (!view) continue;
     const auto suits = [&](const Photograph& other) {
-      const double angle_deg = relative_angle_deg(view_camera(scene, *view), view_camera(scene, other), middle);
+      const double angle_deg =
+          relative_angle_deg(view_camera(scene, *view), view_camera(scene, other), middle);
       return angle_deg >= limits.least_angle_deg && angle_deg <= limits.largest_angle_deg;
     };
     if (std::all_of(views.begin(), views.end(), suits)) views.push_back(*view);
   }
-  if (views.size() < static_cast<std::size_t>(count)) throw std::invalid_argument(scene.name + ": no views found");
+  if (views.size() < static_cast<std::size_t>(count))
+    throw std::invalid_argument(scene.name + ": no views found");
   scene.views = views;
   for (int i = 0; i < count; ++i) {
     for (int k = i + 1; k < count; ++k) scene.pairs.push_back({i, k});
@@ -107,15 +111,17 @@ void draw_arm_views(SceneDescription& scene, Draws& draws, double distance_mm) {
   const Eigen::Vector3d target_mm = target_of(scene);
   for (int tries = 0; tries < kTries; ++tries) {
     const double start_deg = draws.between(-25.0, -10.0);
-    const double aside = radians(draws.between(-8.0, 8.0));
     const double sense = draws.chance(0.5) ? 1.0 : -1.0;
     scene.views.clear();
     for (int i = 0; i <= kSteps; ++i) {
       const double arm = radians(sense * (start_deg + kStepDeg * i));
-      const Eigen::Vector3d back = Eigen::AngleAxisd(arm, Eigen::Vector3d::UnitX()) * Eigen::Vector3d(std::sin(aside), 0.0, std::cos(aside));
+      const Eigen::Vector3d middle = middle_of(scene);
+      const Eigen::Vector3d out = Eigen::AngleAxisd(arm, Eigen::Vector3d::UnitX()) * Eigen::Vector3d::UnitZ();
       Photograph view;
-      view.target_mm = {target_mm.x(), middle_of(scene).y(), middle_of(scene).z()};
-      view.distance_mm = distance_mm;
+      view.target_mm = {target_mm.x(), middle.y(), middle.z()};
+      const Eigen::Vector3d offset = middle + distance_mm * out - view.target_mm;
+      const Eigen::Vector3d back = offset.normalized();
+      view.distance_mm = offset.norm();
       view.tilt_deg = std::acos(back.z()) * 180.0 / std::numbers::pi;
       view.azimuth_deg = std::atan2(back.y(), back.x()) * 180.0 / std::numbers::pi;
       scene.views.push_back(view);
@@ -138,7 +144,8 @@ void draw_moved_views(SceneDescription& scene, Draws& draws, const ViewLimits& l
     second.tray_shift_mm = {draws.between(-25.0, 25.0), draws.between(-25.0, 25.0)};
     second.tray_turn_deg = draws.between(12.0, 40.0) * (draws.chance(0.5) ? 1.0 : -1.0);
     if (!is_all_in_picture(scene, second)) continue;
-    const double angle_deg = relative_angle_deg(view_camera(scene, *first), view_camera(scene, second), middle);
+    const double angle_deg =
+        relative_angle_deg(view_camera(scene, *first), view_camera(scene, second), middle);
     if (angle_deg < limits.least_angle_deg || angle_deg > limits.largest_angle_deg) continue;
     scene.views = {*first, second};
     scene.pairs = {{0, 1}};

@@ -20,8 +20,8 @@ struct ViewLimits {
 // `count` views by hand, and every pair of them. Throws std::invalid_argument when none are found.
 void draw_views(SceneDescription& scene, Draws& draws, int count, const ViewLimits& limits);
 
-// A first view and further ones by an arm that turns about the world's x through the dish's middle, in steps of 5° up
-// to 35°; pairs of the first with each.
+// A first view and further ones by an arm that turns about the world's x through the dish's middle, in steps
+// of 5° up to 35°; pairs of the first with each.
 void draw_arm_views(SceneDescription& scene, Draws& draws, double distance_mm);
 
 // One view, and one of the tray turned and shifted under the still camera.

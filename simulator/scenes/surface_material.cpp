@@ -34,14 +34,20 @@ class PatternedSurface : public Material {
       const auto& colours = draws.pick(choices);
       for (std::size_t i = 0; i < 3; ++i) colours_[i] = linear_colour(colours[i]);
     };
-    constexpr std::array<std::array<std::uint32_t, 3>, 4> kWood = {
-        {{0x8A5A34, 0x5C3820, 0x3A2314}, {0xB98A58, 0x94663A, 0x6E4A28}, {0x6A4026, 0x482A18, 0x2C190E}, {0xC9A273, 0xA98052, 0x7E5C38}}};
-    constexpr std::array<std::array<std::uint32_t, 3>, 4> kLaminate = {
-        {{0xA8A29A, 0x5A544E, 0xD8D4CC}, {0xC9C2B4, 0x8A7C68, 0x4E463C}, {0x6E7074, 0x3A3C40, 0xB4B6BA}, {0xB4BCC0, 0x6A7880, 0xE4E8EA}}};
+    constexpr std::array<std::array<std::uint32_t, 3>, 4> kWood = {{{0x8A5A34, 0x5C3820, 0x3A2314},
+                                                                    {0xB98A58, 0x94663A, 0x6E4A28},
+                                                                    {0x6A4026, 0x482A18, 0x2C190E},
+                                                                    {0xC9A273, 0xA98052, 0x7E5C38}}};
+    constexpr std::array<std::array<std::uint32_t, 3>, 4> kLaminate = {{{0xA8A29A, 0x5A544E, 0xD8D4CC},
+                                                                        {0xC9C2B4, 0x8A7C68, 0x4E463C},
+                                                                        {0x6E7074, 0x3A3C40, 0xB4B6BA},
+                                                                        {0xB4BCC0, 0x6A7880, 0xE4E8EA}}};
     constexpr std::array<std::array<std::uint32_t, 3>, 3> kCloth = {
         {{0xCFC8B8, 0xB4AA96, 0x8C8270}, {0x8A9AA8, 0x6E7E8E, 0x586674}, {0xB0A080, 0x94845E, 0x786A4A}}};
-    constexpr std::array<std::array<std::uint32_t, 3>, 4> kPlastic = {
-        {{0x7A2A22, 0x6A221C, 0x8C3A30}, {0x5A5E62, 0x4C5054, 0x6C7074}, {0x8C6A48, 0x7A5A3A, 0x9E7C58}, {0x2E5A4A, 0x264C3E, 0x3C6C5A}}};
+    constexpr std::array<std::array<std::uint32_t, 3>, 4> kPlastic = {{{0x7A2A22, 0x6A221C, 0x8C3A30},
+                                                                       {0x5A5E62, 0x4C5054, 0x6C7074},
+                                                                       {0x8C6A48, 0x7A5A3A, 0x9E7C58},
+                                                                       {0x2E5A4A, 0x264C3E, 0x3C6C5A}}};
     constexpr std::array<std::array<std::uint32_t, 3>, 1> kSteel = {{{0xC4C6C8, 0xAEB0B2, 0xD4D6D8}}};
     constexpr std::array<std::array<std::uint32_t, 3>, 2> kGranite = {
         {{0x8C8680, 0x3C3A38, 0xD0C8BC}, {0x50565A, 0x22262A, 0xA0A8AC}}};
@@ -49,28 +55,52 @@ class PatternedSurface : public Material {
         {{0xE4DED0, 0xA83228, 0xC88078}, {0xE2E0DA, 0x32508C, 0x8494B4}}};
     constexpr std::array<std::array<std::uint32_t, 3>, 1> kCork = {{{0xB08858, 0x7E5A34, 0x5A3C20}}};
     switch (kind) {
-      case SurfaceKind::wood: choose(kWood); break;
-      case SurfaceKind::laminate: choose(kLaminate); break;
-      case SurfaceKind::cloth: choose(kCloth); break;
-      case SurfaceKind::plastic: choose(kPlastic); break;
-      case SurfaceKind::steel: choose(kSteel); break;
-      case SurfaceKind::granite: choose(kGranite); break;
-      case SurfaceKind::checked_cloth: choose(kChecked); break;
-      case SurfaceKind::cork: choose(kCork); break;
+      case SurfaceKind::wood:
+        choose(kWood);
+        break;
+      case SurfaceKind::laminate:
+        choose(kLaminate);
+        break;
+      case SurfaceKind::cloth:
+        choose(kCloth);
+        break;
+      case SurfaceKind::plastic:
+        choose(kPlastic);
+        break;
+      case SurfaceKind::steel:
+        choose(kSteel);
+        break;
+      case SurfaceKind::granite:
+        choose(kGranite);
+        break;
+      case SurfaceKind::checked_cloth:
+        choose(kChecked);
+        break;
+      case SurfaceKind::cork:
+        choose(kCork);
+        break;
     }
   }
 
   Reflectance at(const Eigen::Vector3f& point_mm, const Eigen::Vector3f&) const override {
     const Eigen::Vector3f at = local_from_world_ * point_mm;
     switch (kind_) {
-      case SurfaceKind::wood: return wood(at);
-      case SurfaceKind::laminate: return laminate(at);
-      case SurfaceKind::cloth: return cloth(at, 0.0F);
-      case SurfaceKind::plastic: return plastic(at);
-      case SurfaceKind::steel: return steel(at);
-      case SurfaceKind::granite: return granite(at);
-      case SurfaceKind::checked_cloth: return cloth(at, 24.0F);
-      case SurfaceKind::cork: return cork(at);
+      case SurfaceKind::wood:
+        return wood(at);
+      case SurfaceKind::laminate:
+        return laminate(at);
+      case SurfaceKind::cloth:
+        return cloth(at, 0.0F);
+      case SurfaceKind::plastic:
+        return plastic(at);
+      case SurfaceKind::steel:
+        return steel(at);
+      case SurfaceKind::granite:
+        return granite(at);
+      case SurfaceKind::checked_cloth:
+        return cloth(at, 24.0F);
+      case SurfaceKind::cork:
+        return cork(at);
     }
     return {};
   }
@@ -92,8 +122,7 @@ class PatternedSurface : public Material {
     const float shift = 400.0F * hash_share(hash_cell(static_cast<int>(board), 5, 9, seed_));
     const Eigen::Vector3f stretched(at.x() / 160.0F + shift, at.y() / 14.0F, 0.3F * board);
     const float rings = std::sin(9.0F * fractal_noise(stretched, seed_, 3));
-    const float fibre =
-        fractal_noise({at.x() / 22.0F + shift, at.y() / 1.1F, board}, seed_ + 3U, 3);
+    const float fibre = fractal_noise({at.x() / 22.0F + shift, at.y() / 1.1F, board}, seed_ + 3U, 3);
     Eigen::Vector3f base = blend(colours_[0], colours_[1], smooth_step(-0.9F, 0.9F, rings + 0.7F * fibre));
     const float pore = gradient_noise({at.x() / 9.0F + shift, at.y() / 0.7F, 0.5F}, seed_ + 7U);
     base = blend(base, colours_[2], 0.8F * smooth_step(0.35F, 0.6F, pore));
@@ -122,12 +151,16 @@ class PatternedSurface : public Material {
     const float iv = std::floor(v);
     const bool is_warp = (static_cast<int>(iu) + static_cast<int>(iv)) % 2 == 0;
     const float across = is_warp ? u - iu : v - iv;
-    const float thread = hash_share(hash_cell(static_cast<int>(is_warp ? iu : iv), is_warp ? 1 : 2, 0, seed_));
-    const float slub = fractal_noise({at.x() / (is_warp ? 1.5F : 18.0F), at.y() / (is_warp ? 18.0F : 1.5F), 0.0F}, seed_, 2);
-    Eigen::Vector3f base = blend(colours_[0], colours_[1], std::clamp(0.6F * thread + 0.6F * slub, 0.0F, 1.0F));
+    const float thread =
+        hash_share(hash_cell(static_cast<int>(is_warp ? iu : iv), is_warp ? 1 : 2, 0, seed_));
+    const float slub =
+        fractal_noise({at.x() / (is_warp ? 1.5F : 18.0F), at.y() / (is_warp ? 18.0F : 1.5F), 0.0F}, seed_, 2);
+    Eigen::Vector3f base =
+        blend(colours_[0], colours_[1], std::clamp(0.6F * thread + 0.6F * slub, 0.0F, 1.0F));
     if (check_mm > 0.0F) {
-      const int bands = static_cast<int>(std::floor(at.x() / check_mm) - 2.0F * std::floor(0.5F * at.x() / check_mm)) +
-                        static_cast<int>(std::floor(at.y() / check_mm) - 2.0F * std::floor(0.5F * at.y() / check_mm));
+      const int bands =
+          static_cast<int>(std::floor(at.x() / check_mm) - 2.0F * std::floor(0.5F * at.x() / check_mm)) +
+          static_cast<int>(std::floor(at.y() / check_mm) - 2.0F * std::floor(0.5F * at.y() / check_mm));
       base = colours_[bands == 0 ? 0U : bands == 1 ? 2U : 1U] * (0.85F + 0.2F * thread + 0.15F * slub);
     }
     base *= 0.55F + 0.45F * std::sin(3.14159F * across);
@@ -137,7 +170,8 @@ class PatternedSurface : public Material {
 
   // Scratched and stained as trays of a canteen are.
   Reflectance plastic(const Eigen::Vector3f& at) const {
-    Eigen::Vector3f base = blend(colours_[0], colours_[1], smooth_step(-0.7F, 0.7F, fractal_noise(at / 45.0F, seed_, 4)));
+    Eigen::Vector3f base =
+        blend(colours_[0], colours_[1], smooth_step(-0.7F, 0.7F, fractal_noise(at / 45.0F, seed_, 4)));
     base *= 1.0F + 0.10F * fractal_noise(at / 1.2F, seed_ + 2U, 2);
     for (std::uint32_t i = 0; i < 3; ++i) {
       const float angle = 6.28318F * hash_share(hash_cell(static_cast<int>(i), 3, 3, seed_));
@@ -207,7 +241,9 @@ class GlazeMaterial : public Material {
     }
     if (!glaze_.lines.empty()) {
       const double inset_mm = shell_.inset_mm(static_cast<double>(at.x()), static_cast<double>(at.y()));
-      const auto covers = [&](const RimLine& line) { return std::abs(inset_mm - line.inset_mm) < 0.5 * line.width_mm; };
+      const auto covers = [&](const RimLine& line) {
+        return std::abs(inset_mm - line.inset_mm) < 0.5 * line.width_mm;
+      };
       if (std::any_of(glaze_.lines.begin(), glaze_.lines.end(), covers)) reflectance.base = decoration_;
     }
     return reflectance;

@@ -18,7 +18,8 @@ enum class SurfaceKind : std::uint8_t { wood, laminate, cloth, plastic, steel, g
 // In the order of SurfaceKind.
 std::span<const std::string_view> surface_kind_names();
 
-// A flat surface with the pattern in the coordinates that `local_from_world` leads to; the seed chooses colours, too.
+// A flat surface with the pattern in the coordinates that `local_from_world` leads to; the seed chooses
+// colours, too.
 std::shared_ptr<const Material> make_surface(SurfaceKind kind, std::uint64_t seed,
                                              const Eigen::Isometry3d& local_from_world);
 

@@ -42,10 +42,14 @@ struct Section {
 
 constexpr std::array kHandle = std::to_array<Section>(
     {{0.0, 5.0, 1.5}, {0.02, 8.5, 1.5}, {0.1, 9.0, 2.0}, {0.3, 7.0, 3.5}, {0.5, 4.0, 5.0}});
-constexpr std::array kSpoonBowl = std::to_array<Section>(
-    {{0.62, 3.6, 6.0}, {0.68, 6.0, 4.0}, {0.74, 15.0, 2.0}, {0.82, 21.0, 1.6}, {0.92, 18.0, 2.6}, {1.0, 3.0, 4.0}});
-constexpr std::array kForkHead = std::to_array<Section>(
-    {{0.62, 3.6, 6.0}, {0.68, 7.0, 4.0}, {0.74, 12.5, 2.2}, {0.78, 12.5, 1.8}});
+constexpr std::array kSpoonBowl = std::to_array<Section>({{0.62, 3.6, 6.0},
+                                                          {0.68, 6.0, 4.0},
+                                                          {0.74, 15.0, 2.0},
+                                                          {0.82, 21.0, 1.6},
+                                                          {0.92, 18.0, 2.6},
+                                                          {1.0, 3.0, 4.0}});
+constexpr std::array kForkHead =
+    std::to_array<Section>({{0.62, 3.6, 6.0}, {0.68, 7.0, 4.0}, {0.74, 12.5, 2.2}, {0.78, 12.5, 1.8}});
 constexpr std::array kKnifeBlade = std::to_array<Section>(
     {{0.52, 5.0, 3.0}, {0.56, 9.0, 2.0}, {0.8, 10.0, 2.0}, {0.95, 8.0, 2.0}, {1.0, 2.0, 2.0}});
 
@@ -95,7 +99,8 @@ TriangleMesh fork_mesh() {
   constexpr double kLengthMm = 195.0;
   TriangleMesh mesh = bar(joined(kHandle, kForkHead), kLengthMm, 2.4, 2.0);
   for (int tine = 0; tine < 4; ++tine) {
-    constexpr std::array kTine = std::to_array<Section>({{0.77, 1.6, 2.0}, {0.88, 1.5, 2.4}, {1.0, 0.7, 5.0}});
+    constexpr std::array kTine =
+        std::to_array<Section>({{0.77, 1.6, 2.0}, {0.88, 1.5, 2.4}, {1.0, 0.7, 5.0}});
     TriangleMesh prong = bar(kTine, kLengthMm, 2.0, 0.0);
     transform(prong, Eigen::Isometry3d(Eigen::Translation3d(0.0, 7.0 * (tine - 1.5), 0.0)));
     append(mesh, prong);
@@ -119,12 +124,21 @@ TriangleMesh tray_mesh(const Tray& tray) {
   };
   constexpr double kLipMm = 12.0;
   constexpr double kRadiusMm = 45.0;
-  constexpr std::array kSteps = std::to_array<Step>(
-      {{17.0, 0.0}, {14.0, 0.4}, {11.0, 2.2}, {6.0, 8.0}, {3.5, 11.0}, {2.0, kLipMm}, {0.8, kLipMm}, {0.0, kLipMm - 1.5}, {0.6, 9.0}, {14.0, -kTrayFloorMm}});
+  constexpr std::array kSteps = std::to_array<Step>({{17.0, 0.0},
+                                                     {14.0, 0.4},
+                                                     {11.0, 2.2},
+                                                     {6.0, 8.0},
+                                                     {3.5, 11.0},
+                                                     {2.0, kLipMm},
+                                                     {0.8, kLipMm},
+                                                     {0.0, kLipMm - 1.5},
+                                                     {0.6, 9.0},
+                                                     {14.0, -kTrayFloorMm}});
   std::vector<Loop> loops;
   for (const Step& step : kSteps) {
-    loops.push_back(rounded_rectangle(0.5 * tray.size_mm[0] - step.inset_mm, 0.5 * tray.size_mm[1] - step.inset_mm,
-                                      kRadiusMm - step.inset_mm, step.z_mm));
+    loops.push_back(rounded_rectangle(0.5 * tray.size_mm[0] - step.inset_mm,
+                                      0.5 * tray.size_mm[1] - step.inset_mm, kRadiusMm - step.inset_mm,
+                                      step.z_mm));
   }
   TriangleMesh mesh = skin_of_loops(loops);
   add_smooth_normals(mesh);
@@ -133,10 +147,14 @@ TriangleMesh tray_mesh(const Tray& tray) {
 
 TriangleMesh utensil_mesh(UtensilKind kind) {
   switch (kind) {
-    case UtensilKind::fork: return fork_mesh();
-    case UtensilKind::knife: return bar(joined(kHandle, kKnifeBlade), 210.0, 3.0, 0.0);
-    case UtensilKind::spoon: return bar(joined(kHandle, kSpoonBowl), 195.0, 2.6, 5.0);
-    case UtensilKind::napkin: break;
+    case UtensilKind::fork:
+      return fork_mesh();
+    case UtensilKind::knife:
+      return bar(joined(kHandle, kKnifeBlade), 210.0, 3.0, 0.0);
+    case UtensilKind::spoon:
+      return bar(joined(kHandle, kSpoonBowl), 195.0, 2.6, 5.0);
+    case UtensilKind::napkin:
+      break;
   }
   return napkin_mesh();
 }

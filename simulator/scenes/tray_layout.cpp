@@ -33,22 +33,26 @@ std::vector<Eigen::Vector2d> border(const Footprint& footprint) {
     const double angle = 2.0 * std::numbers::pi * i / kPoints;
     Eigen::Vector2d at(std::cos(angle), std::sin(angle));
     if (!footprint.is_ellipse) at /= at.cwiseAbs().maxCoeff();
-    points.emplace_back(footprint.centre_mm + turn * at.cwiseProduct(Eigen::Vector2d(footprint.half_x_mm, footprint.half_y_mm)));
+    points.emplace_back(footprint.centre_mm +
+                        turn * at.cwiseProduct(Eigen::Vector2d(footprint.half_x_mm, footprint.half_y_mm)));
   }
   return points;
 }
 
 bool is_on_tray(const Footprint& footprint, const Tray& tray) {
-  const Footprint floor{{0.0, 0.0}, 0.0, 0.5 * tray.size_mm[0] - kLipMm, 0.5 * tray.size_mm[1] - kLipMm, false};
+  const Footprint floor{
+      {0.0, 0.0}, 0.0, 0.5 * tray.size_mm[0] - kLipMm, 0.5 * tray.size_mm[1] - kLipMm, false};
   const std::vector<Eigen::Vector2d> points = border(footprint);
-  return std::all_of(points.begin(), points.end(), [&](const Eigen::Vector2d& at) { return contains(floor, at, 0.0); });
+  return std::all_of(points.begin(), points.end(),
+                     [&](const Eigen::Vector2d& at) { return contains(floor, at, 0.0); });
 }
 
 // Moves it to a free place; false when none is found.
-bool find_place(Footprint& footprint, const Tray& tray, const std::vector<Footprint>& taken, double largest_turn_deg,
-                Draws& draws) {
+bool find_place(Footprint& footprint, const Tray& tray, const std::vector<Footprint>& taken,
+                double largest_turn_deg, Draws& draws) {
   for (int tries = 0; tries < kTries; ++tries) {
-    footprint.centre_mm = {draws.between(-0.5, 0.5) * tray.size_mm[0], draws.between(-0.5, 0.5) * tray.size_mm[1]};
+    footprint.centre_mm = {draws.between(-0.5, 0.5) * tray.size_mm[0],
+                           draws.between(-0.5, 0.5) * tray.size_mm[1]};
     footprint.rotation_deg = draws.between(-largest_turn_deg, largest_turn_deg);
     const auto is_in_the_way = [&](const Footprint& other) { return overlap(footprint, other, kGapMm); };
     if (is_on_tray(footprint, tray) && std::none_of(taken.begin(), taken.end(), is_in_the_way)) return true;
@@ -99,8 +103,9 @@ void lay_cutlery(SceneDescription& scene, const std::vector<Footprint>& taken, D
     const auto count = static_cast<double>(setting.pieces.size());
     for (std::size_t i = 0; i < setting.pieces.size(); ++i) {
       const double across = 34.0 * (static_cast<double>(i) - 0.5 * (count - 1.0));
-      scene.utensils.push_back({setting.pieces[i], place.centre_mm + turn * Eigen::Vector2d(draws.between(-3.0, 3.0), across),
-                                place.rotation_deg + draws.between(-3.0, 3.0), setting.has_napkin ? kNapkinMm : 0.0, 0xC8C8C8});
+      scene.utensils.push_back(
+          {setting.pieces[i], place.centre_mm + turn * Eigen::Vector2d(draws.between(-3.0, 3.0), across),
+           place.rotation_deg + draws.between(-3.0, 3.0), setting.has_napkin ? kNapkinMm : 0.0, 0xC8C8C8});
     }
     return;
   }
@@ -112,7 +117,8 @@ bool overlap(const Footprint& a, const Footprint& b, double gap_mm) {
   const auto enters = [&](const Footprint& one, const Footprint& other) {
     const std::vector<Eigen::Vector2d> points = border(one);
     return contains(other, one.centre_mm, gap_mm) ||
-           std::any_of(points.begin(), points.end(), [&](const Eigen::Vector2d& at) { return contains(other, at, gap_mm); });
+           std::any_of(points.begin(), points.end(),
+                       [&](const Eigen::Vector2d& at) { return contains(other, at, gap_mm); });
   };
   return enters(a, b) || enters(b, a);
 }
