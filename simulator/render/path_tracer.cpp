@@ -18,10 +18,10 @@ enum Decision : std::uint32_t {
   kInExposure,
   kMirrored,
   kIndirect,
-  kMirroredFurther = 16,  // and those after it, two a bounce
+  kLight,
+  kMirroredFurther = 16,  // and those after it, three a bounce
   kIndirectFurther = 48,
-  kLight = 128,     // and the number of the light
-  kPenumbra = 1024  // likewise
+  kPenumbra = 128  // and the number of the light
 };
 
 constexpr float kStep_px = 4.0F;  // a surface that jumps by more is more than one
@@ -71,8 +71,9 @@ struct PathTracer::Round {
   std::uint32_t first = 0;  // index of its first ray
   std::array<Ray, kRound> rays;
   std::array<SurfaceHit, kRound> hits;
-  std::vector<SurfaceResponse> responses;  // of those that hit
-  std::array<std::size_t, kRound> of_hit;  // whose response it is
+  std::vector<SurfaceResponse> responses;            // of those that hit
+  std::array<std::size_t, kRound> of_hit;            // whose response it is
+  std::array<Eigen::Vector2f, kRound> light_places;  // on all lights, by response
 
   const SurfaceHit& hit(std::size_t response) const { return hits[of_hit[response]]; }
   std::uint32_t index(std::size_t response) const {
@@ -155,6 +156,9 @@ void PathTracer::add_lights(Round& round, Sum& sum) const {
   const std::size_t missed = kRound - round.responses.size();
   sum.direct += static_cast<float>(missed) * scene_.scene().ambient;
   if (round.responses.empty()) return;
+  for (std::size_t i = 0; i < round.responses.size(); ++i) {
+    round.light_places[i] = round.sequence.point(kLight, round.index(i));
+  }
   const std::span<const AreaLight> lights = scene_.scene().lights;
   for (std::size_t i = 0; i < lights.size(); ++i) add_light(round, static_cast<std::uint32_t>(i), sum);
 }
@@ -167,8 +171,7 @@ void PathTracer::add_light(Round& round, std::uint32_t number, Sum& sum) const {
   std::array<Eigen::Vector3f, kRound> additions;
   for (std::size_t i = 0; i < round.responses.size(); ++i) {
     const SurfaceHit& hit = round.hit(i);
-    const auto sample =
-        sample_light(light, hit.point_mm, round.sequence.point(kLight + number, round.index(i)));
+    const auto sample = sample_light(light, hit.point_mm, round.light_places[i]);
     if (!sample || !RayScene::is_above(hit, sample->direction)) continue;
     additions[batch.count] = lit(round.responses[i], hit, *sample, quadratures_[number]);
     batch.add(hit, sample->direction * sample->distance_mm);
@@ -260,7 +263,10 @@ void PathTracer::add_indirect(Round& round, Sum& sum) const {
   std::array<Ray, kRound> rays;
   std::array<Eigen::Vector3f, kRound> weights;
   std::array<std::uint32_t, kRound> indices{};
-  const auto wanted = static_cast<std::size_t>(settings_.indirect_samples);
+  // The further rays of a pixel at an edge are for what is sharp.
+  const bool is_further = round.first >= static_cast<std::uint32_t>(settings_.samples);
+  const auto wanted = static_cast<std::size_t>(is_further ? (settings_.indirect_samples + 3) / 4
+                                                          : settings_.indirect_samples);
   std::size_t count = 0;
   for (std::size_t i = 0; i < round.responses.size(); ++i) {
     const SurfaceResponse& response = round.responses[i];
@@ -268,8 +274,7 @@ void PathTracer::add_indirect(Round& round, Sum& sum) const {
     if (i >= wanted || response.is_metal()) continue;
     const Eigen::Vector3f weight = shade_color(response);
     sum.weights += weight;
-    indices[count] =
-        round.first / kRound * static_cast<std::uint32_t>(wanted) + static_cast<std::uint32_t>(i);
+    indices[count] = round.first + static_cast<std::uint32_t>(i);
     const Eigen::Vector3f direction =
         cosine_direction(round.hit(i).normal, round.sequence.point(kIndirect, indices[count]));
     if (!RayScene::is_above(round.hit(i), direction)) continue;
