@@ -11,10 +11,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-double rounded(double value, double unit) {
-  return std::round(value / unit) * unit;
-}
-
 // To a thousandth, as a number that prints short.
 double thousandths(double value) {
   return std::round(value * 1000.0) / 1000.0;
@@ -90,8 +86,8 @@ void add_angles(Json& json, const LaidScene& laid) {
   }
   json["relative_angle_deg"] = angles;
   for (const Photograph& view : scene.views) {
-    json["tilt_from_vertical_deg"].push_back(rounded(view.tilt_deg, 0.01));
-    json["distance_mm"].push_back(rounded(view.distance_mm, 0.1));
+    json["tilt_from_vertical_deg"].push_back(thousandths(view.tilt_deg));
+    json["distance_mm"].push_back(thousandths(view.distance_mm));
   }
 }
 

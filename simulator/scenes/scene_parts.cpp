@@ -68,41 +68,40 @@ struct Slot {
 };
 
 std::vector<Slot> slots(DishStyle style, std::size_t count) {
-  if (count == 1) return {{0, 0, 0, 120, 105}};
+  if (count == 1) return {{0, 0, 0, 140, 115}};
   if (style == DishStyle::oval) {
-    if (count == 2) return {{-50, 0, 90, 108, 92}, {50, 0, 90, 108, 92}};
-    return {{-72, 0, 90, 100, 66}, {0, 0, 90, 106, 68}, {72, 0, 90, 100, 66}};
+    if (count == 2) return {{-54, 0, 90, 114, 104}, {54, 0, 90, 114, 104}};
+    return {{-74, 0, 90, 106, 72}, {0, 0, 90, 118, 73}, {74, 0, 90, 106, 72}};
   }
   const bool is_deep = style == DishStyle::soup;
   if (count == 2) {
-    const double x = is_deep ? 33.0 : 38.0;
-    return {{-x, 0, 90, is_deep ? 100.0 : 118.0, is_deep ? 60.0 : 72.0},
-            {x, 0, 90, is_deep ? 100.0 : 118.0, is_deep ? 60.0 : 72.0}};
+    const double x = is_deep ? 34.0 : 41.0;
+    const double length = is_deep ? 112.0 : 130.0;
+    const double width = is_deep ? 66.0 : 80.0;
+    return {{-x, 0, 90, length, width}, {x, 0, 90, length, width}};
   }
-  const double r = is_deep ? 37.0 : 44.0;
+  const double r = is_deep ? 40.0 : 47.0;
   std::vector<Slot> around;
   for (int i = 0; i < 3; ++i) {
     const double angle = radians(90.0 + 120.0 * i);
-    around.push_back({r * std::cos(angle), r * std::sin(angle), 180.0 + 120.0 * i, is_deep ? 72.0 : 88.0,
-                      is_deep ? 54.0 : 66.0});
+    around.push_back({r * std::cos(angle), r * std::sin(angle), 180.0 + 120.0 * i, is_deep ? 80.0 : 94.0,
+                      is_deep ? 62.0 : 72.0});
   }
   return around;
 }
 
+// As large as wanted or as there is room for, stretched by no more than kStretch.
 FoodSize portion(Draws& draws, const FoodKind& kind, const Slot& slot, double scale) {
-  const double wanted = draws.between(0.88, 1.12);
-  const double room =
-      scale * std::min(slot.length_mm / kind.size.length_mm, slot.width_mm / kind.size.width_mm);
-  const double plan = std::min(wanted, room);
+  constexpr double kStretch = 1.3;
+  const double wanted = draws.between(0.98, 1.22);
+  double length = std::min(wanted, scale * slot.length_mm / kind.size.length_mm);
+  double width = std::min(wanted, scale * slot.width_mm / kind.size.width_mm);
+  length = std::min(length, kStretch * width);
+  width = std::min(width, kStretch * length);
   // A smaller portion is lower, too, but not by as much.
-  const double height = std::sqrt(std::min(1.0, plan)) * draws.between(0.9, 1.12);
-  return {plan * kind.size.length_mm, plan * kind.size.width_mm, height * kind.size.height_mm};
+  const double height = std::sqrt(std::min(1.0, std::sqrt(length * width))) * draws.between(0.9, 1.12);
+  return {length * kind.size.length_mm, width * kind.size.width_mm, height * kind.size.height_mm};
 }
-
-struct LightColour {
-  std::string_view name;
-  Eigen::Vector3d rgb;
-};
 
 // Lamps as sold (warm white, neutral white, cool daylight), already seen by a camera set to daylight.
 const std::array<Eigen::Vector3d, 3> kLightColours = {

@@ -1,6 +1,7 @@
 #include "simulator/scenes/scene_views.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <optional>
@@ -8,12 +9,14 @@
 #include <vector>
 
 #include "simulator/render/lens.hpp"
+#include "simulator/scenes/dish_shell.hpp"
 #include "simulator/scenes/scene_poses.hpp"
 
 namespace traygauge {
 namespace {
 
 constexpr int kTries = 20000;
+constexpr double kClearanceMm = 2.0;    // between a rim and the lines of sight to the card
 constexpr double kBorderShare = 0.012;  // of the picture's width: how far from its border everything is
 
 // Rims and card corners in the world.
@@ -54,6 +57,10 @@ Eigen::Vector3d target_of(const SceneDescription& scene) {
   return {middle.x(), middle.y(), 0.0};
 }
 
+bool shows_all(const SceneDescription& scene, const Photograph& view) {
+  return is_all_in_picture(scene, view) && !is_card_hidden(scene, view);
+}
+
 std::optional<Photograph> draw_view(const SceneDescription& scene, Draws& draws, const ViewLimits& limits,
                                     const Eigen::Vector3d& target_mm) {
   Photograph view;
@@ -62,11 +69,37 @@ std::optional<Photograph> draw_view(const SceneDescription& scene, Draws& draws,
   view.tilt_deg = draws.between(2.0, limits.steepest_tilt_deg);
   view.azimuth_deg = draws.between(0.0, 360.0);
   view.roll_deg = draws.between(-8.0, 8.0);
-  if (!is_all_in_picture(scene, view)) return std::nullopt;
+  if (!shows_all(scene, view)) return std::nullopt;
   return view;
 }
 
 }  // namespace
+
+bool is_card_hidden(const SceneDescription& scene, const Photograph& view) {
+  const Eigen::Vector3d pupil = view_camera(scene, view).camera_from_world.inverse().translation();
+  const Eigen::Isometry3d world_of_card = world_from_card(scene.card);
+  constexpr int kSteps = 6;
+  for (const LaidDish& dish : scene.dishes) {
+    const DishShell shell(dish.dish);
+    const Eigen::Isometry3d dish_from_world = world_from_dish(dish).inverse();
+    for (int i = 0; i < 4 * kSteps; ++i) {
+      // Around the card's border.
+      const double along = static_cast<double>(i % kSteps) / kSteps;
+      const std::array<Eigen::Vector2d, 4> sides = {Eigen::Vector2d(along, 0.0), Eigen::Vector2d(1.0, along),
+                                                    Eigen::Vector2d(1.0 - along, 1.0),
+                                                    Eigen::Vector2d(0.0, 1.0 - along)};
+      const Eigen::Vector2d share = sides[static_cast<std::size_t>(i / kSteps)];
+      const Eigen::Vector3d at = world_of_card * Eigen::Vector3d(share.x() * scene.card.width_mm,
+                                                                 share.y() * scene.card.height_mm, 0.0);
+      for (const double height_mm : {0.5 * dish.dish.rim_height_mm, dish.dish.rim_height_mm}) {
+        const Eigen::Vector3d passed =
+            dish_from_world * (at + (height_mm - at.z()) / (pupil.z() - at.z()) * (pupil - at));
+        if (shell.contains(passed.x(), passed.y(), -kClearanceMm)) return true;
+      }
+    }
+  }
+  return false;
+}
 
 bool is_all_in_picture(const SceneDescription& scene, const Photograph& view) {
   const ViewCamera camera = view_camera(scene, view);
@@ -126,7 +159,7 @@ void draw_arm_views(SceneDescription& scene, Draws& draws, double distance_mm) {
       view.azimuth_deg = std::atan2(back.y(), back.x()) * 180.0 / std::numbers::pi;
       scene.views.push_back(view);
     }
-    const auto is_seen = [&](const Photograph& view) { return is_all_in_picture(scene, view); };
+    const auto is_seen = [&](const Photograph& view) { return shows_all(scene, view); };
     if (!std::all_of(scene.views.begin(), scene.views.end(), is_seen)) continue;
     for (int i = 1; i <= kSteps; ++i) scene.pairs.push_back({0, i});
     return;
@@ -143,7 +176,7 @@ void draw_moved_views(SceneDescription& scene, Draws& draws, const ViewLimits& l
     Photograph second = *first;
     second.tray_shift_mm = {draws.between(-25.0, 25.0), draws.between(-25.0, 25.0)};
     second.tray_turn_deg = draws.between(12.0, 40.0) * (draws.chance(0.5) ? 1.0 : -1.0);
-    if (!is_all_in_picture(scene, second)) continue;
+    if (!shows_all(scene, second)) continue;
     const double angle_deg =
         relative_angle_deg(view_camera(scene, *first), view_camera(scene, second), middle);
     if (angle_deg < limits.least_angle_deg || angle_deg > limits.largest_angle_deg) continue;

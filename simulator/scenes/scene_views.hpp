@@ -9,6 +9,9 @@ namespace traygauge {
 // Whether the rims of all dishes and the whole card are in the picture, some pixels from its border.
 bool is_all_in_picture(const SceneDescription& scene, const Photograph& view);
 
+// Whether a dish stands between the camera and a part of the card.
+bool is_card_hidden(const SceneDescription& scene, const Photograph& view);
+
 struct ViewLimits {
   double nearest_mm = 400.0;
   double farthest_mm = 600.0;

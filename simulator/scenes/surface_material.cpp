@@ -120,10 +120,11 @@ class PatternedSurface : public Material {
     const float board = std::floor(at.y() / kBoardMm);
     const float across = at.y() - board * kBoardMm;
     const float shift = 400.0F * hash_share(hash_cell(static_cast<int>(board), 5, 9, seed_));
-    const Eigen::Vector3f stretched(at.x() / 160.0F + shift, at.y() / 14.0F, 0.3F * board);
-    const float rings = std::sin(9.0F * fractal_noise(stretched, seed_, 3));
+    const Eigen::Vector3f stretched(at.x() / 260.0F + shift, at.y() / 24.0F, 0.3F * board);
+    const float rings = std::sin(6.0F * fractal_noise(stretched, seed_, 3));
     const float fibre = fractal_noise({at.x() / 22.0F + shift, at.y() / 1.1F, board}, seed_ + 3U, 3);
-    Eigen::Vector3f base = blend(colours_[0], colours_[1], smooth_step(-0.9F, 0.9F, rings + 0.7F * fibre));
+    Eigen::Vector3f base =
+        blend(colours_[0], colours_[1], 0.15F + 0.6F * smooth_step(-1.4F, 1.4F, 0.8F * rings + 0.9F * fibre));
     const float pore = gradient_noise({at.x() / 9.0F + shift, at.y() / 0.7F, 0.5F}, seed_ + 7U);
     base = blend(base, colours_[2], 0.8F * smooth_step(0.35F, 0.6F, pore));
     base *= 0.88F + 0.24F * hash_share(hash_cell(static_cast<int>(board), 1, 1, seed_));

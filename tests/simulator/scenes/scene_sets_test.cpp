@@ -53,6 +53,7 @@ TEST(SceneSets, MealsAreAsManyAndSeenAsInThePaper) {
       EXPECT_LE(view.distance_mm, 600.0);
       EXPECT_LE(view.tilt_deg, 45.0);
       EXPECT_TRUE(is_all_in_picture(scene, view)) << scene.name;
+      EXPECT_FALSE(is_card_hidden(scene, view)) << scene.name;
     }
   }
   EXPECT_EQ(items, 113U);
