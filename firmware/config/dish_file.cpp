@@ -1,61 +1,17 @@
 #include "firmware/config/dish_file.hpp"
 
-#include <toml++/toml.h>
-
-#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <charconv>
-#include <cstddef>
-#include <cstdint>
 #include <fstream>
-#include <nlohmann/json.hpp>
 #include <sstream>
 #include <string>
-#include <string_view>
 #include <system_error>
-#include <vector>
 
-#include "simulator/capture/input_bytes.hpp"
-#include "simulator/capture/input_error.hpp"
 #include "simulator/capture/png_writer.hpp"
 
 namespace traygauge {
 namespace {
-
-constexpr std::size_t kMaxFileBytes = std::size_t{1} << 16U;
-constexpr std::array<std::string_view, 5> kKeys = {"style", "outer_size_mm", "rim_height_mm",
-                                                   "bottom_height_mm", "profile"};
-
-// The same values as JSON, so that dishes are read and checked by one reader.
-nlohmann::json to_json(const toml::node& node) {
-  if (const auto* table = node.as_table()) {
-    nlohmann::json object = nlohmann::json::object();
-    for (const auto& [key, value] : *table) object[std::string(key.str())] = to_json(value);
-    return object;
-  }
-  if (const auto* array = node.as_array()) {
-    nlohmann::json list = nlohmann::json::array();
-    for (const toml::node& value : *array) list.push_back(to_json(value));
-    return list;
-  }
-  if (const auto* text = node.as_string()) return text->get();
-  if (const auto* integer = node.as_integer()) return integer->get();
-  if (const auto* number = node.as_floating_point()) return number->get();
-  if (const auto* truth = node.as_boolean()) return truth->get();
-  return nullptr;  // dates: no key of ours takes one
-}
-
-nlohmann::json read_toml(const std::filesystem::path& file) {
-  const InputFile input{file, ""};
-  const std::vector<std::uint8_t> bytes = read_bytes(input, kMaxFileBytes, "a dish in TOML");
-  try {
-    return to_json(toml::parse(std::string_view(reinterpret_cast<const char*>(bytes.data()), bytes.size())));
-  } catch (const toml::parse_error& error) {
-    throw InputError(input, "a dish in TOML", std::string(error.description()),
-                     "correct line " + std::to_string(error.source().begin.line));
-  }
-}
 
 // The shortest decimal that reads back as the same number, with a point: TOML keeps integers apart.
 std::string number(double value) {
@@ -89,17 +45,6 @@ std::string quoted(const std::string& text) {
 }
 
 }  // namespace
-
-DishDescription read_dish_file(const std::filesystem::path& file) {
-  const nlohmann::json document = read_toml(file);
-  const JsonNode root(document, file);
-  for (const std::string& name : root.names()) {
-    if (std::find(kKeys.begin(), kKeys.end(), name) != kKeys.end()) continue;
-    root.member(name.c_str())
-        .fail("one of style, outer_size_mm, rim_height_mm, bottom_height_mm, profile", "correct the key");
-  }
-  return read_dish(root);
-}
 
 std::string compose_dish_file(const DishDescription& dish) {
   std::ostringstream text;

@@ -1,0 +1,26 @@
+#include "simulator/capture/dish_toml.hpp"
+
+#include <array>
+#include <cstddef>
+#include <nlohmann/json.hpp>
+#include <string_view>
+
+#include "simulator/capture/toml_file.hpp"
+
+namespace traygauge {
+namespace {
+
+constexpr std::size_t kMaxFileBytes = std::size_t{1} << 16U;
+constexpr std::array<std::string_view, 5> kKeys = {"style", "outer_size_mm", "rim_height_mm",
+                                                   "bottom_height_mm", "profile"};
+
+}  // namespace
+
+DishDescription read_dish_file(const std::filesystem::path& file) {
+  const nlohmann::json document = read_toml(file, kMaxFileBytes, "a dish in TOML");
+  const JsonNode root(document, file);
+  expect_keys(root, kKeys);
+  return read_dish(root);
+}
+
+}  // namespace traygauge

@@ -1,0 +1,57 @@
+#include "simulator/capture/toml_file.hpp"
+
+#include <toml++/toml.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "simulator/capture/input_bytes.hpp"
+#include "simulator/capture/input_error.hpp"
+
+namespace traygauge {
+namespace {
+
+nlohmann::json to_json(const toml::node& node) {
+  if (const auto* table = node.as_table()) {
+    nlohmann::json object = nlohmann::json::object();
+    for (const auto& [key, value] : *table) object[std::string(key.str())] = to_json(value);
+    return object;
+  }
+  if (const auto* array = node.as_array()) {
+    nlohmann::json list = nlohmann::json::array();
+    for (const toml::node& value : *array) list.push_back(to_json(value));
+    return list;
+  }
+  if (const auto* text = node.as_string()) return text->get();
+  if (const auto* integer = node.as_integer()) return integer->get();
+  if (const auto* number = node.as_floating_point()) return number->get();
+  if (const auto* truth = node.as_boolean()) return truth->get();
+  return nullptr;
+}
+
+}  // namespace
+
+nlohmann::json read_toml(const std::filesystem::path& file, std::size_t max_bytes, const char* expected) {
+  const InputFile input{file, ""};
+  const std::vector<std::uint8_t> bytes = read_bytes(input, max_bytes, expected);
+  try {
+    return to_json(toml::parse(std::string_view(reinterpret_cast<const char*>(bytes.data()), bytes.size())));
+  } catch (const toml::parse_error& error) {
+    throw InputError(input, expected, std::string(error.description()),
+                     "correct line " + std::to_string(error.source().begin.line));
+  }
+}
+
+void expect_keys(const JsonNode& table, std::span<const std::string_view> keys) {
+  for (const std::string& name : table.names()) {
+    if (std::find(keys.begin(), keys.end(), name) != keys.end()) continue;
+    std::string list;
+    for (const std::string_view key : keys) list += (list.empty() ? "one of " : ", ") + std::string(key);
+    table.member(name.c_str()).fail(list, "correct the key");
+  }
+}
+
+}  // namespace traygauge
