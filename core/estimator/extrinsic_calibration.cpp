@@ -47,6 +47,16 @@ std::span<const RayMatch> match_views(const ExtrinsicInput& input, const Matcher
   return workspace.rays.first(workspace.view_matches.size());
 }
 
+Status find_pose(const ExtrinsicInput& input, std::span<const RayMatch> rays, double focal_px,
+                 const RelativePoseParams& params, Random& random, ExtrinsicWorkspace& workspace,
+                 RelativePose& pose, std::span<std::uint8_t> inliers) {
+  if (input.motion_search == nullptr)
+    return estimate_relative_pose(rays, focal_px, params, random, workspace.pose, pose, inliers);
+  Pose start;
+  if (!input.motion_search->find_motion(rays, focal_px, random, start)) return StatusCode::pose_not_found;
+  return refine_relative_pose(rays, focal_px, params, start, random, workspace.pose, pose, inliers);
+}
+
 // The card's points seen in both views, as part of the sparse cloud.
 void collect_tracks(const ExtrinsicInput& input, std::span<const RayMatch> rays, const Pose& pose,
                     TrackRule rule, ExtrinsicWorkspace& workspace) {
@@ -175,8 +185,7 @@ Status calibrate_extrinsics(const ExtrinsicInput& input, const Configuration& co
       0.5 * (input.first->lens.pinhole.mean_focal_px() + input.second->lens.pinhole.mean_focal_px());
   const auto inliers = workspace.inliers.first(rays.size());
   RelativePose pose;
-  Status status =
-      estimate_relative_pose(rays, focal_px, configuration.pose, random, workspace.pose, pose, inliers);
+  Status status = find_pose(input, rays, focal_px, configuration.pose, random, workspace, pose, inliers);
   if (status.code() == StatusCode::views_too_close) {
     return explain_closeness(input, rays, inliers, configuration.pose);
   }
