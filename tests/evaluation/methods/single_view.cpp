@@ -10,8 +10,8 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// The estimator's checks of the picture, and its undistorted, resized labels: the view taken twice goes as far as
-// that.
+// The estimator's checks of the picture, and its undistorted, resized labels: the view taken twice goes as
+// far as that.
 StatusCode prepare_first_view(CaptureSession& session, MeasurementViews& views) {
   Estimator& estimator = session.estimator();
   estimator.reset();
@@ -41,18 +41,15 @@ Run measure_single_view(CaptureSession& session, std::uint64_t seed, const Shape
   MeasurementViews views;
   run.status = prepare_first_view(session, views);
   if (run.status != StatusCode::ok) return run;
-  const auto print =
-      find_card_plane(session, 0, find_in_view(session, 0, Detector::sift), pattern);
+  const auto print = find_card_plane(session, 0, find_in_view(session, 0, Detector::sift), pattern);
   run.status = StatusCode::card_not_found;
   if (!print) return run;
   const auto bottom = bottom_under_print(session, *print);
   run.status = StatusCode::dish_unknown;
   if (!bottom) return run;
   const ImageView<const std::uint8_t> labels = views.labels[0];
-  const cv::Mat picture(labels.height, labels.width, CV_8UC1, const_cast<std::uint8_t*>(labels.data),
-                        static_cast<std::size_t>(labels.stride));
-  const Vec2 middle = views.cameras[0].ray(Vec2(0.5 * labels.width, 0.5 * labels.height));
-  ItemView item{views.cameras[0], frame_on_plane(*bottom, middle), {}};
+  const cv::Mat picture = as_cv(labels);
+  ItemView item{views.cameras[0], frame_on(*bottom, views.cameras[0], labels), {}};
   for (const std::uint8_t label : items_in(labels)) {
     item.mask = picture == label;
     run.items.push_back({label, StatusCode::ok, volume_ml(fit_prior(item, priors).solid)});

@@ -1,5 +1,6 @@
-// Volumes from one view and shape priors, as C. Xu et al. (paper [20]): the card gives the camera's pose; for each
-// item the solid is sought whose silhouette covers its segment, its shape and proportions known beforehand.
+// Volumes from one view and shape priors, as C. Xu et al. (paper [20]): the card gives the camera's pose; for
+// each item the solid is sought whose silhouette covers its segment, its shape and proportions known
+// beforehand.
 #pragma once
 
 #include <cstdint>
@@ -10,12 +11,13 @@
 
 namespace traygauge::tables {
 
-// [20] has a model for each class of food. Classes are not given here: the shape is chosen by the segment, a box
-// where that overlaps clearly better than a rounded heap, and heights follow from the footprint. The two ratios are
-// medians over 20 foods of captures that no set of the paper's tables holds, and were not fitted to those sets.
+// [20] has a model for each class of food. Classes are not given here: the shape is chosen by the segment, a
+// box where that overlaps clearly better than a rounded heap, and heights follow from the footprint. The two
+// ratios are medians over 20 foods of captures that no set of the paper's tables holds, and were not fitted
+// to those sets.
 struct ShapePriors {
-  double cap_height = 0.45;   // over the root of the footprint's area: heaps
-  double box_height = 0.23;   // slabs
+  double cap_height = 0.45;     // over the root of the footprint's area: heaps
+  double box_height = 0.23;     // slabs
   double box_advantage = 0.02;  // of the overlap, to take a segment for a slab
 };
 

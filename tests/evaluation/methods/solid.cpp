@@ -1,5 +1,6 @@
 #include "tests/evaluation/methods/solid.hpp"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -100,7 +101,8 @@ std::array<double, 5> start_of(const ItemView& view) {
   const auto moments = [&](double height_mm, Vec2& mean, Eigen::Matrix2d& covariance) {
     mean.setZero();
     covariance.setZero();
-    for (const cv::Point& pixel : pixels) mean += sight_at_height(view, Vec2(pixel.x, pixel.y), height_mm).head<2>();
+    for (const cv::Point& pixel : pixels)
+      mean += sight_at_height(view, Vec2(pixel.x, pixel.y), height_mm).head<2>();
     mean /= static_cast<double>(pixels.size());
     for (const cv::Point& pixel : pixels) {
       const Vec2 d = sight_at_height(view, Vec2(pixel.x, pixel.y), height_mm).head<2>() - mean;
@@ -116,7 +118,8 @@ std::array<double, 5> start_of(const ItemView& view) {
   // The variance along an axis of an ellipse is a quarter of the half axis squared.
   const auto half_axis = [&](int i) { return std::max(kMinSize_mm, 2.0 * std::sqrt(axes.eigenvalues()[i])); };
   const Vec2 first = axes.eigenvectors().col(1);
-  return {mean.x(), mean.y(), std::log(half_axis(1)), std::log(half_axis(0)), std::atan2(first.y(), first.x())};
+  return {mean.x(), mean.y(), std::log(half_axis(1)), std::log(half_axis(0)),
+          std::atan2(first.y(), first.x())};
 }
 
 }  // namespace
@@ -147,8 +150,9 @@ std::vector<Vec3> silhouette_points(const Solid& solid) {
   if (solid.shape == Template::box) {
     for (const double x : {-1.0, 1.0}) {
       for (const double y : {-1.0, 1.0}) {
-        const Vec2 corner = solid.centre_mm + Eigen::Rotation2Dd(solid.azimuth_rad) *
-                                                  Vec2(x * solid.half_axes_mm.x(), y * solid.half_axes_mm.y());
+        const Vec2 corner =
+            solid.centre_mm + Eigen::Rotation2Dd(solid.azimuth_rad) *
+                                  Vec2(x * solid.half_axes_mm.x(), y * solid.half_axes_mm.y());
         points.emplace_back(corner.x(), corner.y(), 0.0);
         points.emplace_back(corner.x(), corner.y(), solid.height_mm);
       }
@@ -175,7 +179,8 @@ SilhouetteFit fit_silhouette(const ItemView& view, Template shape,
   // A fifth of an item's usual size, and of a right angle.
   const cv::Mat_<double> step = (cv::Mat_<double>(1, 5) << 8.0, 8.0, 0.2, 0.2, 0.3);
   const auto solver = cv::DownhillSolver::create(
-      cost, step, cv::TermCriteria(cv::TermCriteria::MAX_ITER + cv::TermCriteria::EPS, kMaxEvaluations, 1e-4));
+      cost, step,
+      cv::TermCriteria(cv::TermCriteria::MAX_ITER + cv::TermCriteria::EPS, kMaxEvaluations, 1e-4));
   solver->minimize(x);
   const Solid solid = cost->solid(x.ptr<double>());
   return {solid, cost->overlap(solid)};
@@ -186,16 +191,6 @@ Vec3 sight_at_height(const ItemView& view, const Vec2& pixel, double height_mm) 
   const Vec3 sight = dish_from_camera.rotation * view.camera.ray(pixel).homogeneous();
   const Vec3& eye = dish_from_camera.translation;
   return eye + sight * ((height_mm - eye.z()) / sight.z());
-}
-
-Pose frame_on_plane(const Plane& plane_in_camera, const Vec2& ray) {
-  const Vec3 sight = ray.homogeneous();
-  const Vec3 origin = sight * (plane_in_camera.offset / plane_in_camera.normal.dot(sight));
-  Mat3 axes;
-  axes.col(2) = plane_in_camera.normal;
-  axes.col(0) = (Vec3::UnitX() - plane_in_camera.normal.x() * plane_in_camera.normal).normalized();
-  axes.col(1) = axes.col(2).cross(axes.col(0));
-  return {axes, origin};
 }
 
 }  // namespace traygauge::tables

@@ -19,8 +19,8 @@ enum class Template : std::uint8_t {
   cylinder,        // over an ellipse
   box,
 };
-inline constexpr std::array<Template, 4> kTemplates = {Template::cap, Template::half_ellipsoid, Template::cylinder,
-                                                       Template::box};
+inline constexpr std::array<Template, 4> kTemplates = {Template::cap, Template::half_ellipsoid,
+                                                       Template::cylinder, Template::box};
 
 struct Solid {
   Template shape = Template::cap;
@@ -56,8 +56,5 @@ SilhouetteFit fit_silhouette(const ItemView& view, Template shape,
 
 // Where the line of sight through `pixel` meets the plane at this height over the dish's bottom.
 Vec3 sight_at_height(const ItemView& view, const Vec2& pixel, double height_mm);
-
-// A frame on `plane`, its origin where the line of sight along `ray` meets it.
-Pose frame_on_plane(const Plane& plane_in_camera, const Vec2& ray);
 
 }  // namespace traygauge::tables

@@ -64,7 +64,8 @@ std::array<std::vector<Vec3>, 256> sort_points(const CalibratedPair& pair, const
   for (const RayMatch& rays : pair.inliers) {
     const std::uint8_t label = label_at(pair.views, 0, rays.first);
     Vec3 point;
-    if (label != label_at(pair.views, 1, rays.second) || !triangulate(rays, pair.second_from_first, point)) continue;
+    if (label != label_at(pair.views, 1, rays.second) || !triangulate(rays, pair.second_from_first, point))
+      continue;
     sorted.at(label).push_back(dish_from_camera * point);
   }
   return sorted;
@@ -72,7 +73,8 @@ std::array<std::vector<Vec3>, 256> sort_points(const CalibratedPair& pair, const
 
 }  // namespace
 
-std::optional<Solid> fit_template(const ItemView& item, std::span<const Vec3> points, const TemplateParams& params) {
+std::optional<Solid> fit_template(const ItemView& item, std::span<const Vec3> points,
+                                  const TemplateParams& params) {
   if (points.size() < static_cast<std::size_t>(params.min_points)) return {};
   const std::vector<Vec3> kept = without_outliers(points, params);
   const double start_mm = quantile(heights_of(kept), 0.9);
@@ -104,10 +106,8 @@ Run measure_sparse_views(CaptureSession& session, const PairMatches& matches, st
   const Clock::time_point start = Clock::now();
   run.relative_angle_deg = pair->relative_angle_deg;
   const ImageView<const std::uint8_t> labels = pair->views.labels[0];
-  const cv::Mat picture(labels.height, labels.width, CV_8UC1, const_cast<std::uint8_t*>(labels.data),
-                        static_cast<std::size_t>(labels.stride));
-  const Vec2 middle = pair->views.cameras[0].ray(Vec2(0.5 * labels.width, 0.5 * labels.height));
-  ItemView item{pair->views.cameras[0], frame_on_plane(pair->dish_bottom, middle), {}};
+  const cv::Mat picture = as_cv(labels);
+  ItemView item{pair->views.cameras[0], frame_on(pair->dish_bottom, pair->views.cameras[0], labels), {}};
   const auto points = sort_points(*pair, item.camera_from_dish.inverse());
   for (const std::uint8_t label : items_in(labels)) {
     item.mask = picture == label;

@@ -23,8 +23,8 @@ std::optional<RayMatch> rays_of(const CaptureSession& session, const Vec2& first
   return rays;
 }
 
-std::optional<Plane> print_in_cloud(const CaptureSession& session, const PairMatches& matches, const Pose& motion,
-                                    std::uint64_t seed) {
+std::optional<Plane> print_in_cloud(const CaptureSession& session, const PairMatches& matches,
+                                    const Pose& motion, std::uint64_t seed) {
   std::vector<Vec3> points;
   for (const GivenCardMatch& match : matches.card_matches) {
     Vec3 point;
@@ -46,12 +46,11 @@ double calibration_ms(const Measurement& measurement) {
 
 }  // namespace
 
-std::optional<CalibratedPair> calibrate_pair(CaptureSession& session, const PairMatches& matches, std::uint64_t seed,
-                                             StatusCode& refusal) {
+std::optional<CalibratedPair> calibrate_pair(CaptureSession& session, const PairMatches& matches,
+                                             std::uint64_t seed, StatusCode& refusal) {
   const Measurement& measurement = measure_given(session, matches, seed);
   refusal = measurement.status.code();
-  const bool has_angle =
-      refusal != StatusCode::views_too_close && refusal != StatusCode::views_too_far_apart;
+  const bool has_angle = refusal != StatusCode::views_too_close && refusal != StatusCode::views_too_far_apart;
   if (!measurement.has_pose || !has_angle) return {};
   CalibratedPair pair;
   pair.second_from_first = measurement.second_from_first;
@@ -70,7 +69,8 @@ std::optional<CalibratedPair> calibrate_pair(CaptureSession& session, const Pair
   const Mat3 essential = essential_matrix(pair.second_from_first);
   for (const GivenMatch& match : matches.matches) {
     const auto rays = rays_of(session, match.first, match.second);
-    if (rays && symmetric_epipolar_distance_px(essential, *rays, focal_px) <= measurement.report.inlier_threshold_px)
+    if (rays &&
+        symmetric_epipolar_distance_px(essential, *rays, focal_px) <= measurement.report.inlier_threshold_px)
       pair.inliers.push_back(*rays);
   }
   refusal = StatusCode::ok;
@@ -84,7 +84,8 @@ std::optional<Plane> find_card_plane(const CaptureSession& session, int view, co
   std::vector<cv::Point2d> printed;
   for (const IndexPair& pair : match_points(points, pattern, Detector::sift, ratio)) {
     Vec2 ray;
-    if (!session.lens(view).undistort_pixel(points.pixels[static_cast<std::size_t>(pair.first)], ray)) continue;
+    if (!session.lens(view).undistort_pixel(points.pixels[static_cast<std::size_t>(pair.first)], ray))
+      continue;
     const Vec2& place = pattern.pixels[static_cast<std::size_t>(pair.second)];
     rays.emplace_back(ray.x(), ray.y());
     printed.emplace_back(place.x(), place.y());
@@ -92,8 +93,8 @@ std::optional<Plane> find_card_plane(const CaptureSession& session, int view, co
   if (rays.size() < kMinCardPoints) return {};
   const CardDescription& card = session.setup().card;
   std::vector<std::uint8_t> inliers;
-  const cv::Mat homography = cv::findHomography(rays, printed, cv::RANSAC,
-                                                kCardInlierShare * std::max(card.width_mm, card.height_mm), inliers);
+  const cv::Mat homography = cv::findHomography(
+      rays, printed, cv::RANSAC, kCardInlierShare * std::max(card.width_mm, card.height_mm), inliers);
   if (homography.empty()) return {};
   std::vector<cv::Point3d> points_mm;
   std::vector<cv::Point2d> seen;
@@ -105,7 +106,8 @@ std::optional<Plane> find_card_plane(const CaptureSession& session, int view, co
   if (seen.size() < kMinCardPoints) return {};
   cv::Vec3d turn;
   cv::Vec3d origin;
-  if (!cv::solvePnP(points_mm, seen, cv::Matx33d::eye(), cv::noArray(), turn, origin, false, cv::SOLVEPNP_IPPE))
+  if (!cv::solvePnP(points_mm, seen, cv::Matx33d::eye(), cv::noArray(), turn, origin, false,
+                    cv::SOLVEPNP_IPPE))
     return {};
   cv::solvePnPRefineLM(points_mm, seen, cv::Matx33d::eye(), cv::noArray(), turn, origin);
   cv::Matx33d rotation;
@@ -120,20 +122,35 @@ std::optional<Plane> bottom_under_print(const CaptureSession& session, const Pla
   return print.raised(setup.dishes.front().bottom_height_mm - setup.card.thickness_mm);
 }
 
+Pose frame_on(const Plane& bottom, const PinholeCamera& camera, ImageView<const std::uint8_t> picture) {
+  const Vec3 sight = camera.ray(Vec2(0.5 * picture.width, 0.5 * picture.height)).homogeneous();
+  const Vec3 origin = sight * (bottom.offset / bottom.normal.dot(sight));
+  Mat3 axes;
+  axes.col(2) = bottom.normal;
+  axes.col(0) = (Vec3::UnitX() - bottom.normal.x() * bottom.normal).normalized();
+  axes.col(1) = axes.col(2).cross(axes.col(0));
+  return {axes, origin};
+}
+
+cv::Mat as_cv(ImageView<const std::uint8_t> picture) {
+  return {picture.height, picture.width, CV_8UC1, const_cast<std::uint8_t*>(picture.data),
+          static_cast<std::size_t>(picture.stride)};
+}
+
 std::vector<std::uint8_t> items_in(ImageView<const std::uint8_t> labels) {
   const LabelRegions regions = measure_regions(labels);
   const auto min_px = static_cast<std::uint32_t>(VolumeExtractionParams{}.min_item_px);
   std::vector<std::uint8_t> items;
   for (int label = kFirstItemLabel; label <= kLastItemLabel; ++label) {
-    if (regions.pixels[static_cast<std::size_t>(label)] >= min_px) items.push_back(static_cast<std::uint8_t>(label));
+    if (regions.pixels[static_cast<std::size_t>(label)] >= min_px)
+      items.push_back(static_cast<std::uint8_t>(label));
   }
   return items;
 }
 
 void conclude(Run& run) {
-  const auto measured =
-      std::count_if(run.items.begin(), run.items.end(),
-                    [](const ItemEstimate& item) { return item.status == StatusCode::ok; });
+  const auto measured = std::count_if(run.items.begin(), run.items.end(),
+                                      [](const ItemEstimate& item) { return item.status == StatusCode::ok; });
   if (run.items.empty()) {
     run.status = StatusCode::item_too_small;
   } else if (measured == 0) {
