@@ -73,8 +73,10 @@ Table mesh_sizes() {
                                                            {14, 9.3, 12.0}}};
   for (const auto& [exponent, mape, time_s] : paper) {
     const int power = static_cast<int>(exponent);
-    table.rows.push_back(row("2^" + std::to_string(power) + " points", mape, time_s,
-                             {"mesh.points=" + std::to_string(1 << power)}));
+    Row own = row("2^" + std::to_string(power) + " points", mape, time_s,
+                  {"mesh.points=" + std::to_string(1 << power)});
+    own.number = exponent;
+    table.rows.push_back(std::move(own));
   }
   return table;
 }
@@ -105,6 +107,7 @@ Table relative_angles() {
     Row own = row(std::to_string(static_cast<int>(angle_deg)) + " degrees", mape, time_s, {});
     own.set = PaperSet::angles;
     own.angle_deg = angle_deg;
+    own.number = angle_deg;
     table.rows.push_back(std::move(own));
   }
   repeat_with_best(table);

@@ -23,13 +23,14 @@ struct Row {
   std::optional<double> paper_mape;    // %
   std::optional<double> paper_time_s;  // of a measurement
   std::optional<double> angle_deg;     // only pairs of view 0 at about this relative angle
+  std::optional<double> number;        // where the row stands in a plot; else by its place in the table
   std::string dish_style;              // only captures with such a dish; empty: all
 };
 
 struct Table {
   std::string command;  // table-1, …, text
   std::string title;
-  std::string axis;  // of a plot over the rows' numbers, where they are numbers; else empty
+  std::string axis;  // what the rows' numbers are; empty where they have none
   std::vector<Row> rows;
 };
 

@@ -27,8 +27,8 @@ void require_folder(const std::string& option, const std::filesystem::path& fold
 
 }  // namespace
 
-std::map<PaperSet, std::filesystem::path> find_sets(const SetOptions& options) {
-  std::map<PaperSet, std::filesystem::path> folders;
+SetFolders find_sets(const SetOptions& options) {
+  SetFolders folders;
   if (!options.sets.empty()) require_folder("sets", options.sets);
   for (const Choice& choice : kChoices) {
     const std::string& named = options.*choice.folder;

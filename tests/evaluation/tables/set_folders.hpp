@@ -18,7 +18,9 @@ struct SetOptions {
   std::string sets;  // a folder that holds them as meals-45, … or as meals, angles, plates, meals14
 };
 
+using SetFolders = std::map<PaperSet, std::filesystem::path>;
+
 // The folders of the sets that were named or lie in `sets`. Throws UsageError where a named one is absent.
-std::map<PaperSet, std::filesystem::path> find_sets(const SetOptions& options);
+SetFolders find_sets(const SetOptions& options);
 
 }  // namespace traygauge::tables

@@ -1,18 +1,15 @@
 #include "tests/evaluation/tables/tables_command.hpp"
 
-#include <unistd.h>
-
 #include <CLI/CLI.hpp>
-#include <iostream>
+#include <algorithm>
 #include <opencv2/core/utility.hpp>
-#include <set>
+#include <ostream>
 
 #include "firmware/base/exit_status.hpp"
-#include "firmware/evaluate/progress.hpp"
 #include "simulator/capture/input_error.hpp"
-#include "tests/evaluation/tables/row_figures.hpp"
+#include "tests/evaluation/tables/report.hpp"
 #include "tests/evaluation/tables/set_folders.hpp"
-#include "tests/evaluation/tables/table_runner.hpp"
+#include "tests/evaluation/tables/table_measurement.hpp"
 
 namespace traygauge::tables {
 namespace {
@@ -25,6 +22,7 @@ struct Options {
   SetOptions sets;
   RunnerOptions runner;
   std::string cache = "paper-tables-cache";
+  std::string out;
 };
 
 int report_error(std::ostream& error, const std::string& text) {
@@ -51,49 +49,32 @@ void add_options(CLI::App& app, Options& options) {
       ->envname("TRAYGAUGE_CONFIG");
 }
 
-// Rows of sets that were not given are left out, and said to be.
-std::vector<Row> measurable_rows(const Table& table, const std::map<PaperSet, std::filesystem::path>& sets,
-                                 std::ostream& error) {
-  std::vector<Row> rows;
-  std::set<PaperSet> absent;
-  for (const Row& row : table.rows) {
-    if (sets.count(row.set) > 0) {
-      rows.push_back(row);
-    } else {
-      absent.insert(row.set);
-    }
-  }
-  if (rows.empty()) {
-    throw UsageError(table.command + ": needs the set " + name(*absent.begin()) +
-                     "; name its folder, or with --sets the folder that holds it");
-  }
-  for (const PaperSet set : absent)
-    error << table.command << ": without " << name(set) << ", which was not named\n";
-  return rows;
+bool is_any_measured(const MeasuredTable& table) {
+  return std::any_of(table.rows.begin(), table.rows.end(),
+                     [](const MeasuredRow& row) { return row.figures.foods.estimates > 0; });
 }
 
-std::vector<MeasuredRow> measure_rows(const std::vector<Row>& rows,
-                                      const std::map<PaperSet, std::filesystem::path>& sets,
-                                      const RunnerOptions& options, std::ostream& error) {
-  std::vector<Work> works;
-  for (const Row& row : rows) works.push_back({sets.at(row.set), row.variant});
-  Progress progress(error, &error == &std::cerr && isatty(STDERR_FILENO) == 1);
-  const std::vector<WorkResult> results =
-      run_works(works, options, [&](std::size_t done, std::size_t all) { progress.show(done, all); });
-  std::vector<MeasuredRow> measured;
-  for (std::size_t i = 0; i < rows.size(); ++i)
-    measured.push_back({rows[i], figures_of(rows[i], works[i].set, results[i].runs)});
-  return measured;
+int print_table(const Table& table, const SetFolders& sets, const RunnerOptions& options, std::ostream& out,
+                std::ostream& error) {
+  const std::vector<Table> tables = measurable_tables({table}, sets, error);
+  if (tables.empty()) {
+    throw UsageError(table.command + ": needs the set " + name(table.rows.front().set) +
+                     "; name its folder, or with --sets the folder that holds it");
+  }
+  const MeasuredTable measured = measure_tables(tables, sets, options, error).front();
+  out << compose_text(measured.table, measured.rows);
+  return is_any_measured(measured) ? kExitMeasured : kExitNotMeasurable;
 }
 
 int run_command(const CLI::App& app, Options& options, std::ostream& out, std::ostream& error) {
   // As the paper measured time: without parallelism.
   cv::setNumThreads(1);
   options.runner.cache = options.cache;
-  const auto sets = find_sets(options.sets);
-  const Table table = find_table(app.get_subcommands().front()->get_name()).value();
-  const std::vector<Row> rows = measurable_rows(table, sets, error);
-  out << compose_text(table, measure_rows(rows, sets, options.runner, error));
+  const SetFolders sets = find_sets(options.sets);
+  const std::string command = app.get_subcommands().front()->get_name();
+  if (command != "report") return print_table(find_table(command).value(), sets, options.runner, out, error);
+  if (sets.empty()) throw UsageError("report: name the folder that holds the sets with --sets, or each set");
+  write_report(options.out, sets, options.runner, error);
   return kExitMeasured;
 }
 
@@ -107,6 +88,9 @@ int run_tables_command(int argument_count, const char* const* arguments, std::os
   Options options;
   add_options(app, options);
   for (const Table& table : paper_tables()) app.add_subcommand(table.command, table.title);
+  app.add_subcommand("report", "All of it as Markdown with plots, for both profiles")
+      ->add_option("--out", options.out, "Folder for report.md and its plots")
+      ->required();
   try {
     app.parse(argument_count, arguments);
     const int status = run_command(app, options, out, error);
