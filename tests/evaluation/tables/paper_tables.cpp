@@ -52,7 +52,7 @@ Table detectors() {
 Table relative_pose() {
   const std::string fixed = "pose.threshold=fixed";
   return {"table-3",
-          "Table III. Extraction of the relative pose: fitter, local optimisation, threshold, LM",
+          "Table III. Relative pose: fitter, local optimisation, threshold, LM",
           "",
           {row("RANSAC, no LO, static, no LM", 13.4, {},
                {"pose.local_optimisation=false", fixed, "pose.refine=false"}),

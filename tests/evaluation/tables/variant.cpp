@@ -47,7 +47,6 @@ Configuration configure(const Variant& variant) {
 std::string describe(const Variant& variant) {
   std::ostringstream text;
   text << "method " << name(variant.method) << "\nprofile " << traygauge::name(variant.profile) << '\n';
-  for (const std::string& setting : variant.settings) text << "setting " << setting << '\n';
   std::string parameters;
   for (const std::string& line : list_parameters(configure(variant))) parameters += line + "\n";
   text << "parameters " << fingerprint(parameters) << '\n';
