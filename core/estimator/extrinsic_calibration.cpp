@@ -58,21 +58,33 @@ Status find_pose(const ExtrinsicInput& input, std::span<const RayMatch> rays, do
   return refine_relative_pose(rays, focal_px, params, start, random, workspace.pose, pose, inliers);
 }
 
-// The card's points seen in both views, as part of the sparse cloud: what does not agree with the motion is
-// no point of it, whoever matched it.
+// Given card points are not checked by anyone before: single ones that disagree with the motion are
+// mismatches. When most do, the card itself has moved; all are kept, and check_against_card() says so.
+void collect_given_tracks(const GivenCorrespondences& given, double focal_px, const RelativePose& found,
+                          BoundedList<CardTrack>& tracks) {
+  const Mat3 essential = essential_matrix(found.second_from_first);
+  const auto agrees = [&](const CardTrack& track) {
+    return symmetric_epipolar_distance_px(essential, {track.first, track.second}, focal_px) <=
+           found.threshold_px;
+  };
+  const auto all = given.card_tracks.items();
+  const bool has_moved = 2 * std::count_if(all.begin(), all.end(), agrees) < std::ssize(all);
+  for (CardTrack track : all) {
+    if (!has_moved && !agrees(track)) continue;
+    if (triangulate({track.first, track.second}, found.second_from_first, track.point_in_first))
+      tracks.push_back(track);
+  }
+}
+
+// The card's points seen in both views, as part of the sparse cloud.
 void collect_tracks(const ExtrinsicInput& input, std::span<const RayMatch> rays, double focal_px,
                     const RelativePose& found, TrackRule rule, ExtrinsicWorkspace& workspace) {
-  const Pose& pose = found.second_from_first;
   workspace.tracks.clear();
   if (has_given(input)) {
-    const Mat3 essential = essential_matrix(pose);
-    for (CardTrack track : input.given->card_tracks.items()) {
-      const RayMatch match{track.first, track.second};
-      if (symmetric_epipolar_distance_px(essential, match, focal_px) > found.threshold_px) continue;
-      if (triangulate(match, pose, track.point_in_first)) workspace.tracks.push_back(track);
-    }
+    collect_given_tracks(*input.given, focal_px, found, workspace.tracks);
     return;
   }
+  const Pose& pose = found.second_from_first;
   const std::size_t count = rays.size();
   triangulate_all(rays, workspace.inliers.first(count), pose, workspace.cloud.first(count),
                   workspace.triangulated.first(count));
