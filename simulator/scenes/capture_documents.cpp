@@ -130,6 +130,7 @@ Json compose_capture(const SceneDescription& scene) {
 Json compose_truth(const LaidScene& laid, const std::vector<std::vector<std::size_t>>& visible) {
   const SceneDescription& scene = laid.description();
   Json json;
+  json["origin"] = scene.origin;
   json["items"] = Json::array();
   for (const FoodTruth& food : laid.foods()) json["items"].push_back(compose_food(food, laid));
   for (const Photograph& view : scene.views)

@@ -10,6 +10,8 @@
 #include <system_error>
 #include <vector>
 
+#include "simulator/capture/input_error.hpp"
+#include "simulator/capture/json_file.hpp"
 #include "simulator/capture/picture_file.hpp"
 #include "simulator/capture/png_writer.hpp"
 #include "simulator/render/jpeg_writer.hpp"
@@ -120,7 +122,13 @@ bool is_complete_capture(const fs::path& folder, const SceneDescription& scene) 
   for (std::size_t i = 0; i < scene.views.size(); ++i) {
     if (!has(numbered("view", i, ".jpg")) || !has(numbered("labels", i, ".png"))) return false;
   }
-  return true;
+  try {
+    const nlohmann::json truth = read_json(folder / "truth.json");
+    const auto origin = truth.find("origin");
+    return origin != truth.end() && *origin == scene.origin;
+  } catch (const InputError&) {
+    return false;  // a damaged one is rendered again
+  }
 }
 
 void render_capture(const SceneDescription& scene, const fs::path& folder, const RenderSettings& settings,

@@ -9,7 +9,7 @@
 
 namespace traygauge {
 
-// Whether `folder` holds all files of a capture of this scene.
+// Whether `folder` holds all files of a capture of this scene, by its origin.
 bool is_complete_capture(const std::filesystem::path& folder, const SceneDescription& scene);
 
 // Renders every view of the scene and stores them with capture.json and truth.json in `folder`, which appears

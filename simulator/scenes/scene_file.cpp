@@ -34,7 +34,6 @@ class SceneTable {
     expect_keys(node_, std::span<const std::string_view>(keys.begin(), keys.size()));
   }
 
-  const JsonNode& node() const { return node_; }
   std::optional<JsonNode> find(const char* key) const { return node_.find(key); }
 
   // Leave the value as it is where the key is absent.
@@ -269,6 +268,7 @@ SceneDescription read_scene_file(const std::filesystem::path& file) {
   const SceneTable root(node, {"name", "seed", "camera", "dishes", "foods", "card", "table", "tray",
                                "utensils", "lamps", "ambient", "views", "pairs"});
   SceneDescription scene;
+  scene.origin = "file " + document.dump(-1, ' ', true, nlohmann::json::error_handler_t::replace);
   scene.name = file.stem().string();
   if (const auto name = root.find("name")) scene.name = name->text();
   if (scene.name.find('/') != std::string::npos || scene.name.starts_with('.'))

@@ -276,6 +276,8 @@ std::vector<SceneDescription> make_scenes(std::string_view set, std::uint64_t se
     throw std::invalid_argument("no set is called " + std::string(set));
   }
   if (is_reduced) reduce(scenes, reduced_count);
+  for (SceneDescription& scene : scenes)
+    scene.origin = std::string(set) + ", seed " + std::to_string(seed) + (is_reduced ? ", reduced" : "");
   return scenes;
 }
 

@@ -82,6 +82,11 @@ TEST(SimulateCommand, KeepsCapturesThatAreComplete) {
   EXPECT_EQ(read_capture(folder.path() / "example").views.size(), 2U);
   const Result second = simulate(command);
   EXPECT_NE(second.out.find("1 were complete already"), std::string::npos) << second.out;
+  // Another scene of that name is not taken for it.
+  replace("seed = 12", "seed = 13");
+  write_text(folder.path() / "scene.toml", scene);
+  const Result changed = simulate(command);
+  EXPECT_NE(changed.out.find("1 captures rendered"), std::string::npos) << changed.out;
 }
 
 TEST(SimulateCommand, ExampleSceneIsRead) {
