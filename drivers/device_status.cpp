@@ -24,6 +24,9 @@ constexpr auto kTexts = std::to_array<Text>({
     {"busy", "The device is still carrying out the last request."},
     {"torn_frame", "The picture arrived damaged; if this comes back, check the camera's cable."},
     {"stale_frame", "The camera delivered an old picture; it may hang."},
+    {"unsteady",
+     "Pictures in a row differ: the tray moved, or they arrive damaged; hold still, then check the camera's "
+     "cable."},
     {"unreadable", "The recorded picture could not be read."},
     {"stalled", "The arm did not reach its place; check that nothing blocks it."},
     {"device_gone", "The device has disappeared; plug it in again."},

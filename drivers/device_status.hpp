@@ -17,6 +17,7 @@ enum class DeviceCode : std::uint8_t {
   busy,
   torn_frame,
   stale_frame,
+  unsteady,
   unreadable,
   stalled,
   device_gone,

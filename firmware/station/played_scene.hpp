@@ -29,15 +29,18 @@ class PlayedScene final : public Scene {
     return player_.has_tray() ? &captures_.configuration() : nullptr;
   }
   // The arm's angle counts only where one was recorded: without, the simulated arm's has nothing to do with
-  // where the camera stood.
+  // where the camera stood. An arm that stands elsewhere shows the nearest recorded view: what it says of
+  // itself is then as far from that view as it is from the truth.
   ViewInput describe(const StationView& view) override {
     ViewInput input;
     input.frame = view.frame;
-    const auto played_as = player_.view_played_as(view.sequence);
-    if (!played_as) return input;
-    input.labels = captures_.pair()[static_cast<std::size_t>(*played_as)].labels;
-    input.lens = captures_.lens(*played_as);
-    if (player_.second_view_angle_deg()) input.arm_angle_deg = view.arm_angle_deg;
+    const auto played = player_.find_played(view.sequence);
+    if (!played) return input;
+    input.labels = captures_.pair()[static_cast<std::size_t>(played->view)].labels;
+    input.lens = captures_.lens(played->view);
+    if (player_.second_view_angle_deg() && view.arm_angle_deg) {
+      input.arm_angle_deg = *view.arm_angle_deg + played->off_deg;
+    }
     return input;
   }
   std::string_view tray_name() const override {

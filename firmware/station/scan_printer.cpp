@@ -92,6 +92,11 @@ std::string scan_text(const ScanResult& result) {
   if (!measured || !result.measurement->status.ok()) {
     text += measured ? ". " + message(result) : message(result);
   }
+  if (result.measurement != nullptr) {
+    for (const std::string& warning : list_warnings(*result.measurement, {})) {
+      text += (text.back() == '.' ? " Warning: " : ". Warning: ") + warning;
+    }
+  }
   return text + "\n";
 }
 

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <optional>
+#include <utility>
 
 #include "firmware/measure/measure_report.hpp"
 
@@ -12,7 +13,14 @@ namespace {
 
 // What spoils one scan and leaves the camera usable; anything else needs the device to be opened again.
 bool spoils_one_scan(DeviceCode code) {
-  return code == DeviceCode::torn_frame || code == DeviceCode::stale_frame || code == DeviceCode::unreadable;
+  return code == DeviceCode::torn_frame || code == DeviceCode::unsteady || code == DeviceCode::unreadable;
+}
+
+// Lost steps show in what was seen only: the views are the same, too close, do not fit each other or the
+// angle.
+bool casts_doubt_on_arm(const Measurement& measurement) {
+  return !is_measured(measurement) ||
+         measurement.warnings[static_cast<std::size_t>(Warning::arm_angle_disagrees)];
 }
 
 }  // namespace
@@ -69,7 +77,7 @@ StationState Station::wait_for_press() {
   const Nanoseconds wait =
       now < result_until_ ? std::min(result_until_ - now, params_.press_wait) : params_.press_wait;
   Press press;
-  const DeviceStatus status = devices_.trigger.wait_for_press(wait, press);
+  const DeviceStatus status = wait_for_press(wait, press);
   const bool is_alive =
       status.ok() || status.code() == DeviceCode::timed_out || status.code() == DeviceCode::ended;
   if (!is_alive) return enter_fault(devices_.trigger, status);
@@ -108,7 +116,7 @@ StationState Station::await_second_press() {
   while (!stop_ && devices_.clock.now() < deadline) {
     Press press;
     const Nanoseconds wait = std::min(deadline - devices_.clock.now(), params_.press_wait);
-    const DeviceStatus status = devices_.trigger.wait_for_press(wait, press);
+    const DeviceStatus status = wait_for_press(wait, press);
     if (status.ok()) return StationState::taking_second_view;
     if (status.code() == DeviceCode::ended) break;
     if (status.code() != DeviceCode::timed_out) return fail_scan(devices_.trigger, status);
@@ -144,20 +152,45 @@ StationState Station::measure() {
   const StationState next =
       end_scan(result, measured ? Signal::done : Signal::try_again, StationState::waiting);
   if (!returning.ok()) return enter_fault(*devices_.arm, returning);
-  return finish_return(next);
+  return finish_return(next, casts_doubt_on_arm(measurement));
 }
 
-// A picture that was exposed after this call began, so that nothing moved in it.
+// A press soon after the last one is the same one, bouncing: timed_out.
+DeviceStatus Station::wait_for_press(Nanoseconds timeout, Press& press) {
+  const DeviceStatus status = devices_.trigger.wait_for_press(timeout, press);
+  if (!status.ok()) return status;
+  const bool bounces = last_edge_at_ && press.at - *last_edge_at_ < params_.bounce_time;
+  last_edge_at_ = press.at;
+  return bounces ? DeviceCode::timed_out : DeviceCode::ok;
+}
+
+// A picture that the one before it confirms: damage that the camera does not notice, such as rows of an older
+// picture, can otherwise pass for food.
 DeviceStatus Station::capture(View& view) {
   const Instant not_before = devices_.clock.now();
-  DeviceStatus status;
+  DeviceStatus failure = DeviceCode::unsteady;
+  auto& [last, current] = means_;
+  current.clear();
   for (int attempt = 0; attempt < params_.capture_attempts; ++attempt) {
-    status = devices_.camera.capture(view.pixels, params_.capture_timeout, view.frame);
-    if (status.ok() && view.frame.exposed_at < not_before) status = DeviceCode::stale_frame;
-    if (status.ok()) return status;
-    if (status.code() == DeviceCode::device_gone) break;
+    const DeviceStatus status = capture_once(view, not_before);
+    if (status.code() == DeviceCode::device_gone) return status;
+    if (!status.ok()) {
+      failure = status;
+      continue;
+    }
+    std::swap(last, current);
+    current.compute(view.frame.view);
+    if (current.agrees_with(last, params_.steadiness)) return DeviceCode::ok;
+    if (!last.empty()) failure = DeviceCode::unsteady;
   }
-  return status;
+  return failure;
+}
+
+// Exposed after `not_before`, so that nothing moved in it.
+DeviceStatus Station::capture_once(View& view, Instant not_before) {
+  const DeviceStatus status = devices_.camera.capture(view.pixels, params_.capture_timeout, view.frame);
+  const bool is_old = status.ok() && view.frame.exposed_at < not_before;
+  return is_old ? DeviceStatus(DeviceCode::stale_frame) : status;
 }
 
 // NOLINTNEXTLINE(readability-make-member-function-const): the station's arm moves
@@ -167,9 +200,11 @@ DeviceStatus Station::begin_return() {
   return still.ok() ? devices_.arm->begin_move_to(0.0) : still;
 }
 
-StationState Station::finish_return(StationState next) {
+// An arm that may stand elsewhere than it says finds its switch again.
+StationState Station::finish_return(StationState next, bool arm_is_doubtful) {
   if (devices_.arm == nullptr) return next;
-  const DeviceStatus status = devices_.arm->wait_until_still(params_.arm_timeout);
+  DeviceStatus status = devices_.arm->wait_until_still(params_.arm_timeout);
+  if (status.ok() && arm_is_doubtful) status = devices_.arm->home(params_.arm_timeout);
   return status.ok() ? next : enter_fault(*devices_.arm, status);
 }
 
@@ -193,12 +228,14 @@ StationState Station::fail_scan(Device& device, DeviceStatus status) {
   result.outcome = ScanOutcome::device_failed;
   result.failure = {device.description(), status, device.detail()};
   if (!spoils_one_scan(status.code())) {
+    // A camera that hangs usually works once it is opened again: no case for somebody to come.
+    const bool may_try_again = status.code() == DeviceCode::stale_frame;
     remember_failure(device, status);
-    return end_scan(result, Signal::fault, StationState::starting);
+    return end_scan(result, may_try_again ? Signal::try_again : Signal::fault, StationState::starting);
   }
   end_scan(result, Signal::try_again, StationState::waiting);
   const DeviceStatus returning = begin_return();
-  return returning.ok() ? finish_return(StationState::waiting) : enter_fault(*devices_.arm, returning);
+  return returning.ok() ? finish_return(StationState::waiting, false) : enter_fault(*devices_.arm, returning);
 }
 
 }  // namespace traygauge

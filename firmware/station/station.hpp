@@ -2,9 +2,11 @@
 // states and is told once.
 #pragma once
 
+#include <array>
 #include <atomic>
 #include <chrono>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "drivers/arm.hpp"
@@ -12,6 +14,7 @@
 #include "drivers/clock.hpp"
 #include "drivers/indicator.hpp"
 #include "drivers/trigger.hpp"
+#include "firmware/station/block_means.hpp"
 #include "firmware/station/measurer.hpp"
 #include "firmware/station/scan_result.hpp"
 
@@ -28,9 +31,12 @@ struct StationDevices {
 struct StationParams {
   double second_view_deg = 18.0;  // paper, Table V: error and time are least at 15 to 20
   Nanoseconds capture_timeout = std::chrono::seconds(2);  // longer than any exposure; shorter hides no hang
-  int capture_attempts = 5;                               // 1 to 20: more than a camera queues old frames
+  int capture_attempts = 6;  // 2 to 20: more than a camera queues old frames; two are needed
+  SteadinessParams steadiness;
   Nanoseconds arm_timeout = std::chrono::seconds(10);
   Nanoseconds second_press_timeout = std::chrono::seconds(60);
+  // A worn contact bounces for up to 100 ms, when it is released too; nobody presses twice so fast.
+  Nanoseconds bounce_time = std::chrono::milliseconds(300);
   Nanoseconds result_shown = std::chrono::seconds(3);        // then the lamp says ready again
   Nanoseconds press_wait = std::chrono::milliseconds(500);   // between two looks at the wish to stop
   Nanoseconds first_retry = std::chrono::milliseconds(100);  // of a failed device; doubles up to last_retry
@@ -88,12 +94,14 @@ class Station {
   StationState take_first_view();
   StationState await_second_view();
   StationState await_second_press();
+  DeviceStatus wait_for_press(Nanoseconds timeout, Press& press);
   StationState take_second_view();
   StationState measure();
 
   DeviceStatus capture(View& view);
+  DeviceStatus capture_once(View& view, Instant not_before);
   DeviceStatus begin_return();
-  StationState finish_return(StationState next);
+  StationState finish_return(StationState next, bool arm_is_doubtful);
 
   StationState end_scan(ScanResult result, Signal signal, StationState next);
   StationState fail_scan(Device& device, DeviceStatus status);
@@ -117,9 +125,11 @@ class Station {
   StationTotals totals_;
   View first_;
   View second_;
+  std::array<BlockMeans, 2> means_;  // of the last two pictures
   Instant pressed_at_;
-  Instant result_until_;             // the lamp shows the last result
-  Device* failed_device_ = nullptr;  // while it does not work
+  std::optional<Instant> last_edge_at_;  // of the button
+  Instant result_until_;                 // the lamp shows the last result
+  Device* failed_device_ = nullptr;      // while it does not work
   DeviceCode failed_code_ = DeviceCode::ok;
   Nanoseconds retry_after_{0};
   int retries_ = 0;

@@ -8,6 +8,7 @@
 #include "firmware/station/scan_printer.hpp"
 #include "simulator/capture/input_error.hpp"
 #include "simulator/devices/capture_folders.hpp"
+#include "simulator/devices/fault_file.hpp"
 #include "simulator/devices/simulated_arm.hpp"
 #include "simulator/devices/simulated_camera.hpp"
 #include "simulator/devices/simulated_clock.hpp"
@@ -18,30 +19,37 @@ namespace traygauge {
 namespace {
 
 constexpr std::string_view kSimulatorPrefix = "simulator:";
-constexpr Nanoseconds kPersonPresses = std::chrono::seconds(1);  // after the lamp says ready
+// Retries of a device that does not come back, about ten minutes: a script may switch it off for ever.
+constexpr int kMaxRetries = 120;
 
-// A press a scan, two where a hand moves the camera.
-std::uint64_t press_count(const StationCommand& command, const CaptureSource& captures) {
-  const std::uint64_t scans = command.scans > 0 ? command.scans : captures.capture_count();
-  return command.by_hand ? 2 * scans : scans;
+std::uint64_t scan_count(const StationCommand& command, const CaptureSource& captures) {
+  return command.scans > 0 ? command.scans : captures.capture_count();
 }
 
-int play(const StationCommand& command, Profile profile, MeasurableCaptures& captures,
-         const std::atomic<bool>& stop, std::ostream& out, std::ostream& log) {
+int play(const StationCommand& command, Profile profile, const FaultPlan& faults,
+         MeasurableCaptures& captures, const std::atomic<bool>& stop, std::ostream& out, std::ostream& log) {
   SimulatedClock clock;
   TrayPlayer player(captures, command.by_hand ? CameraMover::hand : CameraMover::arm);
   SimulatedArm arm(clock, &player);
   SimulatedCamera camera(clock, player, command.by_hand ? nullptr : &arm);
   SimulatedIndicator lamp(clock);
-  SimulatedTrigger trigger(clock, lamp, press_count(command, captures), kPersonPresses);
+  const std::uint64_t scans = scan_count(command, captures);
+  SimulatedTrigger trigger(clock, lamp, command.by_hand ? 2 * scans : scans);
   trigger.before_press([&player] { player.handle_press(); });
+  lamp.on_signal([&player](Signal signal) { player.handle_signal(signal); });
+  faults.apply(SimulatedDevice::camera, camera.faults());
+  faults.apply(SimulatedDevice::button, trigger.faults());
+  faults.apply(SimulatedDevice::arm, arm.faults());
+  faults.apply(SimulatedDevice::lamp, lamp.faults());
+  faults.apply(SimulatedDevice::clock, clock.faults());
 
   PlayedScene scene(captures, player);
   EstimatorMeasurer measurer(scene, captures.limits(), profile, command.seed);
   ScanPrinter printer(out, log, command.json ? ScanPrinter::Format::json : ScanPrinter::Format::text);
   StationParams params;
   params.second_view_deg = command.second_view_deg;
-  params.max_scans = command.scans;
+  params.max_scans = scans;
+  params.max_retries = kMaxRetries;
   if (!command.by_hand && !arm.limits().contains(params.second_view_deg)) {
     throw UsageError("--second-view: expected " + std::to_string(arm.limits().min_deg) + " to " +
                      std::to_string(arm.limits().max_deg) + " degrees, where the arm can go");
@@ -59,6 +67,8 @@ CLI::App* add_station_command(CLI::App& app, StationCommand& command) {
       ->add_option("--devices", command.devices,
                    "simulator:FOLDER plays a capture, or a folder of captures by name")
       ->required();
+  station->add_option("--faults", command.faults,
+                      "A script of what goes wrong with the simulated devices; see simulator/README.md");
   CLI::Option* scans =
       station->add_option("--scans", command.scans, "End after so many scans")->check(CLI::PositiveNumber);
   station
@@ -88,8 +98,12 @@ int run_station(const StationCommand& command, const OpenCaptures& open_captures
     throw InputError({folder, ""}, "capture.json here, or captures in the folders below", "neither",
                      "name a capture, or a folder of captures");
   }
+  const FaultPlan faults = command.faults.empty() ? FaultPlan() : read_fault_file(command.faults);
+  if (command.by_hand && !faults.of(SimulatedDevice::arm).empty()) {
+    throw UsageError("--faults: the script has faults of the arm, and --by-hand plays none; remove one");
+  }
   const auto captures = open_captures(folders, profile);
-  return play(command, profile, *captures, stop, out, log);
+  return play(command, profile, faults, *captures, stop, out, log);
 }
 
 }  // namespace traygauge

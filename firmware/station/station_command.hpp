@@ -18,6 +18,7 @@ namespace traygauge {
 
 struct StationCommand {
   std::string devices;      // "simulator:FOLDER"
+  std::string faults;       // a fault script; empty: nothing goes wrong
   std::uint64_t scans = 0;  // 0: every capture once
   bool json = false;
   bool by_hand = false;  // no arm: a second press takes the second view

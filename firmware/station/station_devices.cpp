@@ -27,10 +27,12 @@ Station::Opening Station::open_all() {
 DeviceStatus Station::open_camera() {
   const DeviceStatus status = devices_.camera.start();
   if (!status.ok()) return status;
-  const std::size_t frame_bytes = devices_.camera.format().frame_bytes();
+  const CameraFormat format = devices_.camera.format();
+  const std::size_t frame_bytes = format.frame_bytes();
   for (View* view : {&first_, &second_}) {
     if (view->pixels.size() != frame_bytes) view->pixels.resize(frame_bytes);
   }
+  for (BlockMeans& means : means_) means.reserve(format.width, format.height);
   return status;
 }
 

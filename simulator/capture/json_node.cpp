@@ -114,6 +114,10 @@ int JsonNode::integer(int min, int max) const {
   return static_cast<int>(number);
 }
 
+bool JsonNode::is_text() const {
+  return value_->is_string();
+}
+
 std::string JsonNode::text() const {
   std::string text = value_->is_string() ? value_->get<std::string>() : std::string();
   if (text.empty()) fail("a text that is not empty", "put it in quotes");

@@ -29,6 +29,7 @@ class JsonNode {
   double positive_number(double max) const;
   int integer(int min, int max) const;
   std::string text() const;  // not empty
+  bool is_text() const;
   std::vector<double> numbers(std::size_t count, NumberRange range) const;
 
   const std::filesystem::path& file() const { return *file_; }

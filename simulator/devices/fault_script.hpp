@@ -1,29 +1,44 @@
-// Faults that a simulated device plays: what, after how many calls, how often.
+// The faults that one simulated device plays: what, when, how often.
 #pragma once
 
+#include <cstdint>
+#include <random>
 #include <vector>
 
+#include "drivers/clock.hpp"
 #include "drivers/device_status.hpp"
+#include "simulator/devices/fault.hpp"
 
 namespace traygauge {
 
-struct Fault {
-  DeviceCode code = DeviceCode::io_error;
-  int after_calls = 0;  // calls that still work
-  int times = 1;        // calls that then fail; kForever: all
-  static constexpr int kForever = -1;
-};
-
 class FaultScript {
  public:
-  // Counts `after_calls` from now. Of several faults that are due, the one added first is played.
-  void add(const Fault& fault);
-  void clear() { pending_.clear(); }
-  // To be asked once a call: ok, or the failure of this call.
-  DeviceStatus next();
+  // Counts `after_calls` from now. Of several faults that are due, the one added first is played. `seed`
+  // draws the calls of a share.
+  void add(const Fault& fault, std::uint64_t seed = 0);
+  void clear() { *this = {}; }
+  bool empty() const { return pending_.empty(); }
+
+  // To be asked once a call that these kinds can spoil, and kind `reports`, which spoils any: kind none when
+  // it works. After `off` every call fails until a start works.
+  FaultAction next(Instant now, FaultKinds kinds);
+  // To be asked once a start.
+  DeviceStatus next_start(Instant now);
+  bool is_off() const { return is_off_; }
 
  private:
-  std::vector<Fault> pending_;
+  struct Pending {
+    Fault fault;
+    std::mt19937_64 random;
+
+    bool is_spent() const { return fault.times == 0; }
+    bool is_due(Instant now);
+  };
+
+  FaultAction play(Instant now, FaultKinds kinds);
+
+  std::vector<Pending> pending_;
+  bool is_off_ = false;
 };
 
 }  // namespace traygauge

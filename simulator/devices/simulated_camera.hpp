@@ -2,6 +2,7 @@
 #pragma once
 
 #include <chrono>
+#include <vector>
 
 #include "drivers/camera.hpp"
 #include "simulator/devices/fault_script.hpp"
@@ -24,15 +25,26 @@ class SimulatedCamera final : public Camera {
   SimulatedCamera(Clock& clock, TrayPlayer& player, const SimulatedArm* arm,
                   const SimulatedCameraParams& params = {});
 
-  // Asked once a start and a capture. torn_frame leaves half of the picture in the buffer, stale_frame
-  // repeats the last frame's number.
+  // Asked once a start and a capture. torn leaves half of the picture in the buffer, stale repeats the last
+  // frame's number, stuck and mixed show what the sensor saw at the last capture; a frame that is late beyond
+  // the timeout is lost.
   FaultScript& faults() { return faults_; }
 
  private:
-  DeviceStatus do_start() override;
+  DeviceStatus do_start() override { return faults_.next_start(clock_.now()); }
   void do_stop() override {}
   CameraFormat do_format() const override { return player_.captures().largest_frame(); }
   DeviceStatus do_capture(std::span<std::uint8_t> buffer, Nanoseconds timeout, CapturedFrame& frame) override;
+
+  // The view that is seen now.
+  PlayedFrame look() const;
+  FrameView deliver(const FaultAction& fault, const PlayedFrame& seen, std::span<std::uint8_t> buffer);
+  FrameView spoil(const FaultAction& fault, const FrameView& whole, std::uint64_t sequence,
+                  std::span<std::uint8_t> buffer) const;
+  void remember(const FrameView& view);
+  FrameView pixels_of(int view) const {
+    return player_.captures().pair()[static_cast<std::size_t>(view)].frame;
+  }
 
   Clock& clock_;
   TrayPlayer& player_;
@@ -40,6 +52,8 @@ class SimulatedCamera final : public Camera {
   SimulatedCameraParams params_;
   FaultScript faults_;
   std::uint64_t last_sequence_ = 0;
+  FrameView last_view_;                    // that the sensor saw; in last_pixels_
+  std::vector<std::uint8_t> last_pixels_;  // kept while there are faults to play
 };
 
 }  // namespace traygauge

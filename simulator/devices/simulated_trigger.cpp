@@ -4,6 +4,11 @@
 #include <utility>
 
 namespace traygauge {
+namespace {
+
+constexpr Nanoseconds kBounceInterval = std::chrono::milliseconds(4);  // of a worn contact
+
+}  // namespace
 
 SimulatedTrigger::SimulatedTrigger(Clock& clock, std::vector<Instant> presses)
     : Trigger("simulated button"), clock_(clock), schedule_(std::move(presses)), count_(schedule_.size()) {
@@ -11,8 +16,8 @@ SimulatedTrigger::SimulatedTrigger(Clock& clock, std::vector<Instant> presses)
 }
 
 SimulatedTrigger::SimulatedTrigger(Clock& clock, const SimulatedIndicator& lamp, std::uint64_t count,
-                                   Nanoseconds delay)
-    : Trigger("simulated button"), clock_(clock), lamp_(&lamp), delay_(delay), count_(count) {}
+                                   const PersonParams& person)
+    : Trigger("simulated button"), clock_(clock), lamp_(&lamp), person_(person), count_(count) {}
 
 void SimulatedTrigger::add_press(Instant at) {
   const auto next = schedule_.begin() + static_cast<std::ptrdiff_t>(pressed_);
@@ -21,38 +26,63 @@ void SimulatedTrigger::add_press(Instant at) {
 }
 
 DeviceStatus SimulatedTrigger::do_wait_for_press(Nanoseconds timeout, Press& press) {
-  const DeviceStatus fault = faults_.next();
-  if (!fault.ok()) return fault;
-  if (all_pressed()) return DeviceCode::ended;
-  Instant at;
-  if (!next_press(at) || at > clock_.now() + timeout) {
-    clock_.sleep_for(timeout);
+  const FaultAction fault = faults_.next(clock_.now(), set_of({FaultKind::off}));
+  if (fault.code() != DeviceCode::ok) return fault.code();
+  const Instant deadline = clock_.now() + timeout;
+  while (edges_.empty() && !all_pressed() && next_press() <= deadline) press_at(next_press());
+  if (edges_.empty() && all_pressed()) return DeviceCode::ended;
+  if (edges_.empty() || edges_.front().seen_at > deadline) {
+    clock_.sleep_until(deadline);
     return DeviceCode::timed_out;
   }
-  clock_.sleep_until(at);
-  press = {at, ++pressed_};
-  if (before_press_) before_press_();
+  const Edge edge = edges_.front();
+  edges_.pop_front();
+  clock_.sleep_until(edge.seen_at);
+  press = {edge.at, ++sequence_};
+  if (edge.is_press && before_press_) before_press_();
   return DeviceCode::ok;
 }
 
 int SimulatedTrigger::do_pending() const {
-  int pending = 0;
-  for (std::uint64_t i = pressed_; i < schedule_.size() && schedule_[i] <= clock_.now(); ++i) ++pending;
+  const Instant now = clock_.now();
+  int pending = static_cast<int>(
+      std::count_if(edges_.begin(), edges_.end(), [now](const Edge& edge) { return edge.seen_at <= now; }));
+  for (std::uint64_t i = pressed_; i < schedule_.size() && schedule_[i] <= now; ++i) ++pending;
   return pending;
 }
 
 void SimulatedTrigger::do_discard_pending() {
-  pressed_ += static_cast<std::uint64_t>(do_pending());
+  const Instant now = clock_.now();
+  std::erase_if(edges_, [this, now](const Edge& edge) {
+    const bool is_forgotten = edge.seen_at <= now;
+    if (is_forgotten && edge.is_press && lamp_ != nullptr) --pressed_;  // the person tries again
+    return is_forgotten;
+  });
+  while (pressed_ < schedule_.size() && schedule_[pressed_] <= now) ++pressed_;
 }
 
-bool SimulatedTrigger::next_press(Instant& at) const {
-  if (lamp_ == nullptr) {
-    at = schedule_[pressed_];
-    return true;
+Instant SimulatedTrigger::next_press() const {
+  if (lamp_ == nullptr) return schedule_[pressed_];
+  const ShownSignal seen = lamp_->seen();
+  const bool is_called = seen.signal == Signal::ready && seen.since + person_.delay > last_try_;
+  return std::max(clock_.now(), is_called ? seen.since + person_.delay : last_try_ + person_.patience);
+}
+
+// A press that the contact loses was none for the station; the person notices, and tries again.
+void SimulatedTrigger::press_at(Instant at) {
+  const FaultAction fault = faults_.next(at, set_of({FaultKind::stuck, FaultKind::late, FaultKind::bounce}));
+  last_try_ = at;
+  const bool is_lost = fault.is(FaultKind::stuck);
+  if (is_lost) ++tries_;
+  if (!is_lost || lamp_ == nullptr) ++pressed_;
+  if (is_lost) return;
+  tries_ = 0;
+  edges_.push_back({at, at + fault.delay(), true});
+  if (!fault.is(FaultKind::bounce)) return;
+  for (int i = 1; i < static_cast<int>(fault.amount); ++i) {
+    const Instant bounced_at = at + i * kBounceInterval;
+    edges_.push_back({bounced_at, bounced_at, false});
   }
-  if (lamp_->shown() != Signal::ready) return false;
-  at = std::max(clock_.now(), lamp_->history().back().since + delay_);
-  return true;
 }
 
 }  // namespace traygauge

@@ -11,15 +11,21 @@ constexpr double kHomeTolerance_deg = 0.05;
 }  // namespace
 
 void TrayPlayer::handle_press() {
-  if (mover_ == CameraMover::hand && has_tray_ && !at_second_view_) {
+  if (mover_ == CameraMover::hand && has_tray_ && !at_second_view_ && !scan_has_ended_) {
     at_second_view_ = true;
     return;
   }
+  scan_has_ended_ = false;
   at_second_view_ = false;
   last_played_ = {};
   capture_index_ = next_capture_;
   has_tray_ = captures_.open(capture_index_);
   next_capture_ = (capture_index_ + 1) % captures_.capture_count();
+}
+
+void TrayPlayer::handle_signal(Signal signal) {
+  if (signal == Signal::done || signal == Signal::try_again || signal == Signal::fault)
+    scan_has_ended_ = true;
 }
 
 std::optional<double> TrayPlayer::second_view_angle_deg() const {
@@ -31,20 +37,24 @@ std::optional<double> TrayPlayer::second_view_angle_deg() const {
   return angle_deg;
 }
 
-int TrayPlayer::view_seen_at(double arm_angle_deg) const {
-  const auto second_deg = second_view_angle_deg();
-  if (!second_deg) return std::abs(arm_angle_deg) < kHomeTolerance_deg ? 0 : 1;
-  return std::abs(arm_angle_deg) <= std::abs(arm_angle_deg - *second_deg) ? 0 : 1;
+int TrayPlayer::view_seen_at(double arm_angle_deg, double aimed_deg) const {
+  const double second_deg = second_view_angle_deg().value_or(aimed_deg);
+  return std::abs(arm_angle_deg) <= std::abs(arm_angle_deg - second_deg) ? 0 : 1;
 }
 
-void TrayPlayer::note_played(std::uint64_t sequence, int view) {
+void TrayPlayer::note_played(const PlayedFrame& frame) {
   last_played_[1] = last_played_[0];
-  last_played_[0] = {sequence, view};
+  last_played_[0] = frame;
 }
 
-std::optional<int> TrayPlayer::view_played_as(std::uint64_t sequence) const {
+void TrayPlayer::note_repeated(PlayedFrame frame) {
+  if (last_played_[0].view >= 0) frame.view = last_played_[0].view;
+  note_played(frame);
+}
+
+std::optional<PlayedFrame> TrayPlayer::find_played(std::uint64_t sequence) const {
   for (const PlayedFrame& played : last_played_) {
-    if (played.view >= 0 && played.sequence == sequence) return played.view;
+    if (played.view >= 0 && played.sequence == sequence) return played;
   }
   return std::nullopt;
 }

@@ -33,8 +33,13 @@ class Printed : public testing::Test {
 };
 
 TEST_F(Printed, TextNamesItemsAndVolumes) {
-  EXPECT_EQ(scan_text(result_),
-            "Scan 3 (soup): item 2 123.4 ml, item 7 item_hidden. " + compose_message(measurement_) + "\n");
+  EXPECT_EQ(scan_text(result_), "Scan 3 (soup): item 2 123.4 ml, item 7 item_hidden. " +
+                                    compose_message(measurement_) +
+                                    " Warning: " + sentence(Warning::angle_small) + "\n");
+  items_[1].status = StatusCode::ok;
+  measurement_.status = StatusCode::ok;
+  EXPECT_EQ(scan_text(result_), std::string("Scan 3 (soup): item 2 123.4 ml, item 7 55.0 ml. Warning: ") +
+                                    sentence(Warning::angle_small) + "\n");
 }
 
 TEST_F(Printed, JsonIsOneLineAndHasNullForWhatWasNotMeasured) {

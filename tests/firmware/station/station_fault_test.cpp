@@ -26,7 +26,7 @@ TEST(StationFaults, TakesATornFrameAgain) {
 
 TEST(StationFaults, NeverMeasuresAFrameThatIsTornEveryTime) {
   StationRig rig(2);
-  rig.camera.faults().add({DeviceCode::torn_frame, 2, 5});  // after the start and the first view
+  rig.camera.faults().add({DeviceCode::torn_frame, 3, 6});  // after the start and the first view
   EXPECT_FALSE(rig.run().all_worked());
   ASSERT_EQ(rig.sink.lines.size(), 2U);
   EXPECT_EQ(rig.sink.lines[0], "1 device_failed simulated camera torn_frame");

@@ -2,11 +2,15 @@
 #pragma once
 
 #include <array>
+#include <cmath>
+#include <functional>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
 #include "firmware/station/station.hpp"
+#include "simulator/devices/fault_file.hpp"
 #include "simulator/devices/simulated_arm.hpp"
 #include "simulator/devices/simulated_camera.hpp"
 #include "simulator/devices/simulated_clock.hpp"
@@ -20,25 +24,28 @@ inline void PrintTo(Signal signal, std::ostream* out) {
   *out << name(signal);
 }
 
-// Its one item's volume is ten times the first view's grey plus the second's.
+// Its one item's volume is ten times the first view's mean grey plus the second's. It refuses what the real
+// measurement refuses: noise, pictures of the wrong size, the same view twice, views of two trays.
 class FakeMeasurer final : public Measurer {
  public:
   void begin_scan() override {
     grays_.clear();
     views.clear();
+    view_status_ = {};
     ++scans;
   }
   Status add_view(const StationView& view) override {
     views.push_back(view);
-    grays_.push_back(view.frame.data[0]);
+    look_at(view.frame);
     arm_was_moving = on_view ? on_view() : false;
     arm_moving_at.push_back(arm_was_moving);
-    return views.size() == 1 ? first_view_status : Status();
+    return views.size() == 1 && !first_view_status.ok() ? first_view_status : view_status_;
   }
   const Measurement& measure() override {
     if (on_measure) on_measure();
     measurement_ = {};
     measurement_.status = first_view_status.ok() ? status : first_view_status;
+    if (measurement_.status.ok()) measurement_.status = judge_views();
     if (grays_.size() == 2) item_.volume_ml = 10.0 * grays_[0] + grays_[1];
     if (measurement_.status.ok() || status.code() == StatusCode::partial) measurement_.items = {&item_, 1};
     return measurement_;
@@ -47,6 +54,7 @@ class FakeMeasurer final : public Measurer {
 
   Status first_view_status;
   Status status;
+  CameraFormat camera_format;
   std::function<bool()> on_view;
   std::function<void()> on_measure;
   std::vector<StationView> views;
@@ -55,7 +63,29 @@ class FakeMeasurer final : public Measurer {
   int scans = 0;
 
  private:
+  void look_at(const FrameView& frame) {
+    std::set<std::uint8_t> values;
+    double sum = 0.0;
+    const auto bytes = static_cast<std::size_t>(frame.stride_bytes * frame.height);
+    for (std::size_t i = 0; i < bytes; ++i) {
+      values.insert(frame.data[i]);
+      sum += frame.data[i];
+    }
+    grays_.push_back(sum / static_cast<double>(bytes));
+    const bool is_whole = frame.width == camera_format.width && frame.height == camera_format.height;
+    if (!is_whole) view_status_ = StatusCode::frame_size_mismatch;
+    if (values.size() > 2) view_status_ = StatusCode::card_not_found;  // two may be rows of two views
+  }
+  Status judge_views() const {
+    if (!view_status_.ok() || grays_.size() < 2) return view_status_;
+    if (grays_[0] == grays_[1]) return StatusCode::views_identical;
+    const bool are_whole = grays_[0] == std::floor(grays_[0]) && grays_[1] == std::floor(grays_[1]);
+    const bool are_of_one_tray = std::fmod(grays_[1] - grays_[0] + 256.0, 256.0) == 100.0;
+    return are_whole && !are_of_one_tray ? StatusCode::too_few_matches : StatusCode::ok;
+  }
+
   std::vector<double> grays_;
+  Status view_status_;
   ItemResult item_;
   Measurement measurement_;
 };
@@ -75,6 +105,7 @@ class RecordingSink final : public ResultSink {
     if (!result.failure.device.empty()) line.append(" ").append(text(result.failure));
     lines.push_back(line);
     durations.push_back(result.duration);
+    if (on_delivery) on_delivery();
     return accepts;
   }
   void report_fault(const DeviceFailure& failure) override {
@@ -85,6 +116,7 @@ class RecordingSink final : public ResultSink {
   }
 
   bool accepts = true;
+  std::function<void()> on_delivery;
   std::vector<std::string> lines;
   std::vector<Nanoseconds> durations;
 
@@ -103,12 +135,25 @@ struct StationRig {
         arm(clock, &player),
         camera(clock, player, has_arm ? &arm : nullptr),
         lamp(clock),
-        trigger(clock, lamp, (has_arm ? 1 : 2) * captures.capture_count(), std::chrono::seconds(1)) {
+        trigger(clock, lamp, (has_arm ? 1 : 2) * captures.capture_count()) {
     trigger.before_press([this] { player.handle_press(); });
+    lamp.on_signal([this](Signal signal) { player.handle_signal(signal); });
+    measurer.camera_format = captures.largest_frame();
     measurer.on_view = [this] { return arm.is_homed() && arm_speed() > 0.0; };
     devices.emplace(StationDevices{camera, trigger, has_arm ? &arm : nullptr, lamp, clock});
   }
 
+  void apply(const FaultPlan& plan) {
+    plan.apply(SimulatedDevice::camera, camera.faults());
+    plan.apply(SimulatedDevice::button, trigger.faults());
+    plan.apply(SimulatedDevice::arm, arm.faults());
+    plan.apply(SimulatedDevice::lamp, lamp.faults());
+    plan.apply(SimulatedDevice::clock, clock.faults());
+  }
+  bool faults_are_over() {
+    return camera.faults().empty() && trigger.faults().empty() && arm.faults().empty() &&
+           lamp.faults().empty() && clock.faults().empty();
+  }
   const StationTotals& run() {
     station.emplace(*devices, measurer, sink, stop, params);
     return station->run();

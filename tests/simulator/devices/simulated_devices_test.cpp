@@ -127,22 +127,10 @@ TEST_F(SimulatedStation, StalledArmStandsHalfWayAndHasToGoHome) {
   EXPECT_EQ(arm_->true_position_deg(), 0.0);
 }
 
-TEST(FaultScript, PlaysFaultsAfterSoManyCallsSoManyTimes) {
-  FaultScript script;
-  script.add({DeviceCode::torn_frame, 2, 2});
-  script.add({DeviceCode::device_gone, 5, Fault::kForever});
-  std::vector<DeviceCode> played;
-  for (int i = 0; i < 8; ++i) played.push_back(script.next().code());
-  using enum DeviceCode;
-  EXPECT_EQ(played, (std::vector{ok, ok, torn_frame, torn_frame, ok, device_gone, device_gone, device_gone}));
-  script.clear();
-  EXPECT_TRUE(script.next().ok());
-}
-
 TEST(SimulatedTrigger, PressesOnceEachTimeTheLampSaysReadyAndThenEnds) {
   SimulatedClock clock;
   SimulatedIndicator lamp(clock);
-  SimulatedTrigger trigger(clock, lamp, 2, 1s);
+  SimulatedTrigger trigger(clock, lamp, 2);
   int trays = 0;
   trigger.before_press([&trays] { ++trays; });
   ASSERT_TRUE(lamp.start().ok());

@@ -26,7 +26,7 @@ class SyntheticCaptures final : public CaptureSource {
       : SyntheticCaptures(std::vector<SyntheticCapture>(count, SyntheticCapture{})) {}
 
   static std::uint8_t gray_of(std::size_t capture, int view) {
-    return static_cast<std::uint8_t>(10 * (capture + 1) + static_cast<std::size_t>(view));
+    return static_cast<std::uint8_t>(20 * (capture + 1) + 100 * static_cast<std::size_t>(view));
   }
 
   std::size_t capture_count() const override { return captures_.size(); }

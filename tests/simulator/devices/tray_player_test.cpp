@@ -18,14 +18,17 @@ TEST(TrayPlayer, HasNoTrayBeforeTheFirstPressAndStartsOverAfterTheLast) {
   }
 }
 
-TEST(TrayPlayer, WithoutAnglesShowsTheSecondViewOnceTheArmHasLeftHome) {
+TEST(TrayPlayer, WithoutAnglesTheSecondViewIsWhereTheArmWasSent) {
   SyntheticCaptures captures(1);
   TrayPlayer player(captures);
   player.handle_press();
   EXPECT_EQ(player.second_view_angle_deg(), std::nullopt);
-  EXPECT_EQ(player.view_seen_at(0.0), 0);
-  EXPECT_EQ(player.view_seen_at(18.0), 1);
-  EXPECT_EQ(player.view_seen_at(-18.0), 1);
+  EXPECT_EQ(player.view_seen_at(0.0, 0.0), 0);
+  EXPECT_EQ(player.view_seen_at(12.0, 0.0), 0);
+  EXPECT_EQ(player.view_seen_at(0.0, 18.0), 0);
+  EXPECT_EQ(player.view_seen_at(18.0, 18.0), 1);
+  EXPECT_EQ(player.view_seen_at(10.0, 18.0), 1);
+  EXPECT_EQ(player.view_seen_at(-18.0, -18.0), 1);
 }
 
 TEST(TrayPlayer, WithAnglesShowsTheNearerView) {
@@ -33,10 +36,10 @@ TEST(TrayPlayer, WithAnglesShowsTheNearerView) {
   TrayPlayer player(captures);
   player.handle_press();
   EXPECT_DOUBLE_EQ(player.second_view_angle_deg().value(), -16.0);  // counted from the first view
-  EXPECT_EQ(player.view_seen_at(0.0), 0);
-  EXPECT_EQ(player.view_seen_at(-7.9), 0);
-  EXPECT_EQ(player.view_seen_at(-8.1), 1);
-  EXPECT_EQ(player.view_seen_at(16.0), 0);
+  EXPECT_EQ(player.view_seen_at(0.0, 18.0), 0);
+  EXPECT_EQ(player.view_seen_at(-7.9, 18.0), 0);
+  EXPECT_EQ(player.view_seen_at(-8.1, 18.0), 1);
+  EXPECT_EQ(player.view_seen_at(16.0, 18.0), 0);
 }
 
 TEST(TrayPlayer, EveryOtherPressMovesTheHand) {
@@ -49,19 +52,34 @@ TEST(TrayPlayer, EveryOtherPressMovesTheHand) {
   }
 }
 
+TEST(TrayPlayer, AHandStartsOverWhenTheLampHasEndedTheScan) {
+  SyntheticCaptures captures(3);
+  TrayPlayer player(captures, CameraMover::hand);
+  player.handle_press();
+  player.handle_signal(Signal::hold_still);
+  player.handle_signal(Signal::try_again);
+  player.handle_press();
+  EXPECT_EQ(player.capture_index(), 1U);
+  EXPECT_EQ(player.view_seen_by_hand(), 0);
+  player.handle_signal(Signal::ready);
+  player.handle_press();
+  EXPECT_EQ(player.capture_index(), 1U);
+  EXPECT_EQ(player.view_seen_by_hand(), 1);
+}
+
 TEST(TrayPlayer, FindsAFrameOfThisTrayByItsNumber) {
   SyntheticCaptures captures(1);
   TrayPlayer player(captures);
   player.handle_press();
-  player.note_played(7, 0);
-  player.note_played(9, 1);
-  EXPECT_EQ(player.view_played_as(7), 0);
-  EXPECT_EQ(player.view_played_as(9), 1);
-  EXPECT_EQ(player.view_played_as(8), std::nullopt);
-  player.note_played(11, 1);
-  EXPECT_EQ(player.view_played_as(7), std::nullopt);
+  player.note_played({7, 0});
+  player.note_played({9, 1});
+  EXPECT_EQ(player.find_played(7).value().view, 0);
+  EXPECT_EQ(player.find_played(9).value().view, 1);
+  EXPECT_FALSE(player.find_played(8));
+  player.note_played({11, 1});
+  EXPECT_FALSE(player.find_played(7));
   player.handle_press();
-  EXPECT_EQ(player.view_played_as(9), std::nullopt);
+  EXPECT_FALSE(player.find_played(9));
 }
 
 TEST(TrayPlayer, SaysWhatCannotBeRead) {

@@ -1,0 +1,39 @@
+// A picture reduced to the mean grey of its blocks: enough to see whether two pictures show the same.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/image_view/image_view.hpp"
+
+namespace traygauge {
+
+struct SteadinessParams {
+  // Blocks that differ by more have other content. Sensor noise leaves below 1 of a block's mean, a lamp's
+  // flicker a few; what an arm or a hand has moved differs by 20 to 100 at every edge.
+  int max_block_difference = 16;
+  double max_different_share = 0.002;  // of the blocks; an insect or a reflex is no other scene
+};
+
+class BlockMeans {
+ public:
+  static constexpr int kBlockPx = 16;
+
+  // Takes the memory for pictures of this size at most.
+  void reserve(int width, int height);
+  void compute(const FrameView& frame);
+  void clear() { columns_ = rows_ = 0; }
+  bool empty() const { return columns_ == 0; }
+  // Same size, same scene.
+  bool agrees_with(const BlockMeans& other, const SteadinessParams& params) const;
+
+ private:
+  std::vector<std::uint8_t> means_;
+  std::vector<std::uint32_t> sums_;  // of one row of blocks
+  int width_ = 0;
+  int height_ = 0;
+  int columns_ = 0;
+  int rows_ = 0;
+};
+
+}  // namespace traygauge
