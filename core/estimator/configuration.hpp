@@ -44,7 +44,8 @@ struct EstimatorLimits {
 // The pictures that the stages work on.
 struct ViewParams {
   double matching_dish_px = 131072.0;  // 2^17: area of the dish for dense matching (paper V-B)
-  double working_margin_px = 6.0;      // around the dish: half of census and window
+  bool match_dish_only = true;     // dense matching leaves the background out (paper V-B, region of interest)
+  double working_margin_px = 6.0;  // around the dish: half of census and window
   double feature_dish_px =
       524288.0;  // 2^19: area of the dish where salient points are looked for; the card needs it
   // Scale at which the card and its pattern are searched for salient points. Views show the card with 2 to 4

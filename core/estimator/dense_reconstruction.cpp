@@ -6,12 +6,15 @@
 namespace traygauge {
 namespace {
 
-constexpr std::uint8_t kOnDish = 255;
+constexpr std::uint8_t kInRegion = 255;
 
-ImageView<std::uint8_t> mark_dish(ImageView<const std::uint8_t> labels, std::span<std::uint8_t> storage) {
+// The region of interest: the dish, or all of the working picture.
+ImageView<std::uint8_t> mark_region(ImageView<const std::uint8_t> labels, bool dish_only,
+                                    std::span<std::uint8_t> storage) {
   const ImageView<std::uint8_t> region{storage.data(), labels.width, labels.height};
   for (int y = 0; y < labels.height; ++y) {
-    for (int x = 0; x < labels.width; ++x) region.at(x, y) = is_on_dish(labels.at(x, y)) ? kOnDish : 0;
+    for (int x = 0; x < labels.width; ++x)
+      region.at(x, y) = !dish_only || is_on_dish(labels.at(x, y)) ? kInRegion : 0;
   }
   return region;
 }
@@ -22,7 +25,7 @@ bool is_marked(ImageView<const std::uint8_t> region, const Vec2& pixel) {
   return region.contains(x, y) && region.at(x, y) != 0;
 }
 
-// Disparities of the sparse matches on the dish (paper III-B-2, "Disparity range").
+// Disparities of the sparse matches in the region (paper III-B-2, "Disparity range").
 std::span<double> collect_match_disparities(const ReferencePair& pair,
                                             const PolarRectification& rectification,
                                             const std::array<ImageView<const std::uint8_t>, 2>& regions,
@@ -49,7 +52,9 @@ Status reconstruct_dense(const ReferencePair& pair, const Configuration& configu
   clock.enter(Stage::rectification);
   const std::array<const PreparedView*, 2> sides{pair.reference, pair.other};
   std::array<ImageView<const std::uint8_t>, 2> regions;
-  for (std::size_t i = 0; i < 2; ++i) regions[i] = mark_dish(sides[i]->working_labels, workspace.regions[i]);
+  for (std::size_t i = 0; i < 2; ++i)
+    regions[i] =
+        mark_region(sides[i]->working_labels, configuration.view.match_dish_only, workspace.regions[i]);
   PolarRectification rectification;
   const Status built = rectification.build(
       {pair.reference->cutout.camera, regions[0]}, {pair.other->cutout.camera, regions[1]},

@@ -204,6 +204,13 @@ Status Estimator::set_matches(std::span<const GivenMatch> matches,
   return StatusCode::ok;
 }
 
+Status Estimator::set_motion_search(MotionSearch* search) {
+  if (!status_.ok()) return status_;
+  if (!takes_correspondences(*state_)) return StatusCode::invalid_configuration;
+  state_->motion_search = search;
+  return StatusCode::ok;
+}
+
 const Measurement& Estimator::estimate(std::uint64_t seed, StageTap* tap) {
   measurement_ = {};
   measurement_.status = status_;

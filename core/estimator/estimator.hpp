@@ -12,6 +12,7 @@
 namespace traygauge {
 
 struct EstimatorState;
+class MotionSearch;
 class StageTap;
 
 // Bytes that an Estimator with this configuration takes from its block.
@@ -67,6 +68,10 @@ class Estimator {
   Status add_view_without_features(const ViewInput& view);
   // Replaces matching; after both views. invalid_configuration before them.
   Status set_matches(std::span<const GivenMatch> matches, std::span<const GivenCardMatch> card_matches);
+
+  // Profile paper: `search` looks for the motion in the place of RANSAC, and what it finds is refined as
+  // usual; nullptr: RANSAC again. It outlives its use.
+  Status set_motion_search(MotionSearch* search);
 
   // Measures the two views; the same input and seed give the same bits. Profile best shows `tap` its stages.
   const Measurement& estimate(std::uint64_t seed, StageTap* tap = nullptr);

@@ -24,6 +24,7 @@ struct EstimatorState {
   int views = 0;        // taken so far
   Status views_status;  // the first thing that went wrong with them
   StageClock preparation_clock;
+  MotionSearch* motion_search = nullptr;  // profile paper; null: RANSAC
 
   PreparedView& view(int i) { return memory.views[static_cast<std::size_t>(i)]; }
 

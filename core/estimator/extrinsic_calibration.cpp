@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/pose/epipolar.hpp"
 #include "core/pose/model_search.hpp"
 #include "core/pose/triangulation.hpp"
 #include "core/scale/card_plane.hpp"
@@ -47,17 +48,43 @@ std::span<const RayMatch> match_views(const ExtrinsicInput& input, const Matcher
   return workspace.rays.first(workspace.view_matches.size());
 }
 
+Status find_pose(const ExtrinsicInput& input, std::span<const RayMatch> rays, double focal_px,
+                 const RelativePoseParams& params, Random& random, ExtrinsicWorkspace& workspace,
+                 RelativePose& pose, std::span<std::uint8_t> inliers) {
+  if (input.motion_search == nullptr)
+    return estimate_relative_pose(rays, focal_px, params, random, workspace.pose, pose, inliers);
+  Pose start;
+  if (!input.motion_search->find_motion(rays, focal_px, random, start)) return StatusCode::pose_not_found;
+  return refine_relative_pose(rays, focal_px, params, start, random, workspace.pose, pose, inliers);
+}
+
+// Given card points are not checked by anyone before: single ones that disagree with the motion are
+// mismatches. When most do, the card itself has moved; all are kept, and check_against_card() says so.
+void collect_given_tracks(const GivenCorrespondences& given, double focal_px, const RelativePose& found,
+                          BoundedList<CardTrack>& tracks) {
+  const Mat3 essential = essential_matrix(found.second_from_first);
+  const auto agrees = [&](const CardTrack& track) {
+    return symmetric_epipolar_distance_px(essential, {track.first, track.second}, focal_px) <=
+           found.threshold_px;
+  };
+  const auto all = given.card_tracks.items();
+  const bool has_moved = 2 * std::count_if(all.begin(), all.end(), agrees) < std::ssize(all);
+  for (CardTrack track : all) {
+    if (!has_moved && !agrees(track)) continue;
+    if (triangulate({track.first, track.second}, found.second_from_first, track.point_in_first))
+      tracks.push_back(track);
+  }
+}
+
 // The card's points seen in both views, as part of the sparse cloud.
-void collect_tracks(const ExtrinsicInput& input, std::span<const RayMatch> rays, const Pose& pose,
-                    TrackRule rule, ExtrinsicWorkspace& workspace) {
+void collect_tracks(const ExtrinsicInput& input, std::span<const RayMatch> rays, double focal_px,
+                    const RelativePose& found, TrackRule rule, ExtrinsicWorkspace& workspace) {
   workspace.tracks.clear();
   if (has_given(input)) {
-    for (CardTrack track : input.given->card_tracks.items()) {
-      if (triangulate({track.first, track.second}, pose, track.point_in_first))
-        workspace.tracks.push_back(track);
-    }
+    collect_given_tracks(*input.given, focal_px, found, workspace.tracks);
     return;
   }
+  const Pose& pose = found.second_from_first;
   const std::size_t count = rays.size();
   triangulate_all(rays, workspace.inliers.first(count), pose, workspace.cloud.first(count),
                   workspace.triangulated.first(count));
@@ -175,8 +202,7 @@ Status calibrate_extrinsics(const ExtrinsicInput& input, const Configuration& co
       0.5 * (input.first->lens.pinhole.mean_focal_px() + input.second->lens.pinhole.mean_focal_px());
   const auto inliers = workspace.inliers.first(rays.size());
   RelativePose pose;
-  Status status =
-      estimate_relative_pose(rays, focal_px, configuration.pose, random, workspace.pose, pose, inliers);
+  Status status = find_pose(input, rays, focal_px, configuration.pose, random, workspace, pose, inliers);
   if (status.code() == StatusCode::views_too_close) {
     return explain_closeness(input, rays, inliers, configuration.pose);
   }
@@ -185,7 +211,7 @@ Status calibrate_extrinsics(const ExtrinsicInput& input, const Configuration& co
   clock.enter(Stage::scale);
   const CardModelSize card = size_of(configuration.card);
   CardFit fit;
-  collect_tracks(input, rays, pose.second_from_first, configuration.card_search.tracks, workspace);
+  collect_tracks(input, rays, focal_px, pose, configuration.card_search.tracks, workspace);
   report.card_tracks = static_cast<int>(workspace.tracks.size());
   status = find_card(workspace.tracks.items(), card, configuration.card_search, random, workspace.card, fit);
   if (!status.ok()) return status;
@@ -194,7 +220,7 @@ Status calibrate_extrinsics(const ExtrinsicInput& input, const Configuration& co
                               extrinsics.pose_from_card);
   if (!status.ok()) return status;
   if (extrinsics.pose_from_card) {
-    collect_tracks(input, rays, pose.second_from_first, configuration.card_search.tracks, workspace);
+    collect_tracks(input, rays, focal_px, pose, configuration.card_search.tracks, workspace);
     status =
         find_card(workspace.tracks.items(), card, configuration.card_search, random, workspace.card, fit);
     if (!status.ok()) return status;

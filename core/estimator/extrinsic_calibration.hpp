@@ -14,6 +14,7 @@
 #include "core/estimator/stage_clock.hpp"
 #include "core/estimator/view_preparation.hpp"
 #include "core/matching/matcher.hpp"
+#include "core/pose/motion_search.hpp"
 #include "core/pose/relative_pose.hpp"
 #include "core/scale/card.hpp"
 #include "core/scale/card_detection.hpp"
@@ -40,6 +41,7 @@ struct ExtrinsicInput {
   FeatureSet pattern;                // of the card's printed side
   std::span<const Vec2> pattern_mm;  // where each lies on it
   const GivenCorrespondences* given = nullptr;
+  MotionSearch* motion_search = nullptr;  // null: RANSAC
 };
 
 // What the dense stages need; in the first camera and in mm.

@@ -96,7 +96,8 @@ Status calibrate(EstimatorState& state, Random& random, StageClock& clock, Measu
                              &state.worked_view(1),
                              {pattern.keypoints.items(), pattern.descriptors.first(pattern_count)},
                              pattern.positions_mm.first(pattern_count),
-                             &state.memory.given};
+                             &state.memory.given,
+                             state.motion_search};
   const Status status = calibrate_extrinsics(input, state.configuration, random, state.memory.calibration,
                                              clock, measurement.report, state.extrinsics);
   if (!status.ok()) return status;

@@ -19,6 +19,7 @@ void visit_paper_features(Config& c, Visit&& visit) {
   using Choices = ParameterChoices;
   visit("view.matching_dish_px", c.view.matching_dish_px, Range{1024, 1e7});
   visit("view.feature_dish_px", c.view.feature_dish_px, Range{1024, 1e8});
+  visit("view.match_dish_only", c.view.match_dish_only);
   visit("view.card_px_per_mm", c.view.card_px_per_mm, Range{0.5, 50});
   visit("view.max_card_enlargement", c.view.max_card_enlargement, Range{0.1, 20});
   visit("view.max_card_rotation_deg", c.view.max_card_rotation_deg, Range{0, 180});

@@ -46,6 +46,7 @@ std::optional<std::string> reason_to_skip(const std::filesystem::path& folder, c
   if (capture.dishes.size() > 1 && !profile.measures_several_dishes)
     return "several dishes; profile " + std::string(profile.name) + " measures one";
   if (!read_truth(folder)) return "no truth.json";
+  if (capture.views.size() < 2) return "one view; two are needed";
   return {};
 }
 

@@ -29,14 +29,14 @@ std::string compose_duration(double seconds) {
   return std::to_string(whole / 3600) + " h " + two_digits(whole % 3600 / 60) + " min";
 }
 
-std::string compose_progress(std::size_t done, std::size_t all, double elapsed_s) {
+std::string compose_progress(std::size_t done, std::size_t all, double elapsed_s, const std::string& what) {
   const std::size_t filled = kBarWidth * done / all;
   const double left_s = elapsed_s / static_cast<double>(done) * static_cast<double>(all - done);
   const std::string bar = pad_right(std::string(filled, '#'), kBarWidth);
   const std::string percent = pad_left(std::to_string(100 * done / all), 3);
   std::string text = "[";
-  text += bar + "] " + percent + " %, " + std::to_string(done) + " of " + std::to_string(all) +
-          " measurements, " + compose_duration(left_s) + " left";
+  text += bar + "] " + percent + " %, " + std::to_string(done) + " of " + std::to_string(all) + " " + what +
+          ", " + compose_duration(left_s) + " left";
   return text;
 }
 
@@ -54,7 +54,8 @@ void Progress::show(std::size_t done, std::size_t all) {
   if (done == 0 || now - last_ < (is_terminal_ ? Clock::duration(kRedraw) : Clock::duration(kLineEvery)))
     return;
   last_ = now;
-  const std::string text = compose_progress(done, all, std::chrono::duration<double>(now - start_).count());
+  const std::string text =
+      compose_progress(done, all, std::chrono::duration<double>(now - start_).count(), what_);
   if (is_terminal_) {
     stream_ << "\r" << pad_right(text, kLineWidth) << std::flush;
     is_shown_ = true;

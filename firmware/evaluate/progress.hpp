@@ -5,13 +5,16 @@
 #include <cstddef>
 #include <iosfwd>
 #include <string>
+#include <utility>
 
 namespace traygauge {
 
 // A bar that overwrites itself on a terminal; elsewhere a line every half minute.
 class Progress {
  public:
-  Progress(std::ostream& stream, bool is_terminal) : stream_(stream), is_terminal_(is_terminal) {}
+  // `what` is counted, in the plural.
+  Progress(std::ostream& stream, bool is_terminal, std::string what = "measurements")
+      : stream_(stream), is_terminal_(is_terminal), what_(std::move(what)) {}
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
   ~Progress();
@@ -24,13 +27,15 @@ class Progress {
 
   std::ostream& stream_;
   bool is_terminal_;
+  std::string what_;
   bool is_shown_ = false;
   Clock::time_point start_ = Clock::now();
   Clock::time_point last_ = start_;
 };
 
 // "[#####     ]  50 %, 4 of 8 measurements, 10 s left"; 0 < done <= all.
-std::string compose_progress(std::size_t done, std::size_t all, double elapsed_s);
+std::string compose_progress(std::size_t done, std::size_t all, double elapsed_s,
+                             const std::string& what = "measurements");
 
 // "45 s", "3 min 20 s", "1 h 05 min".
 std::string compose_duration(double seconds);

@@ -18,15 +18,7 @@ std::optional<PairTruth> truth_of(const Truth& truth, const PairTask& task) {
 
 Run record(const Measurement& measurement, std::uint64_t seed, std::optional<PairTruth> truth,
            const std::vector<DishDescription>& dishes) {
-  Run run;
-  run.seed = seed;
-  run.status = measurement.status.code();
-  run.relative_angle_deg = measurement.relative_angle_deg;
-  run.total_ms = measurement.total_ms;
-  run.warnings = measurement.warnings;
-  run.report = measurement.report;
-  for (const ItemResult& item : measurement.items)
-    run.items.push_back({item.label, item.status, item.volume_ml, item.column_volume_ml, item.sigma_ml});
+  Run run = record_run(measurement, seed);
   if (truth && !measurement.items.empty() && run.report.dish_index >= 0) {
     truth->bottom_height_mm = dishes.at(static_cast<std::size_t>(run.report.dish_index)).bottom_height_mm;
     run.errors = stage_errors(measurement, *truth);
@@ -57,6 +49,28 @@ bool is_warned(const Run& run) {
   return std::find(run.warnings.begin(), run.warnings.end(), true) != run.warnings.end();
 }
 
+Run record_run(const Measurement& measurement, std::uint64_t seed) {
+  Run run;
+  run.seed = seed;
+  run.status = measurement.status.code();
+  run.relative_angle_deg = measurement.relative_angle_deg;
+  run.total_ms = measurement.total_ms;
+  run.warnings = measurement.warnings;
+  run.report = measurement.report;
+  for (const ItemResult& item : measurement.items)
+    run.items.push_back({item.label, item.status, item.volume_ml, item.column_volume_ml, item.sigma_ml});
+  return run;
+}
+
+PairRuns describe_pair(const PairTask& task, const Truth& truth) {
+  PairRuns runs;
+  runs.capture = task.capture;
+  runs.pair = task.pair;
+  runs.truth = truth;
+  if (const auto pair = truth_of(truth, task)) runs.true_angle_deg = pair->relative_angle_deg();
+  return runs;
+}
+
 PairRunner::PairRunner(const PairTask& task, const ProtocolOptions& options)
     : task_(task),
       capture_(read_capture(task.folder)),
@@ -64,15 +78,6 @@ PairRunner::PairRunner(const PairTask& task, const ProtocolOptions& options)
       pair_truth_(truth_of(truth_, task)),
       dishes_(choose_dishes(capture_, options.config)),
       session_(capture_, task.pair, dishes_, options.parameters) {}
-
-PairRuns PairRunner::start() const {
-  PairRuns runs;
-  runs.capture = task_.capture;
-  runs.pair = task_.pair;
-  runs.truth = truth_;
-  if (pair_truth_) runs.true_angle_deg = pair_truth_->relative_angle_deg();
-  return runs;
-}
 
 Run PairRunner::measure(std::uint64_t seed, StageTap* tap) {
   return record(session_.measure(seed, tap), seed, pair_truth_, dishes_);

@@ -52,6 +52,9 @@ const ItemEstimate* estimate_of(const Run& run, int label);
 
 bool is_warned(const Run& run);
 
+// A measurement as a run, without errors of its stages.
+Run record_run(const Measurement& measurement, std::uint64_t seed);
+
 struct PairRuns {
   std::string capture;  // path below the set
   std::array<int, 2> pair{};
@@ -60,13 +63,16 @@ struct PairRuns {
   std::vector<Run> runs;
 };
 
+// A pair with its truth, and without runs. Throws InputError.
+PairRuns describe_pair(const PairTask& task, const Truth& truth);
+
 // One pair of a capture with its truth.
 class PairRunner {
  public:
   // Throws InputError.
   PairRunner(const PairTask& task, const ProtocolOptions& options);
 
-  PairRuns start() const;  // without runs
+  PairRuns start() const { return describe_pair(task_, truth_); }
   Run measure(std::uint64_t seed, StageTap* tap = nullptr);
 
   const Capture& capture() const { return capture_; }

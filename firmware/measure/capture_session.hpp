@@ -26,13 +26,16 @@ class CaptureSession {
   const Measurement& measure(std::uint64_t seed, StageTap* tap = nullptr);
 
   const Estimator& estimator() const { return estimator_; }
+  // For measurements from points that other programs found.
+  Estimator& estimator() { return estimator_; }
+  ViewInput input(std::size_t i) const;
+  const PairSetup& setup() const { return setup_; }
   const LoadedView& view(int i) const { return views_[static_cast<std::size_t>(i)]; }
   const LensModel& lens(int i) const { return setup_.lenses[static_cast<std::size_t>(i)]; }
   // Doubts about the input that do not stop a measurement.
   const std::vector<std::string>& warnings() const { return warnings_; }
 
  private:
-  ViewInput input(std::size_t i) const;
   void check_inputs(const Capture& capture);
 
   std::array<const ViewDescription*, 2> descriptions_{};

@@ -2,7 +2,9 @@
 
 #include <png.h>
 
+#include <bit>
 #include <cerrno>
+#include <cstddef>
 #include <cstdint>
 #include <cstdio>
 #include <string>
@@ -13,8 +15,19 @@
 namespace traygauge {
 namespace {
 
+// Rows of samples as libpng takes them; 16-bit ones in the machine's order.
+struct Rows {
+  const std::uint8_t* data = nullptr;
+  int width = 0;
+  int height = 0;
+  std::ptrdiff_t stride_bytes = 0;
+  int bit_depth = 8;
+  int color_type = PNG_COLOR_TYPE_GRAY;
+  bool is_bgr = false;
+};
+
 // libpng reports by leaving through longjmp: no object with a destructor may be born after setjmp.
-bool encode(std::FILE* stream, const FrameView& picture) {
+bool encode(std::FILE* stream, const Rows& rows) {
   png_structp png = png_create_write_struct(
       PNG_LIBPNG_VER_STRING, nullptr, [](png_structp self, png_const_charp) { png_longjmp(self, 1); },
       [](png_structp, png_const_charp) {});
@@ -24,15 +37,28 @@ bool encode(std::FILE* stream, const FrameView& picture) {
     return false;
   }
   png_init_io(png, stream);
-  const int type = picture.format == PixelFormat::gray8 ? PNG_COLOR_TYPE_GRAY : PNG_COLOR_TYPE_RGB;
-  png_set_IHDR(png, info, static_cast<png_uint_32>(picture.width), static_cast<png_uint_32>(picture.height),
-               8, type, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+  png_set_IHDR(png, info, static_cast<png_uint_32>(rows.width), static_cast<png_uint_32>(rows.height),
+               rows.bit_depth, rows.color_type, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT,
+               PNG_FILTER_TYPE_DEFAULT);
   png_write_info(png, info);
-  if (picture.format == PixelFormat::bgr8) png_set_bgr(png);
-  for (int y = 0; y < picture.height; ++y) png_write_row(png, picture.data + y * picture.stride_bytes);
+  if (rows.is_bgr) png_set_bgr(png);
+  if (rows.bit_depth == 16 && std::endian::native == std::endian::little) png_set_swap(png);
+  for (int y = 0; y < rows.height; ++y) png_write_row(png, rows.data + y * rows.stride_bytes);
   png_write_end(png, info);
   png_destroy_write_struct(&png, &info);
   return true;
+}
+
+void write_rows(const std::filesystem::path& file, const Rows& rows) {
+  std::FILE* stream = std::fopen(file.c_str(), "wb");
+  if (stream == nullptr) throw OutputError(file, std::generic_category().message(errno));
+  const bool encoded = encode(stream, rows);
+  const int reason = errno;
+  const bool closed = std::fclose(stream) == 0;
+  if (encoded && closed) return;
+  std::error_code ignored;
+  if (std::filesystem::is_regular_file(file, ignored)) std::filesystem::remove(file, ignored);
+  throw OutputError(file, std::generic_category().message(encoded ? errno : reason));
 }
 
 }  // namespace
@@ -42,15 +68,14 @@ OutputError::OutputError(const std::filesystem::path& file, const std::string& r
                                    "; name a file in an existing, writable folder")) {}
 
 void write_png(const std::filesystem::path& file, const FrameView& picture) {
-  std::FILE* stream = std::fopen(file.c_str(), "wb");
-  if (stream == nullptr) throw OutputError(file, std::generic_category().message(errno));
-  const bool encoded = encode(stream, picture);
-  const int reason = errno;
-  const bool closed = std::fclose(stream) == 0;
-  if (encoded && closed) return;
-  std::error_code ignored;
-  if (std::filesystem::is_regular_file(file, ignored)) std::filesystem::remove(file, ignored);
-  throw OutputError(file, std::generic_category().message(encoded ? errno : reason));
+  const int type = picture.format == PixelFormat::gray8 ? PNG_COLOR_TYPE_GRAY : PNG_COLOR_TYPE_RGB;
+  write_rows(file, {picture.data, picture.width, picture.height, picture.stride_bytes, 8, type,
+                    picture.format == PixelFormat::bgr8});
+}
+
+void write_depth_png(const std::filesystem::path& file, const DepthPicture& depth) {
+  write_rows(file, {reinterpret_cast<const std::uint8_t*>(depth.pixels.data()), depth.size.width,
+                    depth.size.height, 2 * static_cast<std::ptrdiff_t>(depth.size.width), 16});
 }
 
 }  // namespace traygauge

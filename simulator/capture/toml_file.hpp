@@ -11,8 +11,8 @@
 
 namespace traygauge {
 
-// `expected` names the content in errors: "a dish in TOML". Dates become null: no key of ours takes one. Throws
-// InputError: absent, unreadable, larger than `max_bytes`, not TOML.
+// `expected` names the content in errors: "a dish in TOML". Dates become null: no key of ours takes one.
+// Throws InputError: absent, unreadable, larger than `max_bytes`, not TOML.
 nlohmann::json read_toml(const std::filesystem::path& file, std::size_t max_bytes, const char* expected);
 
 // Throws InputError for a key of this table that is none of `keys`: it is a typing mistake.

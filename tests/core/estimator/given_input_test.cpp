@@ -7,6 +7,7 @@
 #include "core/features/surf.hpp"
 #include "core/image/integral.hpp"
 #include "core/image/resample.hpp"
+#include "core/pose/motion_search.hpp"
 #include "tests/core/estimator/measuring_bench.hpp"
 
 namespace traygauge {
@@ -159,6 +160,52 @@ TEST_F(GivenInputTest, SiftMatchesMeasureTheScene) {
     }
     forward_ml = measurement.items[0].volume_ml;
   }
+}
+
+// Such as a repeated letter of the print: right in the first view, elsewhere on the card in the second.
+TEST_F(GivenInputTest, CardPointsThatContradictTheMotionAreLeftOut) {
+  SiftMatches sift(tray_, false);
+  for (std::size_t i = 0; i < sift.card.size(); i += 8)
+    sift.card[i].second = sift.card[(i + sift.card.size() / 2) % sift.card.size()].second;
+  ASSERT_TRUE(bench_.estimator.add_view_without_features(view(0)).ok());
+  ASSERT_TRUE(bench_.estimator.add_view_without_features(view(1)).ok());
+  ASSERT_TRUE(bench_.estimator.set_matches(sift.matches, sift.card).ok());
+  const Measurement& measurement = bench_.estimator.estimate(1);
+  ASSERT_TRUE(measurement.status.ok()) << name(measurement.status.code());
+  EXPECT_NEAR(measurement.items[0].volume_ml, tray_.volume_ml(), 0.04 * tray_.volume_ml());
+}
+
+// Knows the answer to within a tenth of a degree, and how often it was asked.
+class KnownMotion final : public MotionSearch {
+ public:
+  explicit KnownMotion(const Pose& motion) : motion_(motion) {}
+  bool find_motion(std::span<const RayMatch>, double, Random&, Pose& second_from_first) override {
+    ++asked;
+    second_from_first = {rotation_about({0.001, 0.001, -0.001}) * motion_.rotation, motion_.translation};
+    return is_found;
+  }
+  bool is_found = true;
+  int asked = 0;
+
+ private:
+  Pose motion_;
+};
+
+TEST_F(GivenInputTest, AnotherSearchForTheMotionTakesThePlaceOfRansac) {
+  bool is_measured = false;
+  // The views are worked in an order of the estimator's choice.
+  for (const Pose& motion : {tray_.second_from_first(), tray_.second_from_first().inverse()}) {
+    KnownMotion search(motion);
+    ASSERT_TRUE(bench_.estimator.set_motion_search(&search).ok());
+    const Status status = bench_.measure(view(0), view(1), 1).status;
+    EXPECT_EQ(search.asked, 1);
+    is_measured = is_measured || status.ok();
+    search.is_found = false;
+    EXPECT_EQ(bench_.measure(view(0), view(1), 1).status.code(), StatusCode::pose_not_found);
+  }
+  EXPECT_TRUE(is_measured);
+  ASSERT_TRUE(bench_.estimator.set_motion_search(nullptr).ok());
+  EXPECT_TRUE(bench_.measure(view(0), view(1), 1).status.ok());
 }
 
 TEST_F(GivenInputTest, MatchesNeedTwoViewsAndEndWithThem) {

@@ -87,6 +87,16 @@ TEST_F(PairTasks, WhatIsSkippedIsNamedWithTheReason) {
             (std::vector<std::string>{"a: no truth.json", "b: several dishes; profile paper measures one"}));
 }
 
+TEST_F(PairTasks, ASingleViewIsSkipped) {
+  capture_.document.erase("pairs");
+  auto& views = capture_.document["views"];
+  views.erase(views.begin() + 1, views.end());
+  capture_.store();
+  add("a");
+  EXPECT_TRUE(plan().empty());
+  EXPECT_EQ(skipped_, (std::vector<std::string>{"a: one view; two are needed"}));
+}
+
 TEST_F(PairTasks, AFolderWithoutCapturesIsRefused) {
   EXPECT_THROW(plan(), InputError);
   EXPECT_THROW(plan_tasks(set_.path() / "none", abilities_of(Profile::best), skipped_), InputError);

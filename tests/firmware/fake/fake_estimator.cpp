@@ -89,6 +89,18 @@ TRAYGAUGE_FAKE Status Estimator::add_view(const ViewInput& view) {
   return fake_estimator().views.size() == 2 ? fake_estimator().second_view : Status();
 }
 
+TRAYGAUGE_FAKE Status Estimator::add_view_without_features(const ViewInput& view) {
+  return add_view(view);
+}
+
+TRAYGAUGE_FAKE Status Estimator::set_matches(std::span<const GivenMatch>, std::span<const GivenCardMatch>) {
+  return StatusCode::ok;
+}
+
+TRAYGAUGE_FAKE Status Estimator::set_motion_search(MotionSearch*) {
+  return StatusCode::ok;
+}
+
 TRAYGAUGE_FAKE const Measurement& Estimator::estimate(std::uint64_t seed, StageTap*) {
   fake_estimator().seed = seed;
   ++fake_estimator().estimates;

@@ -1,0 +1,132 @@
+#include "firmware/simulate/simulate_command.hpp"
+
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <exception>
+#include <filesystem>
+#include <ostream>
+#include <string>
+#include <vector>
+
+#include "firmware/base/exit_status.hpp"
+#include "firmware/base/text.hpp"
+#include "firmware/evaluate/progress.hpp"
+#include "simulator/capture/input_error.hpp"
+#include "simulator/scenes/capture_writer.hpp"
+#include "simulator/scenes/scene_file.hpp"
+#include "simulator/scenes/scene_sets.hpp"
+
+namespace traygauge {
+namespace {
+
+struct RenderOptions {
+  std::string what;
+  std::string out;
+  std::string only;
+  std::uint64_t seed = 1;
+  int jobs = 0;
+  int samples = RenderSettings().samples;
+  bool is_reduced = false;
+};
+
+bool is_set(const std::string& name) {
+  const auto sets = scene_sets();
+  return std::any_of(sets.begin(), sets.end(), [&](const SceneSet& set) { return set.name == name; });
+}
+
+std::vector<SceneDescription> find_scenes(const RenderOptions& options) {
+  std::vector<SceneDescription> scenes;
+  if (is_set(options.what)) {
+    scenes = make_scenes(options.what, options.seed, options.is_reduced);
+  } else if (std::filesystem::path(options.what).extension() == ".toml") {
+    scenes.push_back(read_scene_file(options.what));
+  } else {
+    throw UsageError(options.what +
+                     ": expected the name of a set (see traygauge-simulate list) or a scene as .toml");
+  }
+  if (!options.only.empty()) {
+    std::erase_if(scenes, [&](const SceneDescription& scene) { return scene.name != options.only; });
+    if (scenes.empty())
+      throw UsageError("--only " + options.only + ": " + options.what + " has no scene of that name");
+  }
+  return scenes;
+}
+
+int run_render(const RenderOptions& options, std::ostream& out, std::ostream& error) {
+  RenderSettings settings;
+  settings.samples = options.samples;
+  settings.threads = options.jobs;
+  std::vector<SceneDescription> scenes = find_scenes(options);
+  const std::filesystem::path folder = options.out;
+  const std::size_t all = scenes.size();
+  std::erase_if(
+      scenes, [&](const SceneDescription& scene) { return is_complete_capture(folder / scene.name, scene); });
+  std::size_t pictures = 0;
+  for (const SceneDescription& scene : scenes) pictures += scene.views.size();
+
+  std::size_t done = 0;
+  {
+    Progress progress(error, isatty(STDERR_FILENO) == 1, "pictures");
+    for (const SceneDescription& scene : scenes) {
+      const auto views = static_cast<double>(scene.views.size());
+      render_capture(scene, folder / scene.name, settings, [&](double share) {
+        progress.show(done + static_cast<std::size_t>(std::floor(share * views)), pictures);
+      });
+      done += scene.views.size();
+    }
+  }
+  out << folder.string() << ": " << scenes.size() << " captures rendered";
+  if (all > scenes.size()) out << ", " << all - scenes.size() << " were complete already";
+  out << "\n";
+  return kExitMeasured;
+}
+
+int run_list(std::ostream& out) {
+  for (const SceneSet& set : scene_sets()) out << pad_right(std::string(set.name), 12) << set.what << "\n";
+  return kExitMeasured;
+}
+
+void add_render(CLI::App& app, RenderOptions& options) {
+  CLI::App* command = app.add_subcommand("render", "Render a set, or one scene, into capture folders.");
+  command->add_option("what", options.what, "a set (see list) or a scene as .toml")->required();
+  command->add_option("--out", options.out, "folder of the captures; complete ones in it are kept")
+      ->required();
+  command->add_option("--seed", options.seed, "of the set's scenes");
+  command->add_option("--jobs", options.jobs, "threads; 0: one a core")->check(CLI::Range(0, 256));
+  command->add_option("--samples", options.samples, "rays a pixel")->check(CLI::Range(8, 4096));
+  command->add_option("--only", options.only, "the one scene of this name");
+  command->add_flag("--reduced", options.is_reduced, "a few scenes of the set, in small pictures");
+}
+
+int report_error(std::ostream& error, const std::string& text) {
+  error << "traygauge-simulate: " << printable(text) << "\n";
+  return kExitWrongUse;
+}
+
+}  // namespace
+
+int run_simulate(int argument_count, const char* const* arguments, std::ostream& out, std::ostream& error) {
+  CLI::App app("Renders scenes of trays into captures with exact truth.", "traygauge-simulate");
+  app.set_version_flag("--version", TRAYGAUGE_VERSION);
+  app.require_subcommand(1);
+  RenderOptions options;
+  add_render(app, options);
+  app.add_subcommand("list", "The sets of scenes.");
+  try {
+    app.parse(argument_count, arguments);
+    const int status = app.got_subcommand("list") ? run_list(out) : run_render(options, out, error);
+    out.flush();
+    return out ? status : report_error(error, "the result could not be written to standard output");
+  } catch (const CLI::ParseError& problem) {
+    if (problem.get_exit_code() == 0) return app.exit(problem, out, error);  // --help, --version
+    return report_error(error, std::string(problem.what()) + "; see traygauge-simulate --help");
+  } catch (const std::exception& problem) {  // UsageError, InputError, OutputError, scenes that make no sense
+    return report_error(error, problem.what());
+  }
+}
+
+}  // namespace traygauge

@@ -1,0 +1,64 @@
+// Light along the rays of a pixel.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "simulator/render/camera_rays.hpp"
+#include "simulator/render/light_quadrature.hpp"
+#include "simulator/render/ray_scene.hpp"
+#include "simulator/render/render_settings.hpp"
+#include "simulator/render/sample_sequence.hpp"
+#include "simulator/render/surface_response.hpp"
+
+namespace traygauge {
+
+// The mean over a pixel's rays. Its radiance is direct + albedo · indirect; these are kept apart, because
+// indirect light varies slowly over a surface and can be smoothed.
+struct PixelLight {
+  Eigen::Vector3f direct = Eigen::Vector3f::Zero();    // from lights, mirrored, or from the room itself
+  Eigen::Vector3f albedo = Eigen::Vector3f::Zero();    // of the diffuse base
+  Eigen::Vector3f indirect = Eigen::Vector3f::Zero();  // radiance that arrives: mean weighed by albedo
+  bool is_one_surface = true;                          // that all rays meet, without a step
+};
+
+// Next-event estimation at every surface; for coats and metal together with the mirrored ray by multiple
+// importance sampling (Veach 1995, balance heuristic). Surfaces that are seen only by way of others are taken
+// as diffuse.
+class PathTracer {
+ public:
+  // Refers to scene and rays.
+  PathTracer(const RayScene& scene, const CameraRays& rays, const RenderSettings& settings);
+
+  // By so many rays, rounded up to a multiple of 8.
+  PixelLight trace(int x, int y, int samples) const;
+
+ private:
+  static constexpr std::uint32_t kRound = 8;  // rays traced at once
+  struct Round;
+
+  struct Sum;
+
+  void aim(Round& round, const CameraRays::Pixel& pixel) const;
+  void look_for_steps(const Round& round, Sum& sum) const;
+  void add_lights(Round& round, Sum& sum) const;
+  void add_light(Round& round, std::uint32_t number, Sum& sum) const;
+  Eigen::Vector3f seen_share(const Round& round, std::uint32_t number) const;
+  void add_mirrored(Round& round, Sum& sum) const;
+  void add_indirect(Round& round, Sum& sum) const;
+  // Radiance from where a ray ended, a surface or the room, but not from lights.
+  Eigen::Vector3f gather(const SurfaceHit& hit, const SampleSequence& sequence, std::uint32_t index,
+                         int bounces, std::uint32_t decision) const;
+  Eigen::Vector3f one_light(const SurfaceHit& hit, const SampleSequence& sequence, std::uint32_t index,
+                            std::uint32_t decision) const;
+
+  const RayScene& scene_;
+  const CameraRays& rays_;
+  RenderSettings settings_;
+  std::vector<LightQuadrature> quadratures_;  // of the scene's lights
+  std::uint32_t seed_;
+};
+
+}  // namespace traygauge

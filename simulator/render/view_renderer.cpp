@@ -1,0 +1,179 @@
+#include "simulator/render/view_renderer.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <exception>
+#include <mutex>
+#include <stdexcept>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "simulator/render/camera_rays.hpp"
+#include "simulator/render/indirect_filter.hpp"
+#include "simulator/render/path_tracer.hpp"
+
+namespace traygauge {
+namespace {
+
+constexpr int kTileSide = 16;
+constexpr int kBlurredEdgeReach_px = 3;
+constexpr double kTruthShare = 0.03;  // of the time
+constexpr double kTraceShare = 0.95;  // until then; the rest is smoothing
+
+void check_range(const char* name, double value, double least, double most) {
+  if (value >= least && value <= most) return;
+  throw std::invalid_argument(std::string("render settings: ") + name + " is " + std::to_string(value) +
+                              ", expected " + std::to_string(least) + " to " + std::to_string(most));
+}
+
+// Hands out numbers from 0 to count - 1 to all threads and reports progress; the first exception ends the
+// work.
+class Work {
+ public:
+  Work(int count, const RenderProgress& progress, double from, double to)
+      : count_(count), progress_(progress), from_(from), to_(to) {}
+
+  template <class Task>
+  void run(int threads, const Task& task) {
+    {
+      std::vector<std::jthread> workers;
+      for (int i = 1; i < threads; ++i) workers.emplace_back([&] { take_turns(task); });
+      take_turns(task);
+    }
+    if (failure_) std::rethrow_exception(failure_);
+  }
+
+ private:
+  template <class Task>
+  void take_turns(const Task& task) {
+    try {
+      for (int next = next_++; next < count_; next = next_++) {
+        task(next);
+        report();
+      }
+    } catch (...) {
+      const std::lock_guard lock(mutex_);
+      if (!failure_) failure_ = std::current_exception();
+      next_ = count_;
+    }
+  }
+
+  void report() {
+    if (!progress_) return;
+    const std::lock_guard lock(mutex_);
+    ++done_;
+    progress_(from_ + (to_ - from_) * done_ / count_);
+  }
+
+  const int count_;
+  const RenderProgress& progress_;
+  const double from_, to_;
+  std::atomic<int> next_{0};
+  std::mutex mutex_;
+  int done_ = 0;
+  std::exception_ptr failure_;
+};
+
+// All that is known about the pixels before the light is smoothed.
+struct Canvas {
+  Canvas(int width, int height) : map(width, height) {
+    const std::size_t count = map.objects.size();
+    view.width = width;
+    view.height = height;
+    view.radiance.resize(count);
+    view.labels.resize(count);
+    view.depth_mm.resize(count);
+    indirect.resize(count);
+    albedo.resize(count);
+  }
+
+  RenderedView view;
+  SurfaceMap map;
+  std::vector<Eigen::Vector3f> indirect;
+  std::vector<Eigen::Vector3f> albedo;
+};
+
+// Truth, at the centres of a row's pixels.
+void fill_truth(const RayScene& scene, const CameraRays& camera_rays, int y, Canvas& canvas) {
+  const auto width = static_cast<std::size_t>(canvas.map.width);
+  std::vector<Ray> rays;
+  std::vector<SurfaceHit> hits(width);
+  rays.reserve(width);
+  for (int x = 0; x < canvas.map.width; ++x) rays.push_back(camera_rays.central_ray(camera_rays.pixel(x, y)));
+  scene.intersect(rays, hits, RayBundle::coherent);
+  for (std::size_t i = 0; i < width; ++i) {
+    if (hits[i].object == nullptr) continue;
+    const std::size_t at = canvas.map.index(0, y) + i;
+    canvas.view.labels[at] = hits[i].object->label;
+    canvas.view.depth_mm[at] = hits[i].distance;
+    canvas.map.points_mm[at] = hits[i].point_mm;
+    canvas.map.normals[at] = hits[i].normal;
+    canvas.map.objects[at] = static_cast<std::uint32_t>(hits[i].object - scene.scene().objects.data()) + 1;
+    canvas.map.footprint_mm[at] = hits[i].distance * camera_rays.pixel_width();
+  }
+}
+
+void trace_pixel(const PathTracer& tracer, int x, int y, int samples, Canvas& canvas) {
+  const PixelLight light = tracer.trace(x, y, samples);
+  const std::size_t at = canvas.map.index(x, y);
+  canvas.view.radiance[at] = light.direct;
+  canvas.indirect[at] = light.indirect;
+  canvas.albedo[at] = light.albedo;
+  canvas.map.is_mixed[at] = light.is_one_surface ? 0 : 1;
+}
+
+}  // namespace
+
+void RenderSettings::check() const {
+  check_range("samples", samples, 8, 4096);
+  check_range("edge_samples", edge_samples, 0, 4096);
+  check_range("indirect_samples", indirect_samples, 1, 8);
+  check_range("penumbra_samples", penumbra_samples, 0, 1024);
+  check_range("bounces", bounces, 1, 8);
+  check_range("indirect_filter_px", static_cast<double>(indirect_filter_px), 0, 20);
+  check_range("threads", threads, 0, 1024);
+}
+
+RenderedView ViewRenderer::render(const ViewCamera& camera, const RenderSettings& settings,
+                                  const RenderProgress& progress) const {
+  settings.check();
+  const CameraRays rays(camera);
+  const PathTracer tracer(scene_, rays, settings);
+  Canvas canvas(camera.width, camera.height);
+  const int threads = settings.threads > 0
+                          ? settings.threads
+                          : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+
+  Work(camera.height, progress, 0.0, kTruthShare).run(threads, [&](int y) {
+    fill_truth(scene_, rays, y, canvas);
+  });
+
+  const bool is_sharp = !rays.has_aperture() && !rays.moves();
+  const int edge_reach_px = is_sharp ? 1 : kBlurredEdgeReach_px;
+  const int edge_samples = std::max(settings.edge_samples, settings.samples);
+  const int columns = (camera.width + kTileSide - 1) / kTileSide;
+  const int rows = (camera.height + kTileSide - 1) / kTileSide;
+  Work(columns * rows, progress, kTruthShare, kTraceShare).run(threads, [&](int tile) {
+    const int x0 = tile % columns * kTileSide;
+    const int y0 = tile / columns * kTileSide;
+    for (int y = y0; y < std::min(y0 + kTileSide, camera.height); ++y) {
+      for (int x = x0; x < std::min(x0 + kTileSide, camera.width); ++x) {
+        const bool is_edge = is_near_edge(canvas.map, edge_reach_px, x, y);
+        trace_pixel(tracer, x, y, is_edge ? edge_samples : settings.samples, canvas);
+      }
+    }
+  });
+
+  Work(camera.height, progress, kTraceShare, 1.0).run(threads, [&](int y) {
+    for (int x = 0; x < camera.width; ++x) {
+      const std::size_t at = canvas.map.index(x, y);
+      canvas.view.radiance[at] += canvas.albedo[at].cwiseProduct(
+          smooth_at(canvas.map, canvas.indirect, settings.indirect_filter_px, x, y));
+    }
+  });
+  return std::move(canvas.view);
+}
+
+}  // namespace traygauge

@@ -1,0 +1,21 @@
+// Scenes rendered into capture folders.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+
+#include "simulator/render/render_settings.hpp"
+#include "simulator/scenes/scene_description.hpp"
+
+namespace traygauge {
+
+// Whether `folder` holds all files of a capture of this scene, by its origin.
+bool is_complete_capture(const std::filesystem::path& folder, const SceneDescription& scene);
+
+// Renders every view of the scene and stores them with capture.json and truth.json in `folder`, which appears
+// only when it is complete. `progress` is called with the share that is done. Throws InputError, OutputError,
+// and std::invalid_argument for a scene that makes no sense.
+void render_capture(const SceneDescription& scene, const std::filesystem::path& folder,
+                    const RenderSettings& settings, const std::function<void(double share)>& progress);
+
+}  // namespace traygauge

@@ -1,0 +1,112 @@
+#include "simulator/scenes/laid_scene.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "simulator/scenes/card_print.hpp"
+#include "simulator/scenes/mesh_tools.hpp"
+#include "simulator/scenes/scene_poses.hpp"
+#include "simulator/scenes/tableware.hpp"
+
+namespace traygauge {
+namespace {
+
+constexpr int kFirstFoodLabel = 2;
+constexpr std::uint8_t kCardLabel = 255;
+constexpr double kTableHalfMm = 1500.0;
+constexpr double kClearanceMm = 0.01;  // what lies on something does not share its surface
+
+Eigen::Isometry3d moved(const Eigen::Isometry3d& pose, double x, double y, double z) {
+  return pose * Eigen::Translation3d(x, y, z);
+}
+
+}  // namespace
+
+LaidScene::LaidScene(const SceneDescription& description) : description_(description) {
+  for (const LaidDish& dish : description_.dishes) shells_.emplace_back(dish.dish);
+  add_dishes();
+  add_card();
+  add_tray();
+  add_utensils();
+  tray_objects_ = scene_.objects.size();
+  scene_.ambient = description_.ambient.cast<float>();
+}
+
+void LaidScene::add_dishes() {
+  for (std::size_t i = 0; i < description_.dishes.size(); ++i) {
+    const LaidDish& dish = description_.dishes[i];
+    const Eigen::Isometry3d pose = world_from_dish(dish);
+    SceneObject object{shells_[i].mesh(), make_glaze(dish.glaze, shells_[i], dish.seed, pose.inverse()),
+                       static_cast<std::uint8_t>(dish.dish.label)};
+    transform(object.mesh, moved(pose, 0.0, 0.0, kClearanceMm));
+    scene_.objects.push_back(std::move(object));
+    for (ServedFood& food : serve_foods(description_, static_cast<int>(i), shells_[i], kFirstFoodLabel)) {
+      transform(food.object.mesh, moved(Eigen::Isometry3d::Identity(), 0.0, 0.0, kClearanceMm));
+      scene_.objects.push_back(std::move(food.object));
+      food.object = SceneObject{{}, nullptr, scene_.objects.back().label};
+      foods_.push_back(std::move(food));
+    }
+  }
+  std::sort(foods_.begin(), foods_.end(),
+            [](const FoodTruth& a, const FoodTruth& b) { return a.object.label < b.object.label; });
+}
+
+void LaidScene::add_card() {
+  const LaidCard& card = description_.card;
+  print_ = std::make_shared<const Picture>(print_card(card.width_mm, card.height_mm, card.design));
+  const Eigen::Isometry3d pose = world_from_card(card);
+  SceneObject object{
+      box_mesh({0.0, 0.0, 0.0}, {card.width_mm, card.height_mm, card.thickness_mm - kClearanceMm}),
+      make_card_material(print_, pose.inverse()), kCardLabel};
+  transform(object.mesh, pose);
+  scene_.objects.push_back(std::move(object));
+}
+
+void LaidScene::add_tray() {
+  if (!description_.tray) return;
+  const Tray& tray = *description_.tray;
+  scene_.objects.push_back(
+      {tray_mesh(tray), make_surface(tray.kind, tray.seed, Eigen::Isometry3d::Identity()), 0});
+}
+
+void LaidScene::add_utensils() {
+  for (const Utensil& utensil : description_.utensils) {
+    const bool is_paper = utensil.kind == UtensilKind::napkin;
+    SceneObject object{utensil_mesh(utensil.kind),
+                       is_paper ? make_plain(utensil.srgb, 0.0F, 0.9F) : make_metal(utensil.srgb, 0.22F), 0};
+    const Eigen::Vector3d at(utensil.centre_mm.x(), utensil.centre_mm.y(), utensil.base_mm + kClearanceMm);
+    transform(object.mesh, placement(at, utensil.rotation_deg));
+    scene_.objects.push_back(std::move(object));
+  }
+}
+
+void LaidScene::add_room(const Eigen::Isometry3d& world_of_room) {
+  const double table_mm = description_.tray ? -kTrayFloorMm - kClearanceMm : 0.0;
+  SceneObject table{box_mesh({-kTableHalfMm, -kTableHalfMm, table_mm - 25.0},
+                             {2.0 * kTableHalfMm, 2.0 * kTableHalfMm, 25.0}),
+                    nullptr, 0};
+  transform(table.mesh, world_of_room);
+  const Eigen::Isometry3d pattern =
+      world_of_room * placement(Eigen::Vector3d::Zero(), description_.table.rotation_deg);
+  table.material = make_surface(description_.table.kind, description_.table.seed, pattern.inverse());
+  scene_.objects.push_back(std::move(table));
+  for (const Lamp& lamp : description_.lamps) {
+    const Eigen::Matrix3d turn = world_of_room.linear();
+    const Eigen::Vector3d corner =
+        world_of_room * Eigen::Vector3d(lamp.centre_mm - 0.5 * (lamp.edge_u_mm + lamp.edge_v_mm));
+    Eigen::Vector3d u = lamp.edge_u_mm;
+    Eigen::Vector3d v = lamp.edge_v_mm;
+    if (u.cross(v).dot(lamp.centre_mm) > 0.0) std::swap(u, v);  // to the table's middle
+    scene_.lights.push_back({corner.cast<float>(), (turn * u).cast<float>(), (turn * v).cast<float>(),
+                             lamp.radiance.cast<float>()});
+  }
+}
+
+const Scene& LaidScene::scene_of(const Photograph& view) {
+  scene_.objects.resize(tray_objects_);
+  scene_.lights.clear();
+  add_room(world_from_room(view));
+  return scene_;
+}
+
+}  // namespace traygauge

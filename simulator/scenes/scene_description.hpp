@@ -1,0 +1,130 @@
+// A scene as plain data: what stands where, under which light, and how it is photographed.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "simulator/capture/capture.hpp"
+#include "simulator/scenes/food_shapes.hpp"
+#include "simulator/scenes/surface_material.hpp"
+
+namespace traygauge {
+
+// World: mm, z up; z = 0 is what dishes and card stand on, the tray's floor where there is a tray, else the
+// table. Rotations are about z, from x towards y.
+
+struct LaidDish {
+  DishDescription dish;
+  Eigen::Vector2d centre_mm = Eigen::Vector2d::Zero();
+  double rotation_deg = 0.0;
+  Glaze glaze;
+  std::uint64_t seed = 1;
+};
+
+// A mesh of a scanned food, from a file.
+struct ScannedFood {
+  std::filesystem::path file;        // OBJ or PLY
+  double scale_mm = 1.0;             // length of the file's unit
+  std::array<double, 3> turn_deg{};  // about x, then y, then z, before it is set down
+};
+
+struct LaidFood {
+  std::string name;  // in truth.json
+  std::string kind;  // of food_kinds(); of a scanned one: whose textures it has
+  int dish = 0;      // index of the dish
+  Eigen::Vector2d centre_mm = Eigen::Vector2d::Zero();  // in the dish's coordinates
+  double rotation_deg = 0.0;
+  FoodSize size;  // of filled food: no matter
+  std::uint64_t seed = 1;
+  double level_mm = 0.0;  // of filled food, above what the dish stands on
+  std::optional<ScannedFood> scan;
+};
+
+struct LaidCard {
+  double width_mm = 85.60;  // ISO/IEC 7810 ID-1
+  double height_mm = 53.98;
+  double thickness_mm = 0.8;
+  Eigen::Vector2d centre_mm = Eigen::Vector2d(170.0, 0.0);
+  double rotation_deg = 0.0;  // of the print's width
+  std::uint64_t design = 1;
+};
+
+struct Table {
+  SurfaceKind kind = SurfaceKind::wood;
+  double rotation_deg = 0.0;
+  std::uint64_t seed = 1;
+};
+
+struct Tray {
+  std::array<double, 2> size_mm = {460.0, 340.0};
+  SurfaceKind kind = SurfaceKind::plastic;
+  std::uint64_t seed = 1;
+};
+
+enum class UtensilKind : std::uint8_t { fork, knife, spoon, napkin };
+
+struct Utensil {
+  UtensilKind kind = UtensilKind::fork;
+  Eigen::Vector2d centre_mm = Eigen::Vector2d::Zero();
+  double rotation_deg = 0.0;  // of its length
+  double base_mm = 0.0;       // height of what it lies on
+  std::uint32_t srgb = 0xC8C8C8;
+};
+
+// A rectangle that shines towards the table; edge_u and edge_v span it.
+struct Lamp {
+  Eigen::Vector3d centre_mm = Eigen::Vector3d(0.0, 0.0, 1800.0);
+  Eigen::Vector3d edge_u_mm = Eigen::Vector3d(600.0, 0.0, 0.0);
+  Eigen::Vector3d edge_v_mm = Eigen::Vector3d(0.0, 600.0, 0.0);
+  Eigen::Vector3d radiance = Eigen::Vector3d::Constant(10.0);  // linear RGB
+};
+
+struct Photograph {
+  Eigen::Vector3d target_mm = Eigen::Vector3d::Zero();  // in the middle of the picture
+  double distance_mm = 500.0;                           // of the pupil from the target
+  double tilt_deg = 0.0;                                // from the vertical
+  double azimuth_deg = 0.0;                             // of the pupil, from x towards y
+  double roll_deg = 0.0;                                // about the optical axis
+  double exposure = 1.0;                                // beside that of the first view
+  std::array<double, 2> white_balance = {1.0, 1.0};     // gains of red and blue
+  double focus_error_mm = 0.0;
+  std::optional<double> arm_angle_deg;
+  // Where the tray has moved since it was laid; the camera, the table and the lamps stay.
+  Eigen::Vector2d tray_shift_mm = Eigen::Vector2d::Zero();
+  double tray_turn_deg = 0.0;
+};
+
+struct PhotographySettings {
+  CameraDescription camera;
+  double aperture_mm = 1.5;  // f/2.6 of a phone's 4 mm lens
+  double corner_loss = 0.2;
+  double full_well_electrons = 6000.0;
+  double read_noise_electrons = 4.0;
+  int jpeg_quality = 93;
+};
+
+struct SceneDescription {
+  std::string name;
+  // What the scene was made from: a set and its seed, or the content of a file. A capture of the same origin
+  // is the same capture.
+  std::string origin;
+  std::uint64_t seed = 1;  // of the renderer's and the sensor's noise
+  std::vector<LaidDish> dishes;
+  std::vector<LaidFood> foods;
+  LaidCard card;
+  Table table;
+  std::optional<Tray> tray;
+  std::vector<Utensil> utensils;
+  std::vector<Lamp> lamps;
+  Eigen::Vector3d ambient = Eigen::Vector3d::Constant(0.25);
+  PhotographySettings photography;
+  std::vector<Photograph> views;
+  std::vector<std::array<int, 2>> pairs;
+};
+
+}  // namespace traygauge

@@ -1,0 +1,284 @@
+#include "simulator/scenes/scene_sets.hpp"
+
+#include <algorithm>
+#include <array>
+#include <stdexcept>
+#include <string>
+
+#include "simulator/scenes/draws.hpp"
+#include "simulator/scenes/scene_parts.hpp"
+#include "simulator/scenes/scene_views.hpp"
+#include "simulator/scenes/tray_layout.hpp"
+
+namespace traygauge {
+namespace {
+
+constexpr auto kSets = std::to_array<SceneSet>({
+    {"meals-45", "45 meals with 113 items, three views each, by hand: the paper's Meals-45"},
+    {"angles-13", "13 meals under an arm: a first view and others 5 to 35 degrees from it: Angles-13"},
+    {"plates-18", "6 meals on a dinner plate, a soup plate and an oval plate each: Plates-18"},
+    {"meals-14", "14 meals with foods and tables that are in no other set: Meals-14"},
+    {"trays-8", "8 trays with several dishes and cutlery"},
+    {"moved-4", "4 trays, each moved under a still camera"},
+});
+
+constexpr double kPhoneFocalPx = 1400.0;  // 60 degrees across: the phones of the paper
+constexpr double kWideFocalPx = 1225.0;   // 66 degrees: a whole tray from 60 cm
+
+// Deals foods like cards: each kind comes up once before any comes up again.
+class Menu {
+ public:
+  Menu(Draws& draws, std::initializer_list<FoodGroup> groups, FoodServing serving) : draws_(draws) {
+    for (const FoodKind& kind : food_kinds()) {
+      if (kind.serving != serving) continue;
+      if (std::find(groups.begin(), groups.end(), kind.group) != groups.end()) kinds_.push_back(&kind);
+    }
+    next_ = kinds_.size();
+  }
+
+  const FoodKind* deal() {
+    if (next_ == kinds_.size()) {
+      draws_.shuffle(std::span<const FoodKind*>(kinds_));
+      next_ = 0;
+    }
+    return kinds_[next_++];
+  }
+
+  // All different.
+  std::vector<const FoodKind*> deal(std::size_t count) {
+    std::vector<const FoodKind*> hand;
+    while (hand.size() < count) {
+      const FoodKind* kind = deal();
+      if (std::find(hand.begin(), hand.end(), kind) == hand.end()) hand.push_back(kind);
+    }
+    return hand;
+  }
+
+ private:
+  Draws& draws_;
+  std::vector<const FoodKind*> kinds_;
+  std::size_t next_ = 0;
+};
+
+std::string numbered(const char* letter, std::size_t number) {
+  return std::string(letter) + (number < 10 ? "0" : "") + std::to_string(number);
+}
+
+SceneDescription empty_scene(const std::string& name, Draws& draws) {
+  SceneDescription scene;
+  scene.name = name;
+  scene.seed = draws.seed();
+  return scene;
+}
+
+void draw_table(SceneDescription& scene, Draws& draws, std::span<const SurfaceKind> kinds) {
+  scene.table = {draws.pick(kinds), draws.between(0.0, 180.0), draws.seed()};
+}
+
+// Light, and what the camera makes of it, once the views are known.
+void finish(SceneDescription& scene, Draws& draws) {
+  draw_lamps(scene, draws);
+  draw_exposures(scene, draws);
+  draws.shuffle(std::span<LaidFood>(scene.foods));  // labels tell nothing
+}
+
+constexpr std::array kTables = {SurfaceKind::wood, SurfaceKind::laminate, SurfaceKind::cloth,
+                                SurfaceKind::plastic};
+constexpr std::array kOtherTables = {SurfaceKind::granite, SurfaceKind::checked_cloth, SurfaceKind::cork,
+                                     SurfaceKind::steel};
+constexpr std::array kPlates = {DishStyle::dinner, DishStyle::soup, DishStyle::oval};
+
+// One dish with foods on it, the table and the card; no views yet.
+SceneDescription lay_meal(const std::string& name, Draws draws, DishStyle style, double scale,
+                          std::span<const FoodKind* const> kinds, std::span<const SurfaceKind> tables) {
+  SceneDescription scene = empty_scene(name, draws);
+  draw_camera(scene, draws, kPhoneFocalPx);
+  scene.dishes.push_back(draw_dish(draws, style, scale, 1));
+  draw_foods(scene, draws, 0, style, scale, kinds);
+  draw_table(scene, draws, tables);
+  draw_card(scene, draws);
+  return scene;
+}
+
+std::vector<SceneDescription> make_meals(std::uint64_t seed) {
+  constexpr std::size_t kMeals = 45;
+  constexpr std::size_t kWithThree = 23;
+  Draws menu_draws(seed, "meals-45 menu");
+  Menu menu(menu_draws, {FoodGroup::canteen, FoodGroup::fast_food}, FoodServing::solid);
+  std::vector<SceneDescription> scenes;
+  for (std::size_t i = 0; i < kMeals; ++i) {
+    const std::string name = numbered("m", i + 1);
+    Draws draws(seed, "meals-45 " + name);
+    const std::size_t count = (i * kWithThree) / kMeals != ((i + 1) * kWithThree) / kMeals ? 3 : 2;
+    const DishStyle style = kPlates[(i * 2 + i / 3) % kPlates.size()];
+    const auto kinds = menu.deal(count);
+    SceneDescription scene = lay_meal(name, draws, style, draws.between(0.96, 1.05), kinds, kTables);
+    draw_views(scene, draws, 3, {});
+    finish(scene, draws);
+    scenes.push_back(std::move(scene));
+  }
+  return scenes;
+}
+
+std::vector<SceneDescription> make_angles(std::uint64_t seed) {
+  Draws menu_draws(seed, "angles-13 menu");
+  Menu menu(menu_draws, {FoodGroup::canteen, FoodGroup::fast_food}, FoodServing::solid);
+  std::vector<SceneDescription> scenes;
+  for (std::size_t i = 0; i < 13; ++i) {
+    const std::string name = numbered("a", i + 1);
+    Draws draws(seed, "angles-13 " + name);
+    const auto kinds = menu.deal(2 + i % 2);
+    SceneDescription scene = lay_meal(name, draws, kPlates[i % 2 == 0 ? 0 : 2], 1.0, kinds, kTables);
+    draw_arm_views(scene, draws, 500.0);
+    finish(scene, draws);
+    scenes.push_back(std::move(scene));
+  }
+  return scenes;
+}
+
+std::vector<SceneDescription> make_plates(std::uint64_t seed) {
+  Draws menu_draws(seed, "plates-18 menu");
+  Menu menu(menu_draws, {FoodGroup::fast_food}, FoodServing::solid);
+  std::vector<SceneDescription> scenes;
+  for (std::size_t meal = 0; meal < 6; ++meal) {
+    const auto kinds = menu.deal(2);
+    SceneDescription first;
+    for (const DishStyle style : {DishStyle::soup, DishStyle::dinner, DishStyle::oval}) {
+      const std::string plate = style == DishStyle::soup     ? "soup"
+                                : style == DishStyle::dinner ? "dinner"
+                                                             : "oval";
+      const std::string name = numbered("c", meal + 1) + "_" + plate;
+      Draws draws(seed, "plates-18 " + name);
+      SceneDescription scene = lay_meal(name, draws, style, 1.0, kinds, kTables);
+      // The same portions on each plate: those that fit the smallest.
+      if (style == DishStyle::soup) first = scene;
+      for (std::size_t i = 0; i < scene.foods.size(); ++i) {
+        scene.foods[i].size = first.foods[i].size;
+        scene.foods[i].seed = first.foods[i].seed;
+      }
+      draw_views(scene, draws, 3, {});
+      finish(scene, draws);
+      scenes.push_back(std::move(scene));
+    }
+  }
+  return scenes;
+}
+
+std::vector<SceneDescription> make_other_meals(std::uint64_t seed) {
+  Draws menu_draws(seed, "meals-14 menu");
+  Menu menu(menu_draws, {FoodGroup::other}, FoodServing::solid);
+  std::vector<SceneDescription> scenes;
+  for (std::size_t i = 0; i < 14; ++i) {
+    const std::string name = numbered("n", i + 1);
+    Draws draws(seed, "meals-14 " + name);
+    const auto kinds = menu.deal(2 + (i % 3) / 2);
+    SceneDescription scene =
+        lay_meal(name, draws, kPlates[i % 3], draws.between(0.92, 1.08), kinds, kOtherTables);
+    draw_views(scene, draws, 3, {});
+    finish(scene, draws);
+    scenes.push_back(std::move(scene));
+  }
+  return scenes;
+}
+
+// A plate with a meal, a bowl or plate with soup and, on some, a dessert.
+SceneDescription lay_tray(const std::string& name, Draws draws, bool has_dessert,
+                          std::span<const FoodKind* const> meal, Menu& soups, Menu& desserts) {
+  SceneDescription scene = empty_scene(name, draws);
+  draw_camera(scene, draws, kWideFocalPx);
+  constexpr std::array kTops = {SurfaceKind::plastic, SurfaceKind::wood, SurfaceKind::laminate};
+  scene.tray = Tray{{530.0, 380.0}, draws.pick(std::span<const SurfaceKind>(kTops)), draws.seed()};
+  draw_table(scene, draws, kTables);
+  const DishStyle plate = draws.chance(0.5) ? DishStyle::oval : DishStyle::dinner;
+  const bool is_deep_plate = draws.chance(0.4);
+  const double plate_scale = plate == DishStyle::oval ? 0.92 : 0.95;
+  scene.dishes = {
+      draw_dish(draws, plate, plate_scale, 1),
+      draw_dish(draws, is_deep_plate ? DishStyle::soup : DishStyle::bowl, is_deep_plate ? 0.85 : 1.0, 201)};
+  if (has_dessert) scene.dishes.push_back(draw_dish(draws, DishStyle::dessert_bowl, 1.0, 202));
+  scene.card.thickness_mm = draws.chance(0.5) ? 0.8 : 0.2;
+  scene.card.design = draws.seed();
+  lay_out_tray(scene, draws);
+  draw_foods(scene, draws, 0, plate, plate_scale, meal);
+  draw_filling(scene, draws, 1, *soups.deal(),
+               is_deep_plate ? draws.between(0.45, 0.62) : draws.between(0.55, 0.78));
+  if (has_dessert) draw_filling(scene, draws, 2, *desserts.deal(), draws.between(0.68, 0.85));
+  return scene;
+}
+
+constexpr ViewLimits kTrayViews{500.0, 660.0, 26.0, 8.0, 25.0};
+// Turning a tray shows it from another side only to a camera that looks at a slant.
+constexpr ViewLimits kMovedViews{500.0, 720.0, 42.0, 8.0, 28.0};
+
+std::vector<SceneDescription> make_trays(std::uint64_t seed, const std::string& set, const char* letter,
+                                         std::size_t count, bool is_moved) {
+  Draws menu_draws(seed, set + " menu");
+  Menu menu(menu_draws, {FoodGroup::canteen}, FoodServing::solid);
+  Menu soups(menu_draws, {FoodGroup::canteen}, FoodServing::soup);
+  Menu desserts(menu_draws, {FoodGroup::canteen}, FoodServing::dessert);
+  std::vector<SceneDescription> scenes;
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::string name = numbered(letter, i + 1);
+    Draws draws(seed, set + " " + name);
+    const auto meal = menu.deal(2 + i % 2);
+    SceneDescription scene = lay_tray(name, draws, !is_moved && i % 2 == 0, meal, soups, desserts);
+    if (is_moved) {
+      draw_moved_views(scene, draws, kMovedViews);
+    } else {
+      draw_views(scene, draws, 3, kTrayViews);
+    }
+    finish(scene, draws);
+    scenes.push_back(std::move(scene));
+  }
+  return scenes;
+}
+
+// A quarter of the pixels.
+void halve(CameraDescription& camera) {
+  camera.size = {camera.size.width / 2, camera.size.height / 2};
+  camera.fx_px *= 0.5;
+  camera.fy_px *= 0.5;
+  camera.cx_px = 0.5 * (camera.cx_px + 0.5) - 0.5;
+  camera.cy_px = 0.5 * (camera.cy_px + 0.5) - 0.5;
+}
+
+// The first scenes, spread over what varies in the set.
+void reduce(std::vector<SceneDescription>& scenes, std::size_t count) {
+  scenes.resize(std::min(count, scenes.size()));
+  for (SceneDescription& scene : scenes) halve(scene.photography.camera);
+}
+
+}  // namespace
+
+std::span<const SceneSet> scene_sets() {
+  return kSets;
+}
+
+std::vector<SceneDescription> make_scenes(std::string_view set, std::uint64_t seed, bool is_reduced) {
+  std::vector<SceneDescription> scenes;
+  std::size_t reduced_count = 1;
+  if (set == "meals-45") {
+    scenes = make_meals(seed);
+    reduced_count = 4;
+  } else if (set == "angles-13") {
+    scenes = make_angles(seed);
+  } else if (set == "plates-18") {
+    scenes = make_plates(seed);
+    reduced_count = 3;
+  } else if (set == "meals-14") {
+    scenes = make_other_meals(seed);
+    reduced_count = 2;
+  } else if (set == "trays-8") {
+    scenes = make_trays(seed, "trays-8", "t", 8, false);
+  } else if (set == "moved-4") {
+    scenes = make_trays(seed, "moved-4", "v", 4, true);
+  } else {
+    throw std::invalid_argument("no set is called " + std::string(set));
+  }
+  if (is_reduced) reduce(scenes, reduced_count);
+  for (SceneDescription& scene : scenes)
+    scene.origin = std::string(set) + ", seed " + std::to_string(seed) + (is_reduced ? ", reduced" : "");
+  return scenes;
+}
+
+}  // namespace traygauge

@@ -1,0 +1,62 @@
+#include "tests/evaluation/methods/single_view.hpp"
+
+#include <chrono>
+#include <cmath>
+
+#include "core/segmentation/label_regions.hpp"
+
+namespace traygauge::tables {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+// The estimator's checks of the picture, and its undistorted, resized labels: the view taken twice goes as
+// far as that.
+StatusCode prepare_first_view(CaptureSession& session, MeasurementViews& views) {
+  Estimator& estimator = session.estimator();
+  estimator.reset();
+  for (int i = 0; i < 2; ++i) {
+    const Status status = estimator.add_view_without_features(session.input(0));
+    if (!status.ok()) return status.code();
+  }
+  views = estimator.estimate(1).views;
+  return StatusCode::ok;
+}
+
+}  // namespace
+
+SilhouetteFit fit_prior(const ItemView& item, const ShapePriors& priors) {
+  const SilhouetteFit cap = fit_silhouette(
+      item, Template::cap, [&](double area_mm2) { return priors.cap_height * std::sqrt(area_mm2); });
+  const SilhouetteFit box = fit_silhouette(
+      item, Template::box, [&](double area_mm2) { return priors.box_height * std::sqrt(area_mm2); });
+  return box.overlap > cap.overlap + priors.box_advantage ? box : cap;
+}
+
+Run measure_single_view(CaptureSession& session, std::uint64_t seed, const ShapePriors& priors) {
+  Run run;
+  run.seed = seed;
+  const PointFeatures pattern = find_on_pattern(session, Detector::sift);
+  const Clock::time_point start = Clock::now();
+  MeasurementViews views;
+  run.status = prepare_first_view(session, views);
+  if (run.status != StatusCode::ok) return run;
+  const auto print = find_card_plane(session, 0, find_in_view(session, 0, Detector::sift), pattern);
+  run.status = StatusCode::card_not_found;
+  if (!print) return run;
+  const auto bottom = bottom_under_print(session, *print);
+  run.status = StatusCode::dish_unknown;
+  if (!bottom) return run;
+  const ImageView<const std::uint8_t> labels = views.labels[0];
+  const cv::Mat picture = as_cv(labels);
+  ItemView item{views.cameras[0], frame_on(*bottom, views.cameras[0], labels), {}};
+  for (const std::uint8_t label : items_in(labels)) {
+    item.mask = picture == label;
+    run.items.push_back({label, StatusCode::ok, volume_ml(fit_prior(item, priors).solid)});
+  }
+  conclude(run);
+  run.total_ms = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+  return run;
+}
+
+}  // namespace traygauge::tables

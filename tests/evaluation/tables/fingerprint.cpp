@@ -1,0 +1,76 @@
+#include "tests/evaluation/tables/fingerprint.hpp"
+
+#include <array>
+#include <ostream>
+#include <sstream>
+
+#include "firmware/config/dish_choice.hpp"
+#include "simulator/capture/capture.hpp"
+#include "simulator/capture/input_bytes.hpp"
+#include "simulator/capture/picture.hpp"
+#include "tests/evaluation/core_fingerprint.hpp"
+
+namespace traygauge::tables {
+namespace {
+
+// Raised when this program's own methods, or what the protocol stores, change. What core computes is
+// recognised by its archive.
+constexpr int kProtocolVersion = 1;
+
+void describe_dish(const DishDescription& dish, std::ostream& text) {
+  text << "dish " << dish.label;
+  for (const double value :
+       {dish.outer_size_mm[0], dish.outer_size_mm[1], dish.rim_height_mm, dish.bottom_height_mm})
+    text << ' ' << value;
+  for (const ProfilePoint& point : dish.profile) text << ' ' << point.inset_mm << ':' << point.height_mm;
+  text << '\n';
+}
+
+}  // namespace
+
+std::string fingerprint(std::span<const std::uint8_t> bytes) {
+  std::uint64_t hash = 0xcbf29ce484222325;
+  for (const std::uint8_t byte : bytes) hash = (hash ^ byte) * 0x100000001b3;
+  constexpr std::array<char, 17> digits = {"0123456789abcdef"};
+  std::string text(16, '0');
+  for (std::size_t i = 0; i < text.size(); ++i) text[i] = digits.at((hash >> (60U - 4U * i)) & 15U);
+  return text;
+}
+
+std::string fingerprint(const std::string& text) {
+  return fingerprint(std::span(reinterpret_cast<const std::uint8_t*>(text.data()), text.size()));
+}
+
+const std::string& PairKeys::of_file(const std::filesystem::path& file) {
+  const auto known = files_.find(file);
+  if (known != files_.end()) return known->second;
+  return files_[file] = fingerprint(read_bytes({file, ""}, kMaxPictureFileBytes, "a readable file"));
+}
+
+const std::string& PairKeys::of_pair(const PairTask& task, const std::string& config) {
+  const auto place = std::pair(task.folder, task.pair);
+  const auto known = pairs_.find(place);
+  if (known != pairs_.end()) return known->second;
+  const Capture capture = read_capture(task.folder);
+  std::ostringstream text;
+  text.precision(17);
+  text << "capture.json " << of_file(capture.file) << "\ncard " << of_file(capture.card.pattern.path)
+       << "\npair " << task.pair[0] << ' ' << task.pair[1] << '\n';
+  for (const int view : task.pair) {
+    const ViewDescription& description = capture.views.at(static_cast<std::size_t>(view));
+    text << "view " << of_file(description.image.path);
+    if (description.labels) text << ' ' << of_file(description.labels->path);
+    text << '\n';
+  }
+  for (const DishDescription& dish : choose_dishes(capture, config)) describe_dish(dish, text);
+  return pairs_[place] = text.str();
+}
+
+std::string PairKeys::key_of(const PairTask& task, const Variant& variant, const std::string& config) {
+  std::ostringstream text;
+  text << "protocol " << kProtocolVersion << "\ncore " << kCoreFingerprint << '\n'
+       << of_pair(task, config) << describe(variant);
+  return text.str();
+}
+
+}  // namespace traygauge::tables

@@ -1,0 +1,107 @@
+#include "tests/evaluation/tables/tables_command.hpp"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <opencv2/core/utility.hpp>
+#include <ostream>
+
+#include "firmware/base/exit_status.hpp"
+#include "simulator/capture/input_error.hpp"
+#include "tests/evaluation/tables/report.hpp"
+#include "tests/evaluation/tables/set_folders.hpp"
+#include "tests/evaluation/tables/table_measurement.hpp"
+
+namespace traygauge::tables {
+namespace {
+
+constexpr int kMaxRuns = 1000;
+constexpr int kMaxJobs = 64;
+constexpr int kMaxPairs = 1'000'000;
+
+struct Options {
+  SetOptions sets;
+  RunnerOptions runner;
+  std::string cache = "paper-tables-cache";
+  std::string out;
+};
+
+int report_error(std::ostream& error, const std::string& text) {
+  error << "traygauge-paper-tables: " << printable(text) << "\n";
+  return kExitWrongUse;
+}
+
+void add_options(CLI::App& app, Options& options) {
+  app.add_option("--sets", options.sets.sets,
+                 "Folder with the sets meals-45, angles-13, plates-18, meals-14");
+  app.add_option("--meals", options.sets.meals, "Folder of captures in the place of Meals-45");
+  app.add_option("--angles", options.sets.angles, "… of Angles-13");
+  app.add_option("--plates", options.sets.plates, "… of Plates-18");
+  app.add_option("--meals14", options.sets.meals14, "… of Meals-14");
+  app.add_option("--cache", options.cache,
+                 "Folder where measurements are kept, default ./paper-tables-cache");
+  app.add_option("--runs", options.runner.runs, "Seeds a pair, default 8")->check(CLI::Range(1, kMaxRuns));
+  app.add_option("--jobs", options.runner.jobs, "Pairs measured at the same time, default 1")
+      ->check(CLI::Range(1, kMaxJobs));
+  app.add_option("--pairs", options.runner.pairs,
+                 "Pairs of a set, evenly spread, for a quick look; default all")
+      ->check(CLI::Range(1, kMaxPairs));
+  app.add_option("--config", options.runner.config, "Folder with dishes/, for captures that name no dish")
+      ->envname("TRAYGAUGE_CONFIG");
+}
+
+bool is_any_measured(const MeasuredTable& table) {
+  return std::any_of(table.rows.begin(), table.rows.end(),
+                     [](const MeasuredRow& row) { return row.figures.foods.estimates > 0; });
+}
+
+int print_table(const Table& table, const SetFolders& sets, const RunnerOptions& options, std::ostream& out,
+                std::ostream& error) {
+  const std::vector<Table> tables = measurable_tables({table}, sets, error);
+  if (tables.empty()) {
+    throw UsageError(table.command + ": needs the set " + name(table.rows.front().set) +
+                     "; name its folder, or with --sets the folder that holds it");
+  }
+  const MeasuredTable measured = measure_tables(tables, sets, options, error).front();
+  out << compose_text(measured.table, measured.rows);
+  return is_any_measured(measured) ? kExitMeasured : kExitNotMeasurable;
+}
+
+int run_command(const CLI::App& app, Options& options, std::ostream& out, std::ostream& error) {
+  // As the paper measured time: without parallelism.
+  cv::setNumThreads(1);
+  options.runner.cache = options.cache;
+  const SetFolders sets = find_sets(options.sets);
+  const std::string command = app.get_subcommands().front()->get_name();
+  if (command != "report") return print_table(find_table(command).value(), sets, options.runner, out, error);
+  if (sets.empty()) throw UsageError("report: name the folder that holds the sets with --sets, or each set");
+  write_report(options.out, sets, options.runner, error);
+  return kExitMeasured;
+}
+
+}  // namespace
+
+int run_tables_command(int argument_count, const char* const* arguments, std::ostream& out,
+                       std::ostream& error) {
+  CLI::App app("Runs the comparisons of the paper again, its figures beside ours.", "traygauge-paper-tables");
+  app.require_subcommand(1);
+  app.fallthrough();
+  Options options;
+  add_options(app, options);
+  for (const Table& table : paper_tables()) app.add_subcommand(table.command, table.title);
+  app.add_subcommand("report", "All of it as Markdown with plots, for both profiles")
+      ->add_option("--out", options.out, "Folder for report.md and its plots")
+      ->required();
+  try {
+    app.parse(argument_count, arguments);
+    const int status = run_command(app, options, out, error);
+    out.flush();
+    return out ? status : report_error(error, "the result could not be written to standard output");
+  } catch (const CLI::ParseError& problem) {
+    if (problem.get_exit_code() == 0) return app.exit(problem, out, error);
+    return report_error(error, std::string(problem.what()) + "; see traygauge-paper-tables --help");
+  } catch (const std::exception& problem) {  // UsageError, InputError, OutputError
+    return report_error(error, problem.what());
+  }
+}
+
+}  // namespace traygauge::tables

@@ -1,0 +1,99 @@
+#include "firmware/simulate/simulate_command.hpp"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "simulator/capture/capture.hpp"
+#include "simulator/scenes/scene_file.hpp"
+#include "tests/simulator/capture/temporary_capture.hpp"
+
+namespace traygauge {
+namespace {
+
+struct Result {
+  int status = 0;
+  std::string out;
+  std::string error;
+};
+
+Result simulate(std::vector<std::string> arguments) {
+  arguments.insert(arguments.begin(), "traygauge-simulate");
+  std::vector<const char*> pointers;
+  for (const std::string& argument : arguments) pointers.push_back(argument.c_str());
+  std::ostringstream out;
+  std::ostringstream error;
+  const int status = run_simulate(static_cast<int>(pointers.size()), pointers.data(), out, error);
+  return {status, out.str(), error.str()};
+}
+
+std::filesystem::path example() {
+  return std::filesystem::path(TRAYGAUGE_SOURCE_DIR) / "config/scenes/example.toml";
+}
+
+TEST(SimulateCommand, ListsTheSets) {
+  const Result result = simulate({"list"});
+  EXPECT_EQ(result.status, 0);
+  for (const char* set : {"meals-45", "angles-13", "plates-18", "meals-14", "trays-8", "moved-4"})
+    EXPECT_NE(result.out.find(set), std::string::npos) << set;
+}
+
+TEST(SimulateCommand, TellsWhatIsWrong) {
+  const TemporaryFolder folder;
+  write_text(folder.path() / "a.toml", "sead = 1\n");
+  write_text(folder.path() / "file", "");
+  const std::string out = folder.path().string();
+  const std::vector<std::pair<std::vector<std::string>, std::string>> mistakes = {
+      {{"render", "meals-46", "--out", out}, "meals-46"},
+      {{"render", "meals-45"}, "--out"},
+      {{"render", "meals-45", "--out", out, "--only", "m99"}, "m99"},
+      {{"render", "meals-45", "--out", out, "--samples", "1"}, "--samples"},
+      {{"render", (folder.path() / "b.toml").string(), "--out", out}, "b.toml"},
+      {{"render", (folder.path() / "a.toml").string(), "--out", out}, "sead"},
+      {{"render", example().string(), "--out", (folder.path() / "file").string()}, "file"},
+      {{}, "--help"},
+  };
+  for (const auto& [arguments, named] : mistakes) {
+    const Result result = simulate(arguments);
+    EXPECT_EQ(result.status, 2) << named;
+    EXPECT_NE(result.error.find(named), std::string::npos) << named << ": " << result.error;
+  }
+}
+
+TEST(SimulateCommand, KeepsCapturesThatAreComplete) {
+  const TemporaryFolder folder;
+  std::string scene = read_text(example());
+  const auto replace = [&](const std::string& from, const std::string& to) {
+    scene.replace(scene.find(from), from.size(), to);
+  };
+  replace("width = 1600", "width = 160");
+  replace("height = 1200", "height = 120");
+  replace("fx = 1400.0", "fx = 140.0");
+  replace("../dishes/dinner.toml", TRAYGAUGE_SOURCE_DIR "/config/dishes/dinner.toml");
+  write_text(folder.path() / "scene.toml", scene);
+  const std::vector<std::string> command = {"render", (folder.path() / "scene.toml").string(), "--out",
+                                            folder.path().string()};
+  const Result first = simulate(command);
+  EXPECT_EQ(first.status, 0) << first.error;
+  EXPECT_NE(first.out.find("1 captures rendered"), std::string::npos) << first.out;
+  EXPECT_EQ(read_capture(folder.path() / "example").views.size(), 2U);
+  const Result second = simulate(command);
+  EXPECT_NE(second.out.find("1 were complete already"), std::string::npos) << second.out;
+  // Another scene of that name is not taken for it.
+  replace("seed = 12", "seed = 13");
+  write_text(folder.path() / "scene.toml", scene);
+  const Result changed = simulate(command);
+  EXPECT_NE(changed.out.find("1 captures rendered"), std::string::npos) << changed.out;
+}
+
+TEST(SimulateCommand, ExampleSceneIsRead) {
+  const SceneDescription scene = read_scene_file(example());
+  EXPECT_EQ(scene.foods.size(), 2U);
+  EXPECT_EQ(scene.views.size(), 2U);
+}
+
+}  // namespace
+}  // namespace traygauge

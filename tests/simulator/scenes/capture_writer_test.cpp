@@ -1,0 +1,95 @@
+#include "simulator/scenes/capture_writer.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "simulator/capture/capture.hpp"
+#include "simulator/capture/picture_file.hpp"
+#include "simulator/capture/truth.hpp"
+#include "simulator/scenes/scene_parts.hpp"
+#include "simulator/scenes/scene_poses.hpp"
+#include "simulator/scenes/scene_views.hpp"
+#include "tests/simulator/capture/temporary_capture.hpp"
+
+namespace traygauge {
+namespace {
+
+SceneDescription small_scene() {
+  Draws draws(4);
+  SceneDescription scene;
+  scene.name = "small";
+  scene.dishes.push_back(draw_dish(draws, DishStyle::dinner, 1.0, 1));
+  const FoodKind* kinds[] = {find_food_kind("mash"), find_food_kind("schnitzel")};
+  draw_foods(scene, draws, 0, DishStyle::dinner, 1.0, kinds);
+  scene.photography.camera.size = {200, 150};
+  scene.photography.camera.fx_px = scene.photography.camera.fy_px = 175.0;
+  scene.photography.camera.cx_px = 99.5;
+  scene.photography.camera.cy_px = 74.5;
+  draw_card(scene, draws);
+  draw_views(scene, draws, 2, {});
+  draw_lamps(scene, draws);
+  draw_exposures(scene, draws);
+  return scene;
+}
+
+TEST(CaptureWriter, WritesWhatTheReaderReads) {
+  const TemporaryFolder folder;
+  const SceneDescription scene = small_scene();
+  const std::filesystem::path out = folder.path() / scene.name;
+  EXPECT_FALSE(is_complete_capture(out, scene));
+  double last = 0.0;
+  render_capture(scene, out, {}, [&](double share) {
+    EXPECT_GE(share, last - 1e-9);
+    last = share;
+  });
+  EXPECT_NEAR(last, 1.0, 1e-9);
+  EXPECT_TRUE(is_complete_capture(out, scene));
+  EXPECT_FALSE(std::filesystem::exists(out.string() + ".part"));
+
+  const Capture capture = read_capture(out);
+  ASSERT_EQ(capture.views.size(), 2U);
+  ASSERT_EQ(capture.dishes.size(), 1U);
+  EXPECT_EQ(capture.dishes[0].profile.size(), scene.dishes[0].dish.profile.size());
+  const Picture pattern = load_pattern(capture.card);
+  EXPECT_EQ(pattern.size, (PictureSize{1712, 1080}));
+  const Truth truth = *read_truth(out);
+  ASSERT_EQ(truth.items.size(), 2U);
+  ASSERT_EQ(truth.dishes.size(), 1U);
+  for (std::size_t i = 0; i < 2; ++i) {
+    const LoadedView view = load_view(capture.views[i]);
+    for (const int label : {1, 2, 3, 255})
+      EXPECT_GT(std::count(view.labels.pixels.begin(), view.labels.pixels.end(), label), 20) << label;
+    const auto [darkest, brightest] =
+        std::minmax_element(view.picture.pixels.begin(), view.picture.pixels.end());
+    EXPECT_LT(*darkest, 80);
+    EXPECT_GT(*brightest, 170);
+    const Eigen::Isometry3d pose = view_camera(scene, scene.views[i]).camera_from_world;
+    for (std::size_t r = 0; r < 3; ++r) {
+      for (std::size_t c = 0; c < 4; ++c)
+        EXPECT_DOUBLE_EQ(truth.poses[i][r][c],
+                         pose(static_cast<Eigen::Index>(r), static_cast<Eigen::Index>(c)));
+    }
+  }
+  const DepthPicture depth = read_depth_picture({out / "depth_0.png", ""}, capture.views[0].camera.size);
+  const double centre_mm = 0.02 * depth.view().at(100, 75);
+  EXPECT_NEAR(centre_mm, scene.views[0].distance_mm, 60.0);
+}
+
+TEST(CaptureWriter, SameSceneGivesTheSameBytes) {
+  const TemporaryFolder folder;
+  const SceneDescription scene = small_scene();
+  RenderSettings settings;
+  settings.threads = 1;
+  render_capture(scene, folder.path() / "a", settings, [](double) {});
+  settings.threads = 2;
+  render_capture(scene, folder.path() / "b", settings, [](double) {});
+  for (const auto& entry : std::filesystem::directory_iterator(folder.path() / "a")) {
+    const std::string name = entry.path().filename().string();
+    EXPECT_EQ(read_text(folder.path() / "a" / name), read_text(folder.path() / "b" / name)) << name;
+  }
+}
+
+}  // namespace
+}  // namespace traygauge

@@ -1,0 +1,167 @@
+#include "simulator/scenes/scene_sets.hpp"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <set>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "simulator/scenes/dish_shell.hpp"
+#include "simulator/scenes/scene_poses.hpp"
+#include "simulator/scenes/scene_views.hpp"
+
+namespace traygauge {
+namespace {
+
+constexpr std::uint64_t kSeed = 1;
+
+double angle_of(const SceneDescription& scene, const std::array<int, 2>& pair) {
+  const LaidDish& dish = scene.dishes.front();
+  const Eigen::Vector3d middle(dish.centre_mm.x(), dish.centre_mm.y(), dish.dish.bottom_height_mm);
+  return relative_angle_deg(view_camera(scene, scene.views[static_cast<std::size_t>(pair[0])]),
+                            view_camera(scene, scene.views[static_cast<std::size_t>(pair[1])]), middle);
+}
+
+std::set<std::string> kinds_of(const std::vector<SceneDescription>& scenes) {
+  std::set<std::string> kinds;
+  for (const SceneDescription& scene : scenes) {
+    for (const LaidFood& food : scene.foods) kinds.insert(food.kind);
+  }
+  return kinds;
+}
+
+// Paper, section IV-A.
+TEST(SceneSets, MealsAreAsManyAndSeenAsInThePaper) {
+  const auto scenes = make_scenes("meals-45", kSeed, false);
+  ASSERT_EQ(scenes.size(), 45U);
+  std::size_t items = 0;
+  std::size_t with_three = 0;
+  for (const SceneDescription& scene : scenes) {
+    items += scene.foods.size();
+    if (scene.foods.size() == 3) ++with_three;
+    ASSERT_EQ(scene.pairs.size(), 3U);
+    for (const auto& pair : scene.pairs) {
+      EXPECT_GE(angle_of(scene, pair), 5.0) << scene.name;
+      EXPECT_LE(angle_of(scene, pair), 35.0) << scene.name;
+    }
+    for (const Photograph& view : scene.views) {
+      EXPECT_GE(view.distance_mm, 400.0);
+      EXPECT_LE(view.distance_mm, 600.0);
+      EXPECT_LE(view.tilt_deg, 45.0);
+      EXPECT_TRUE(is_all_in_picture(scene, view)) << scene.name;
+      EXPECT_FALSE(is_card_hidden(scene, view)) << scene.name;
+    }
+  }
+  EXPECT_EQ(items, 113U);
+  EXPECT_EQ(with_three, 23U);
+  EXPECT_GE(kinds_of(scenes).size(), 20U);
+}
+
+TEST(SceneSets, ArmTurnsInStepsOfFiveDegrees) {
+  const auto scenes = make_scenes("angles-13", kSeed, false);
+  ASSERT_EQ(scenes.size(), 13U);
+  for (const SceneDescription& scene : scenes) {
+    ASSERT_EQ(scene.pairs.size(), 7U);
+    for (std::size_t i = 0; i < 7; ++i) {
+      EXPECT_NEAR(angle_of(scene, scene.pairs[i]), 5.0 * static_cast<double>(i + 1), 1e-6) << scene.name;
+    }
+  }
+}
+
+TEST(SceneSets, PlatesCarryTheSamePortions) {
+  const auto scenes = make_scenes("plates-18", kSeed, false);
+  ASSERT_EQ(scenes.size(), 18U);
+  for (std::size_t meal = 0; meal < 6; ++meal) {
+    std::set<std::string> styles;
+    std::set<std::pair<std::uint64_t, double>> portions;
+    for (std::size_t plate = 0; plate < 3; ++plate) {
+      const SceneDescription& scene = scenes[3 * meal + plate];
+      styles.insert(scene.dishes.front().dish.style);
+      for (const LaidFood& food : scene.foods) portions.insert({food.seed, food.size.length_mm});
+    }
+    EXPECT_EQ(styles.size(), 3U);
+    EXPECT_EQ(portions.size(), 2U);
+  }
+}
+
+TEST(SceneSets, OtherMealsShareNoFoodAndNoTableWithTheRest) {
+  const auto other = make_scenes("meals-14", kSeed, false);
+  ASSERT_EQ(other.size(), 14U);
+  std::set<SurfaceKind> tables;
+  for (const SceneDescription& scene : other) tables.insert(scene.table.kind);
+  const std::set<std::string> kinds = kinds_of(other);
+  for (const char* name : {"meals-45", "angles-13", "plates-18", "trays-8", "moved-4"}) {
+    const auto scenes = make_scenes(name, kSeed, false);
+    for (const std::string& kind : kinds_of(scenes))
+      EXPECT_FALSE(kinds.contains(kind)) << kind << " in " << name;
+    for (const SceneDescription& scene : scenes)
+      EXPECT_FALSE(tables.contains(scene.table.kind)) << scene.name;
+  }
+}
+
+TEST(SceneSets, TraysHoldTheirDishesApart) {
+  for (const char* name : {"trays-8", "moved-4"}) {
+    for (const SceneDescription& scene : make_scenes(name, kSeed, false)) {
+      EXPECT_GE(scene.dishes.size(), 2U);
+      for (std::size_t i = 0; i < scene.dishes.size(); ++i) {
+        for (std::size_t k = 0; k < i; ++k) {
+          const DishShell shell(scene.dishes[k].dish);
+          const Eigen::Isometry3d to_other =
+              world_from_dish(scene.dishes[k]).inverse() * world_from_dish(scene.dishes[i]);
+          for (double angle = 0.0; angle < 6.28; angle += 0.1) {
+            const Eigen::Vector3d at =
+                to_other * Eigen::Vector3d(0.5 * scene.dishes[i].dish.outer_size_mm[0] * std::cos(angle),
+                                           0.5 * scene.dishes[i].dish.outer_size_mm[1] * std::sin(angle),
+                                           0.0);
+            EXPECT_FALSE(shell.contains(at.x(), at.y(), 0.0)) << scene.name;
+          }
+        }
+      }
+    }
+  }
+}
+
+TEST(SceneSets, MovedTraysTurnUnderAStillCamera) {
+  for (const SceneDescription& scene : make_scenes("moved-4", kSeed, false)) {
+    ASSERT_EQ(scene.views.size(), 2U);
+    EXPECT_DOUBLE_EQ(scene.views[0].azimuth_deg, scene.views[1].azimuth_deg);
+    EXPECT_DOUBLE_EQ(scene.views[0].distance_mm, scene.views[1].distance_mm);
+    EXPECT_GE(angle_of(scene, {0, 1}), 8.0);
+    // The camera stands still in the room.
+    const auto in_room = [&](const Photograph& view) {
+      return (view_camera(scene, view).camera_from_world * world_from_room(view)).matrix().eval();
+    };
+    EXPECT_TRUE(in_room(scene.views[0]).isApprox(in_room(scene.views[1]), 1e-9));
+  }
+}
+
+TEST(SceneSets, SeedDecides) {
+  const auto first = make_scenes("trays-8", 5, false);
+  const auto again = make_scenes("trays-8", 5, false);
+  const auto other = make_scenes("trays-8", 6, false);
+  for (std::size_t i = 0; i < first.size(); ++i) {
+    EXPECT_EQ(first[i].dishes[0].centre_mm, again[i].dishes[0].centre_mm);
+    EXPECT_EQ(first[i].foods[0].seed, again[i].foods[0].seed);
+    EXPECT_NE(first[i].foods[0].seed, other[i].foods[0].seed);
+  }
+}
+
+TEST(SceneSets, ReducedScenesSeeTheSameInSmallerPictures) {
+  for (const SceneSet& set : scene_sets()) {
+    const auto full = make_scenes(set.name, kSeed, false);
+    const auto reduced = make_scenes(set.name, kSeed, true);
+    ASSERT_FALSE(reduced.empty());
+    EXPECT_LE(reduced.size(), 4U);
+    EXPECT_EQ(reduced[0].photography.camera.size.width, 800);
+    for (const Photograph& view : reduced[0].views) EXPECT_TRUE(is_all_in_picture(reduced[0], view));
+    EXPECT_EQ(reduced[0].foods[0].seed, full[0].foods[0].seed);
+  }
+  EXPECT_THROW(make_scenes("meals-46", kSeed, false), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace traygauge
