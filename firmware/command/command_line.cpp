@@ -1,12 +1,10 @@
 #include "firmware/command/command_line.hpp"
 
 #include <CLI/CLI.hpp>
-#include <exception>
 #include <new>
-#include <ostream>
-#include <string>
+#include <stdexcept>
 
-#include "firmware/base/exit_status.hpp"
+#include "firmware/command/program.hpp"
 #include "firmware/enrol/enrol_command.hpp"
 #include "firmware/evaluate/evaluate_command.hpp"
 #include "firmware/measure/measure_command.hpp"
@@ -14,22 +12,9 @@
 #include "firmware/station/recorded_captures.hpp"
 #include "firmware/station/station_command.hpp"
 #include "firmware/station/stop_signal.hpp"
-#include "simulator/capture/input_error.hpp"
 
 namespace traygauge {
 namespace {
-
-int report_error(std::ostream& error, const std::string& text) {
-  error << "traygauge: " << printable(text) << "\n";
-  return kExitWrongUse;
-}
-
-// What was asked for, or what is wrong with it.
-int report_parse(const CLI::App& app, const CLI::ParseError& problem, std::ostream& out,
-                 std::ostream& error) {
-  if (problem.get_exit_code() == 0) return app.exit(problem, out, error);  // --help, --version
-  return report_error(error, std::string(problem.what()) + "; see traygauge --help");
-}
 
 struct Options {
   MeasureOptions measure;
@@ -62,18 +47,14 @@ int run_command_line(int argument_count, const char* const* arguments, std::ostr
   add_enrol_command(app, options.enrol);
   add_memory_command(app, options.memory);
   add_station_command(app, options.station);
-  try {
-    app.parse(argument_count, arguments);
-    const int status = run_command(app, options, out, error);
-    out.flush();
-    return out ? status : report_error(error, "the result could not be written to standard output");
-  } catch (const CLI::ParseError& problem) {
-    return report_parse(app, problem, out, error);
-  } catch (const std::bad_alloc&) {
-    return report_error(error, "too little memory for pictures of this size; see traygauge memory");
-  } catch (const std::exception& problem) {  // UsageError, InputError, OutputError
-    return report_error(error, problem.what());
-  }
+  const auto run = [&] {
+    try {
+      return run_command(app, options, out, error);
+    } catch (const std::bad_alloc&) {
+      throw std::runtime_error("too little memory for pictures of this size; see traygauge memory");
+    }
+  };
+  return run_program(app, argument_count, arguments, run, out, error);
 }
 
 }  // namespace traygauge

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <exception>
 #include <filesystem>
 #include <ostream>
 #include <string>
@@ -14,6 +13,7 @@
 
 #include "firmware/base/exit_status.hpp"
 #include "firmware/base/text.hpp"
+#include "firmware/command/program.hpp"
 #include "firmware/evaluate/progress.hpp"
 #include "simulator/capture/input_error.hpp"
 #include "simulator/scenes/capture_writer.hpp"
@@ -102,11 +102,6 @@ void add_render(CLI::App& app, RenderOptions& options) {
   command->add_flag("--reduced", options.is_reduced, "a few scenes of the set, in small pictures");
 }
 
-int report_error(std::ostream& error, const std::string& text) {
-  error << "traygauge-simulate: " << printable(text) << "\n";
-  return kExitWrongUse;
-}
-
 }  // namespace
 
 int run_simulate(int argument_count, const char* const* arguments, std::ostream& out, std::ostream& error) {
@@ -116,17 +111,10 @@ int run_simulate(int argument_count, const char* const* arguments, std::ostream&
   RenderOptions options;
   add_render(app, options);
   app.add_subcommand("list", "The sets of scenes.");
-  try {
-    app.parse(argument_count, arguments);
-    const int status = app.got_subcommand("list") ? run_list(out) : run_render(options, out, error);
-    out.flush();
-    return out ? status : report_error(error, "the result could not be written to standard output");
-  } catch (const CLI::ParseError& problem) {
-    if (problem.get_exit_code() == 0) return app.exit(problem, out, error);  // --help, --version
-    return report_error(error, std::string(problem.what()) + "; see traygauge-simulate --help");
-  } catch (const std::exception& problem) {  // UsageError, InputError, OutputError, scenes that make no sense
-    return report_error(error, problem.what());
-  }
+  const auto run = [&] {
+    return app.got_subcommand("list") ? run_list(out) : run_render(options, out, error);
+  };
+  return run_program(app, argument_count, arguments, run, out, error);
 }
 
 }  // namespace traygauge

@@ -3,14 +3,9 @@
 #include <png.h>
 
 #include <bit>
-#include <cerrno>
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
-#include <string>
-#include <system_error>
-
-#include "simulator/capture/input_error.hpp"
 
 namespace traygauge {
 namespace {
@@ -50,22 +45,10 @@ bool encode(std::FILE* stream, const Rows& rows) {
 }
 
 void write_rows(const std::filesystem::path& file, const Rows& rows) {
-  std::FILE* stream = std::fopen(file.c_str(), "wb");
-  if (stream == nullptr) throw OutputError(file, std::generic_category().message(errno));
-  const bool encoded = encode(stream, rows);
-  const int reason = errno;
-  const bool closed = std::fclose(stream) == 0;
-  if (encoded && closed) return;
-  std::error_code ignored;
-  if (std::filesystem::is_regular_file(file, ignored)) std::filesystem::remove(file, ignored);
-  throw OutputError(file, std::generic_category().message(encoded ? errno : reason));
+  write_stream(file, [&rows](std::FILE* stream) { return encode(stream, rows); });
 }
 
 }  // namespace
-
-OutputError::OutputError(const std::filesystem::path& file, const std::string& reason)
-    : std::runtime_error(printable(file.string() + ": cannot be written: " + reason +
-                                   "; name a file in an existing, writable folder")) {}
 
 void write_png(const std::filesystem::path& file, const FrameView& picture) {
   const int type = picture.format == PixelFormat::gray8 ? PNG_COLOR_TYPE_GRAY : PNG_COLOR_TYPE_RGB;

@@ -2,18 +2,12 @@
 #pragma once
 
 #include <filesystem>
-#include <stdexcept>
 
 #include "core/image_view/image_view.hpp"
+#include "simulator/capture/output_file.hpp"
 #include "simulator/capture/picture.hpp"
 
 namespace traygauge {
-
-// A result that could not be stored; what() names the file and why.
-class OutputError : public std::runtime_error {
- public:
-  OutputError(const std::filesystem::path& file, const std::string& reason);
-};
 
 // 8-bit grey or RGB. Throws OutputError, and leaves no half-written picture behind.
 void write_png(const std::filesystem::path& file, const FrameView& picture);

@@ -1,6 +1,5 @@
 #include "simulator/render/jpeg_writer.hpp"
 
-#include <cerrno>
 #include <csetjmp>
 #include <cstddef>
 #include <cstdio>  // jpeglib.h needs FILE
@@ -9,9 +8,8 @@
 
 #include <array>
 #include <stdexcept>
-#include <system_error>
 
-#include "simulator/capture/png_writer.hpp"
+#include "simulator/capture/output_file.hpp"
 
 namespace traygauge {
 namespace {
@@ -65,16 +63,8 @@ class JpegEncoder {
 void write_jpeg(const std::filesystem::path& file, const Picture& picture, int quality) {
   if (picture.format != PixelFormat::rgb8) throw std::invalid_argument("write_jpeg: the picture is not RGB");
   if (quality < 1 || quality > 100) throw std::invalid_argument("write_jpeg: quality is not from 1 to 100");
-  std::FILE* stream = std::fopen(file.c_str(), "wb");
-  if (stream == nullptr) throw OutputError(file, std::generic_category().message(errno));
   JpegEncoder encoder;
-  const bool encoded = encoder.encode(stream, picture, quality);
-  const int reason = errno;
-  const bool closed = std::fclose(stream) == 0;
-  if (encoded && closed) return;
-  std::error_code ignored;
-  if (std::filesystem::is_regular_file(file, ignored)) std::filesystem::remove(file, ignored);
-  throw OutputError(file, std::generic_category().message(encoded ? errno : reason));
+  write_stream(file, [&](std::FILE* stream) { return encoder.encode(stream, picture, quality); });
 }
 
 }  // namespace traygauge

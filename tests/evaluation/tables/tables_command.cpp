@@ -6,6 +6,7 @@
 #include <ostream>
 
 #include "firmware/base/exit_status.hpp"
+#include "firmware/command/program.hpp"
 #include "simulator/capture/input_error.hpp"
 #include "tests/evaluation/tables/report.hpp"
 #include "tests/evaluation/tables/set_folders.hpp"
@@ -24,11 +25,6 @@ struct Options {
   std::string cache = "paper-tables-cache";
   std::string out;
 };
-
-int report_error(std::ostream& error, const std::string& text) {
-  error << "traygauge-paper-tables: " << printable(text) << "\n";
-  return kExitWrongUse;
-}
 
 void add_options(CLI::App& app, Options& options) {
   app.add_option("--sets", options.sets.sets,
@@ -91,17 +87,8 @@ int run_tables_command(int argument_count, const char* const* arguments, std::os
   app.add_subcommand("report", "All of it as Markdown with plots, for both profiles")
       ->add_option("--out", options.out, "Folder for report.md and its plots")
       ->required();
-  try {
-    app.parse(argument_count, arguments);
-    const int status = run_command(app, options, out, error);
-    out.flush();
-    return out ? status : report_error(error, "the result could not be written to standard output");
-  } catch (const CLI::ParseError& problem) {
-    if (problem.get_exit_code() == 0) return app.exit(problem, out, error);
-    return report_error(error, std::string(problem.what()) + "; see traygauge-paper-tables --help");
-  } catch (const std::exception& problem) {  // UsageError, InputError, OutputError
-    return report_error(error, problem.what());
-  }
+  return run_program(
+      app, argument_count, arguments, [&] { return run_command(app, options, out, error); }, out, error);
 }
 
 }  // namespace traygauge::tables
