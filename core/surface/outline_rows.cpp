@@ -39,7 +39,9 @@ double squared_slant(const OutlineRow& above, const OutlineRow& below) {
   return sum / (kRows * kRows);
 }
 
-void place_middle(const std::array<SurfaceGrid, 2>& views, int y, double level_mm, OutlineRow& row) {
+// Returns the steepest run to a chord's ends.
+double place_middle(const std::array<SurfaceGrid, 2>& views, int y, double level_mm, OutlineRow& row) {
+  double steepest = 0.0;
   for (std::size_t v = 0; v < 2; ++v) {
     const OutlineChord& chord = row.chords[v];
     const Vec2 left = run_at(views[v], chord.first, y);
@@ -50,7 +52,9 @@ void place_middle(const std::array<SurfaceGrid, 2>& views, int y, double level_m
     const double length_mm = inner_mm * chord.count() / (chord.count() - 1);
     row.length_mm = v == 0 ? length_mm : std::min(row.length_mm, length_mm);
     row.middle_run[v] = 0.5 * row.direction.dot(left + right);
+    steepest = std::max({steepest, left.norm(), right.norm()});
   }
+  return steepest;
 }
 
 }  // namespace
@@ -88,7 +92,7 @@ OutlineRows collect_outline_rows(const std::array<SurfaceGrid, 2>& views, std::u
                is_free(views[v], y, row.chords[v]);
     }
     if (!usable) continue;
-    place_middle(views, y, level_mm, row);
+    outline.steepest_run = std::max(outline.steepest_run, place_middle(views, y, level_mm, row));
     row.weight = row.length_mm / (1.0 + squared_slant(above, below));
     ++outline.usable;
   }

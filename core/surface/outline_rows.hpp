@@ -35,6 +35,7 @@ struct OutlineRow {
 struct OutlineRows {
   std::span<const OutlineRow> rows;  // of the grids
   int shared = 0;                    // rows that both views see the item in
+  double steepest_run = 0.0;         // of the lines of sight to its ends in usable rows
   int usable = 0;                    // of these, those with a weight
 };
 

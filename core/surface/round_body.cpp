@@ -14,18 +14,22 @@ namespace {
 
 constexpr int kCentreCorrections = 2;  // Newton steps: the second changes 0.1 mm at most
 
-// An ellipsoid's surface along the lines of sight of a view, in mm over the level: limb ± amplitude · √bulge.
-// The limb's plane falls towards the camera: by b²/2 · run · ∇(bulge / its most), b the half height.
+// An ellipsoid's surface as a view sees it. Where the level meets the line of sight, and z / (H − z) for the
+// height z over the level with the camera at height H: in these coordinates lines of sight are parallel and
+// an ellipsoid is one still, so that it is limb ± amplitude · √bulge. The plane of its limb falls towards the
+// camera, by half its squared height times the slope of its axis along the gradient of bulge / its most.
 struct BodyShape {
-  double centre_mm = 0.0;
-  double limb_per_mm = 0.0;
+  double camera_mm = 0.0;  // H
+  double middle = 0.0;
+  double limb_slope = 0.0;
   double amplitude = 0.0;
 
-  double limb_mm(const BodySample& sample) const {
-    return centre_mm - limb_per_mm * sample.run.dot(sample.gradient_mm);
+  double limb(const BodySample& sample) const {
+    return middle - limb_slope * sample.run.dot(sample.gradient_mm);
   }
-  double half_mm(const BodySample& sample) const { return amplitude * std::sqrt(sample.bulge_mm2); }
-  double top_mm(const BodySample& sample) const { return limb_mm(sample) + half_mm(sample); }
+  double half(const BodySample& sample) const { return amplitude * std::sqrt(sample.bulge_mm2); }
+  double height_mm(double scaled) const { return camera_mm * scaled / (1.0 + scaled); }
+  double top_mm(const BodySample& sample) const { return height_mm(limb(sample) + half(sample)); }
 };
 
 struct BodyWidth {
@@ -78,7 +82,8 @@ class RoundBody {
 };
 
 bool RoundBody::fit() {
-  if (outline_.usable < params_.min_rows || outline_.usable < params_.min_usable_share * outline_.shared)
+  if (outline_.steepest_run > params_.max_run || outline_.usable < params_.min_rows ||
+      outline_.usable < params_.min_usable_share * outline_.shared)
     return false;
   centre_mm_ = centre_height_mm(outline_, grids_.views, level_mm_);
   if (!(centre_mm_ > params_.min_centre_mm)) return false;
@@ -100,7 +105,7 @@ bool RoundBody::fit() {
 }
 
 // The bulge of an ellipse with half axes a ≥ b has its most a²b² / (a² + b²) over the area πab. A view along
-// the slope s lengthens it: half height and half width are alike here.
+// a slope lengthens it, as if half height and half width were alike, and the level lies behind it.
 BodyWidth RoundBody::measure_width() {
   BodyWidth width{0.0, 0.0, 0.0};
   for (std::size_t v = 0; v < 2; ++v) {
@@ -124,7 +129,8 @@ BodyWidth RoundBody::measure_width() {
     const double mean_ratio = std::max(0.5 * area_mm2 / (std::numbers::pi * most_mm2), 1.0);
     const double elongation = mean_ratio + std::sqrt(mean_ratio * mean_ratio - 1.0);
     const double seen_mm2 = most_mm2 * (1.0 + 1.0 / (elongation * elongation));
-    width.half_mm += 0.5 * std::sqrt(seen_mm2 / (1.0 + along_sight / std::max(gradients, 1e-6)));
+    const double nearer = 1.0 - centre_mm_ / (grids_.views[v].camera_mm.z() - level_mm_);
+    width.half_mm += 0.5 * nearer * std::sqrt(seen_mm2 / (1.0 + along_sight / std::max(gradients, 1e-6)));
     width.elongation += 0.5 * elongation;
     width.edge_rise_mm += 0.5 * rise_mm / std::max(ends, 1);
   }
@@ -134,13 +140,19 @@ BodyWidth RoundBody::measure_width() {
 // As thick as the dish below lets it be.
 BodyShape RoundBody::shape_in(std::size_t v) const {
   BodyShape body;
-  body.centre_mm = centre_mm_;
-  body.limb_per_mm = 0.5 * centre_mm_ * centre_mm_ / most_mm2_[v];
+  body.camera_mm = grids_.views[v].camera_mm.z() - level_mm_;
+  // Half way between the dish and the top, whose axis runs (H - 2b) / (H - b) times as far as the line of
+  // sight to the outline's middle.
+  const double over_top_mm = body.camera_mm - 2.0 * centre_mm_;
+  body.middle = centre_mm_ / over_top_mm;
+  const double axis_mm = body.camera_mm * over_top_mm / (over_top_mm + centre_mm_);
+  body.limb_slope = 0.5 * body.middle * body.middle * axis_mm / most_mm2_[v];
   body.amplitude = std::numeric_limits<double>::max();
   pictures_[v].for_each_sample([&](const BodySample& sample) {
     if (sample.bulge_mm2 < params_.contact_share * most_mm2_[v]) return;
-    const double room_mm = body.limb_mm(sample) - floor_mm(v, sample);
-    body.amplitude = std::min(body.amplitude, room_mm / std::sqrt(sample.bulge_mm2));
+    const double floor = floor_mm(v, sample);
+    const double room = body.limb(sample) - floor / (body.camera_mm - floor);
+    body.amplitude = std::min(body.amplitude, room / std::sqrt(sample.bulge_mm2));
   });
   return body;
 }
@@ -154,7 +166,6 @@ void RoundBody::correct_centre() {
     const BodyShape body = shape_in(v);
     const Vec3& eye = grids_.views[v].camera_mm;
     const Vec3& other = grids_.views[1 - v].camera_mm;
-    const double fall_mm = eye.z() - level_mm_;
     const double other_fall_mm = other.z() - level_mm_;
     int current = -1;
     double least = 0.0;
@@ -178,10 +189,11 @@ void RoundBody::correct_centre() {
       }
       const double from_other_mm = row.direction.dot((eye - other).head<2>());
       const double run = row.direction.dot(sample.run);
-      const double limb_mm = body.limb_mm(sample);
-      const double half_mm = body.half_mm(sample);
-      for (const double z_mm : {limb_mm - half_mm, limb_mm + half_mm}) {
-        const double seen = (from_other_mm + (fall_mm - z_mm) * run) / (other_fall_mm - z_mm);
+      const double limb = body.limb(sample);
+      const double half = body.half(sample);
+      for (const double scaled : {limb - half, limb + half}) {
+        const double z_mm = body.height_mm(scaled);
+        const double seen = (from_other_mm + (body.camera_mm - z_mm) * run) / (other_fall_mm - z_mm);
         least = std::min(least, seen);
         most = std::max(most, seen);
       }

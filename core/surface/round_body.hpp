@@ -19,16 +19,19 @@ namespace traygauge {
 struct RoundBodyParams {
   int min_rows = 12;              // that show both ends in both views
   double min_usable_share = 0.5;  // of the rows that the item is in
-  double min_centre_mm = 5.0;     // over the dish's bottom
-  double least_roundness = 0.6;   // centre height over half the body's width: heaps and slices lie lower,
-  double most_roundness = 1.5;    // what stands on end higher
-  double max_edge_rise = 0.3;     // of the dish under the outline: a liquid's outline lies on the dish
-  double contact_share = 0.3;     // of the greatest bulge: further out nothing touches the dish
-  double flatness = 0.9;          // centre height over half the width, expected
-  double flatness_sigma = 0.1;    // of its logarithm
-  double outline_sigma = 0.03;    // of the logarithm of the height that outlines tell, times the elongation:
-                                  // along a tube the same section errs everywhere alike
-  double raise_quantile = 0.7;    // so much of what was matched around the summit lies below the body
+  // Of a line of sight, over mm that it falls: where a view sees the body more from the side, rows cut it far
+  // from upright, and their sections' middles do not lie at its height.
+  double max_run = 0.85;
+  double min_centre_mm = 5.0;    // over the dish's bottom
+  double least_roundness = 0.6;  // centre height over half the body's width: heaps and slices lie lower,
+  double most_roundness = 1.5;   // what stands on end higher
+  double max_edge_rise = 0.3;    // of the dish under the outline: a liquid's outline lies on the dish
+  double contact_share = 0.3;    // of the greatest bulge: further out nothing touches the dish
+  double flatness = 0.95;        // centre height over half the width, expected
+  double flatness_sigma = 0.1;   // of its logarithm
+  double outline_sigma = 0.03;   // of the logarithm of the height that outlines tell, times the elongation:
+                                 // along a tube the same section errs everywhere alike
+  double raise_quantile = 0.7;   // so much of what was matched around the summit lies below the body
   double min_raise_samples = 100.0;
   double max_raise = 1.15;
   double rim_share = 0.4;       // of the greatest bulge: what lies outside is the rim

@@ -96,6 +96,7 @@ void visit_round_body_parameters(Params& best, Visit&& visit) {
   using Range = ParameterRange;
   visit("best.round_body.min_rows", body.min_rows, Range{1, 4096});
   visit("best.round_body.min_usable_share", body.min_usable_share, Range{0, 1});
+  visit("best.round_body.max_run", body.max_run, Range{0, 10});
   visit("best.round_body.min_centre_mm", body.min_centre_mm, Range{0, 200});
   visit("best.round_body.least_roundness", body.least_roundness, Range{0, 1});
   visit("best.round_body.most_roundness", body.most_roundness, Range{0, 100});
