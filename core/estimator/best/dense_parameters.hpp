@@ -131,6 +131,7 @@ void visit_volume_parameters(Params& best, Visit&& visit) {
   visit("best.uncertainty.surface_share", sigma.surface_share, Range{0, 100});
   visit("best.uncertainty.steepness_share", sigma.steepness_share, Range{0, 100});
   visit("best.uncertainty.filled_share", sigma.filled_share, Range{0, 100});
+  visit("best.uncertainty.round_share", sigma.round_share, Range{0, 100});
   visit("best.uncertainty.dish_height_mm", sigma.dish_height_mm, Range{0, 100});
   visit("best.pipeline.summit_margin_mm", pipeline.summit_margin_mm, Range{0, 400});
   visit("best.pipeline.min_top_mm", pipeline.min_top_mm, Range{0, 400});
