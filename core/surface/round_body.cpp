@@ -99,9 +99,10 @@ bool RoundBody::fit() {
   centre_mm_ =
       std::exp((by_outline * std::log(centre_mm_) + by_width * std::log(params_.flatness * width.half_mm)) /
                (by_outline + by_width));
+  const auto has_room = [&] { return shape_in(0).amplitude > 0.0 && shape_in(1).amplitude > 0.0; };
+  if (!has_room()) return false;
   centre_mm_ *= raise_share();
-  return shape_in(0).amplitude > 0.0 && shape_in(1).amplitude > 0.0 &&
-         rim_above_share() <= params_.max_rim_above;
+  return has_room() && rim_above_share() <= params_.max_rim_above;
 }
 
 // The bulge of an ellipse with half axes a ≥ b has its most a²b² / (a² + b²) over the area πab. A view along
@@ -213,8 +214,8 @@ double RoundBody::raise_share() const {
     const BodyShape body = shape_in(v);
     pictures_[v].for_each_sample([&](const BodySample& sample) {
       if (sample.bulge_mm2 < 0.5 * most_mm2_[v] || !is_matched(v, sample)) return;
-      const double share = matched_mm(v, sample) / body.top_mm(sample);
-      ++bins[static_cast<std::size_t>(std::clamp((share - kFirst) / kBin, 0.0, bins.size() - 1.0))];
+      const double at = (matched_mm(v, sample) / body.top_mm(sample) - kFirst) / kBin;
+      ++bins[at > 0.0 ? static_cast<std::size_t>(std::min(at, bins.size() - 1.0)) : 0];
       ++samples;
     });
   }
