@@ -47,9 +47,9 @@ struct HeightMapParams {
   // Smaller cells resolve outlines better, which the volume hardly needs: cell centres sample an area without
   // bias. About the samples' distance on the dish; larger loses narrow crevices, smaller takes time.
   double cell_mm = 0.85;
-  // A patch seen at a smaller cosine spans an occlusion: 0.2 is 4.9 samples' distance in depth from one
+  // A patch seen at a smaller cosine spans an occlusion: 0.3 is 3.2 samples' distance in depth from one
   // sample to the next. Larger takes steep flanks for occlusions, smaller counts the sheets behind edges.
-  double jump_cosine = 0.2;
+  double jump_cosine = 0.3;
   // Views further apart than this do not see the same surface: the better seen one holds.
   double disagreement_mm = 3.0;
   // So far below another surface a sample lies under an overhang, not on a wall's blurred foot.

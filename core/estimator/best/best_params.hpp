@@ -3,6 +3,7 @@
 
 #include "core/estimator/best/food_agreement_params.hpp"
 #include "core/estimator/best/uncertainty.hpp"
+#include "core/image/matte.hpp"
 #include "core/matching/point_tracking.hpp"
 #include "core/pose/joint_refinement.hpp"
 #include "core/scale/card_alignment.hpp"
@@ -41,6 +42,7 @@ struct BestParams {
   DishMembershipParams membership;
   DishOutlineParams outline;
   JointParams joint;
+  MatteParams matte;
   TwoViewSurfaceParams surface;
   RoundBodyParams round_body;
   HeightMapParams height_map;

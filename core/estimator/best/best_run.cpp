@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/estimator/best/dish_views.hpp"
 #include "core/estimator/view_input.hpp"
 
 namespace traygauge {
@@ -81,6 +82,8 @@ void run_best(BestMemory& memory, const Configuration& configuration, std::uint6
                            ? StatusCode::views_identical
                            : check_angle(measurement.relative_angle_deg, configuration.geometry);
   if (!measurement.status.ok()) return;
+  clock.enter(Stage::stereo);
+  make_matte(views, configuration.best.matte);
   for (std::size_t d = 0; d < geometry.dish_count; ++d) {
     measure_dish(views, geometry, d, configuration, dish, tap, clock, measurement);
   }

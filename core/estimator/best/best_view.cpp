@@ -27,6 +27,7 @@ Status prepare_labelled_view(const FrameView& frame, const Configuration& config
                              const CardPattern& pattern, BestViewWorkspace& workspace, StageClock& clock,
                              BestView& view) {
   clock.enter(Stage::image);
+  view.frame = frame;
   const ImageView<std::uint8_t> gray{view.gray_storage.data, frame.width, frame.height};
   convert_to_gray(frame, gray);
   if (const Status status = check_exposure(gray, configuration.exposure); !status.ok()) return status;

@@ -24,8 +24,10 @@ struct BestView {
   std::optional<double> arm_angle_deg;
   ImageView<const std::uint8_t> labels;  // of the stored picture, the caller's
   LabelRegions regions;
+  FrameView frame;  // the caller's
   GrayPyramid gray;
-  ImageView<std::uint8_t> gray_storage;  // memory for the largest frame
+  ImageView<std::uint8_t> gray_storage;   // memory for the largest frame
+  ImageView<std::uint8_t> matte_storage;  // the same
   PyramidWorkspace pyramid;
   std::span<ViewQuality> quality_storage;  // one
   std::span<CardAlignment> card_storage;   // one
@@ -36,6 +38,7 @@ struct BestView {
   template <class Allocator>
   constexpr void allocate(Allocator& arena, const EstimatorLimits& limits) {
     gray_storage = arena.template take_image<std::uint8_t>(limits.max_frame_width, limits.max_frame_height);
+    matte_storage = arena.template take_image<std::uint8_t>(limits.max_frame_width, limits.max_frame_height);
     pyramid.allocate(arena, limits.max_frame_width, limits.max_frame_height);
     quality_storage = arena.template take<ViewQuality>(1);
     card_storage = arena.template take<CardAlignment>(1);

@@ -13,6 +13,7 @@ void visit_surface_parameters(Params& best, Visit&& visit) {
   auto& surface = best.surface;
   auto& grid = surface.rectification;
   using Range = ParameterRange;
+  visit("best.matte.gloss_share", best.matte.gloss_share, Range{0, 1});
   visit("best.surface.rectification.max_samples", grid.max_samples, Range{4096, 1 << 20});
   visit("best.surface.rectification.max_rows", grid.max_rows, Range{16, 4096});
   visit("best.surface.rectification.aspect", grid.aspect, Range{0.1, 10});

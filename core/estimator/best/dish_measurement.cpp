@@ -97,7 +97,7 @@ void measure_dish(const ViewPair& views, const SceneGeometry& geometry, std::siz
   inner.place = frame_of(placed.placed.place);
   Status status = inner.profile.set(model);
   if (!status.ok()) return refuse(status);
-  status = reconstruct_surface(stored_views(views, geometry.joint.camera_from_table, dish.labels),
+  status = reconstruct_surface(matte_views(views, geometry.joint.camera_from_table, dish.labels),
                                labels_on_dish(dish.labels), bottom_mm, top_mm, best.surface,
                                workspace.surface, grids, dense);
   if (!status.ok()) return refuse(status);

@@ -164,7 +164,7 @@ Status DishSurveyor::match(const ViewPair& views, double bottom_mm, std::array<S
   TwoViewSurfaceParams params = configuration_.best.surface;
   params.refinement.dish_weight = 1.0;  // here the dish is what is measured
   const Status status = reconstruct_surface(
-      stored_views(views, geometry.joint.camera_from_table, dish.labels), labels_on_dish(dish.labels),
+      matte_views(views, geometry.joint.camera_from_table, dish.labels), labels_on_dish(dish.labels),
       bottom_mm, survey_.place.edge_height_mm + params_.above_edge_mm, params, memory_.surface, grids, dense);
   survey_.matched_share = 0.5 * (dense.confirmed[0] + dense.confirmed[1]);
   sample_mm_ = dense.column_step_mm;
@@ -173,6 +173,7 @@ Status DishSurveyor::match(const ViewPair& views, double bottom_mm, std::array<S
 
 // First over the table, then over the bottom that was found: there the pictures fit best.
 Status DishSurveyor::measure_profile(const ViewPair& views) {
+  make_matte(views, configuration_.best.matte);
   const DishModel edge = model_of(survey_.place, params_.edge);
   InnerSurface insets;
   insets.place = frame_of(survey_.place);

@@ -5,6 +5,7 @@
 
 #include "core/estimator/best/best_view.hpp"
 #include "core/estimator/best/scene_geometry.hpp"
+#include "core/image/matte.hpp"
 #include "core/rectification/plane_rectification.hpp"
 #include "core/surface/dish_profile.hpp"
 #include "core/surface/rim_residual.hpp"
@@ -14,8 +15,10 @@ namespace traygauge {
 // The picture's edge cuts off something that has one of `labels`.
 bool is_cut_off(const BestView& view, const LabelSet& labels);
 
-std::array<StoredView, 2> stored_views(const ViewPair& views, const TableCameras& camera_from_table,
-                                       const LabelSet& labels);
+// Makes both views matte, for all dishes.
+void make_matte(const ViewPair& views, const MatteParams& params);
+std::array<StoredView, 2> matte_views(const ViewPair& views, const TableCameras& camera_from_table,
+                                      const LabelSet& labels);
 
 DishFrame frame_of(const DishPlace& place);
 
