@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstdlib>
-#include <optional>
 #include <span>
 
 namespace traygauge {
@@ -169,6 +168,11 @@ DeviceStatus CameraControls::lock(const ControlWishes& wishes) {
     }
   }
   return DeviceCode::ok;
+}
+
+std::optional<int> CameraControls::held(CameraControl control) const {
+  const Held& held = held_[static_cast<std::size_t>(control)];
+  return held.id != 0 ? std::optional(held.value * held.unit) : std::nullopt;
 }
 
 std::string CameraControls::describe() const {

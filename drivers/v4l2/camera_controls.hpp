@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 
 #include "drivers/device_status.hpp"
@@ -38,6 +39,8 @@ class CameraControls {
   DeviceStatus lock(const ControlWishes& wishes);
   // Which control, what was set and what the camera says; after a failure.
   const std::string& problem() const { return problem_; }
+  // What is held of a control, in the unit of its name; nothing where the camera has none, or it may vary.
+  std::optional<int> held(CameraControl control) const;
   // "exposure_us 15600, focus 30": what is held, after lock().
   std::string describe() const;
 

@@ -42,6 +42,7 @@ class V4l2Camera final : public Camera {
   ~V4l2Camera() override { stop(); }
 
   const CameraCounters& counters() const { return counters_; }
+  std::optional<int> held(CameraControl control) const { return controls_.held(control); }
   // While it is started: the node, the mode, and what is held: "/dev/video0: MJPEG 1600x1200 …".
   std::string describe_setup() const;
 
