@@ -141,9 +141,11 @@ CapturedFrame V4l2Camera::date(const FilledBuffer& filled) const {
   const auto interval = std::chrono::round<Nanoseconds>(std::chrono::duration<double>(1.0 / rate));
   const Instant now = clock_.now();
   const bool knows_start = filled.stamped_at && filled.is_stamped_at_start;
-  times.delivered_at = filled.stamped_at && !knows_start ? *filled.stamped_at : now;
+  // Some drivers round their stamps up, into the future.
+  const Instant stamped_at = std::min(filled.stamped_at.value_or(now), now);
+  times.delivered_at = knows_start ? now : stamped_at;
   // Exposure and readout take an interval each at most.
-  times.exposed_at = knows_start ? *filled.stamped_at : times.delivered_at - 2 * interval;
+  times.exposed_at = knows_start ? stamped_at : stamped_at - 2 * interval;
   times.sequence = number_;
   return times;
 }
@@ -181,10 +183,8 @@ DeviceStatus V4l2Camera::collect(Instant asked_at, Instant deadline) {
       candidates_.push_back({filled, times, converter_->sharpness(filled.bytes)});
       continue;
     }
-    if (is_new) {
-      ++counters_.damaged;
-      saw_damage = true;
-    }
+    if (is_new || filled.is_damaged) ++counters_.damaged;
+    saw_damage = saw_damage || is_new;
     if (const DeviceStatus returned = stream_.give_back(filled); !returned.ok()) return returned;
   }
   return DeviceCode::ok;

@@ -53,6 +53,11 @@ class ArmController {
     const std::lock_guard lock(mutex_);
     answer_ = std::move(answer);
   }
+  // Where the arm stands.
+  double position_deg() {
+    const std::lock_guard lock(mutex_);
+    return angle_deg();
+  }
   std::atomic<bool> stalls = false;
 
  private:

@@ -255,7 +255,7 @@ void FakeVideoDevice::fill(int number, Instant begun_at) {
   length = static_cast<std::size_t>(static_cast<double>(length) * frame.length_share);
   const bool is_start = (camera_.stamp_flags & V4L2_BUF_FLAG_TSTAMP_SRC_SOE) != 0;
   filled_.push_back({index, length, static_cast<std::uint32_t>(number), frame.flags | camera_.stamp_flags,
-                     is_start ? begun_at : begun_at + kTransferTime});
+                     (is_start ? begun_at : begun_at + kTransferTime) + camera_.stamp_offset});
 }
 
 }  // namespace traygauge

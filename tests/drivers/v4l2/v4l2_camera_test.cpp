@@ -135,6 +135,21 @@ TEST_F(V4l2, DeliversOnlyWhatWasExposedAfterTheRequest) {
   }
 }
 
+TEST_F(V4l2, NoPictureComesFromTheFuture) {
+  kernel_.stamp_offset = 15ms;
+  for (const std::uint32_t source :
+       {std::uint32_t{V4L2_BUF_FLAG_TSTAMP_SRC_SOE}, std::uint32_t{V4L2_BUF_FLAG_TSTAMP_SRC_EOF}}) {
+    kernel_.stamp_flags = V4L2_BUF_FLAG_TIMESTAMP_MONOTONIC | source;
+    ASSERT_EQ(start(), DeviceCode::ok);
+    for (int i = 0; i < 10; ++i) {
+      ASSERT_EQ(capture(), DeviceCode::ok);
+      EXPECT_LE(frame_.delivered_at, clock_.now());
+      EXPECT_LE(frame_.exposed_at, clock_.now());
+    }
+    camera().stop();
+  }
+}
+
 TEST_F(V4l2, TakesTheSharpestOfABurst) {
   params_.burst = 4;
   params_.settle_frames = 0;
