@@ -8,6 +8,16 @@
 #include "firmware/station/site_scene.hpp"
 
 namespace traygauge {
+namespace {
+
+// Those beside the station file, or where it has none, the usual ones.
+std::vector<DishDescription> read_dishes(const std::filesystem::path& file) {
+  const std::filesystem::path folder = std::filesystem::absolute(file).parent_path();
+  const bool has_own = std::filesystem::is_directory(folder / "dishes");
+  return read_dish_library(find_config_folder(has_own ? folder.string() : ""));
+}
+
+}  // namespace
 
 int run_hardware_station(const StationCommand& command, const std::filesystem::path& file,
                          const std::atomic<bool>& stop, std::ostream& out, std::ostream& log) {
@@ -17,7 +27,7 @@ int run_hardware_station(const StationCommand& command, const std::filesystem::p
   if (command.by_hand && station_file.arm) {
     throw UsageError("--by-hand: " + station_file.file.string() + " has an [arm]; remove one of the two");
   }
-  SiteScene scene(station_file, read_dish_library(find_config_folder(file.parent_path())), profile);
+  SiteScene scene(station_file, read_dishes(file), profile);
   EstimatorMeasurer measurer(scene, scene.limits(), profile, command.seed);
   ScanPrinter printer(out, log, command.json ? ScanPrinter::Format::json : ScanPrinter::Format::text);
   Hardware hardware(station_file);
