@@ -27,6 +27,7 @@ int run_hardware_station(const StationCommand& command, const std::filesystem::p
   if (command.by_hand && station_file.arm) {
     throw UsageError("--by-hand: " + station_file.file.string() + " has an [arm]; remove one of the two");
   }
+  require_geometry(station_file);
   SiteScene scene(station_file, read_dishes(file), profile);
   EstimatorMeasurer measurer(scene, scene.limits(), profile, command.seed);
   ScanPrinter printer(out, log, command.json ? ScanPrinter::Format::json : ScanPrinter::Format::text);

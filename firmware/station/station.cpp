@@ -16,11 +16,14 @@ bool spoils_one_scan(DeviceCode code) {
   return code == DeviceCode::torn_frame || code == DeviceCode::unsteady || code == DeviceCode::unreadable;
 }
 
+bool contradicts_arm(const Measurement& measurement) {
+  return measurement.warnings[static_cast<std::size_t>(Warning::arm_angle_disagrees)];
+}
+
 // Lost steps show in what was seen only: the views are the same, too close, do not fit each other or the
 // angle.
 bool casts_doubt_on_arm(const Measurement& measurement) {
-  return !is_measured(measurement) ||
-         measurement.warnings[static_cast<std::size_t>(Warning::arm_angle_disagrees)];
+  return !is_measured(measurement) || contradicts_arm(measurement);
 }
 
 }  // namespace
@@ -86,6 +89,7 @@ StationState Station::wait_for_press() {
     return status.code() == DeviceCode::ended ? StationState::finished : StationState::waiting;
   ++totals_.scans;
   pressed_at_ = press.at;
+  is_repeated_ = false;
   return StationState::taking_first_view;
 }
 
@@ -140,19 +144,36 @@ StationState Station::take_second_view() {
   return StationState::measuring;
 }
 
-// The arm goes home while the volumes are computed.
+// The arm goes home while the volumes are computed. Where it stood elsewhere than it said, the scan is taken
+// again, once.
 StationState Station::measure() {
   show(Signal::busy);
   const DeviceStatus returning = begin_return();
   const Measurement& measurement = measurer_.measure();
-  const bool measured = is_measured(measurement);
+  const bool stood_elsewhere =
+      devices_.arm != nullptr && is_measured(measurement) && contradicts_arm(measurement);
+  if (stood_elsewhere && !is_repeated_) return repeat_scan(returning);
+  const bool measured = is_measured(measurement) && !stood_elsewhere;
   ScanResult result;
   result.outcome = measured ? ScanOutcome::measured : ScanOutcome::not_measurable;
   result.measurement = &measurement;
+  if (stood_elsewhere) {
+    result.outcome = ScanOutcome::device_failed;
+    result.measurement = nullptr;
+    result.failure = {devices_.arm->description(), DeviceCode::stalled,
+                      "twice the pictures show another angle than the arm's"};
+  }
   const StationState next =
       end_scan(result, measured ? Signal::done : Signal::try_again, StationState::waiting);
   if (!returning.ok()) return enter_fault(*devices_.arm, returning);
   return finish_return(next, casts_doubt_on_arm(measurement));
+}
+
+StationState Station::repeat_scan(DeviceStatus returning) {
+  is_repeated_ = true;
+  if (returning.ok()) returning = devices_.arm->wait_until_still(params_.arm_timeout);
+  if (returning.ok()) returning = devices_.arm->home(params_.arm_timeout);
+  return returning.ok() ? StationState::taking_first_view : fail_scan(*devices_.arm, returning);
 }
 
 // A press soon after the last one is the same one, bouncing: timed_out.

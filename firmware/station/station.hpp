@@ -97,6 +97,7 @@ class Station {
   DeviceStatus wait_for_press(Nanoseconds timeout, Press& press);
   StationState take_second_view();
   StationState measure();
+  StationState repeat_scan(DeviceStatus returning);
 
   DeviceStatus capture(View& view);
   DeviceStatus capture_once(View& view, Instant not_before);
@@ -127,6 +128,7 @@ class Station {
   View second_;
   std::array<BlockMeans, 2> means_;  // of the last two pictures
   Instant pressed_at_;
+  bool is_repeated_ = false;             // this scan, because the arm stood elsewhere than it said
   std::optional<Instant> last_edge_at_;  // of the button
   Instant result_until_;                 // the lamp shows the last result
   Device* failed_device_ = nullptr;      // while it does not work

@@ -104,6 +104,32 @@ TEST(Station, AsksToTryAgainWhenTheTrayIsNotMeasurable) {
   EXPECT_EQ(rig.signals(), (Signals{ready, hold_still, busy, try_again}));
 }
 
+TEST(Station, MeasuresAgainOnceWhenThePicturesContradictTheArm) {
+  StationRig rig(1);
+  rig.measurer.disagreements = 1;
+  EXPECT_TRUE(rig.run().all_worked());
+  EXPECT_EQ(rig.sink.lines, Lines{"1 measured ok 320"});
+  EXPECT_EQ(rig.measurer.scans, 2);
+  EXPECT_EQ(rig.signals(), (Signals{ready, hold_still, busy, hold_still, busy, done}));
+}
+
+TEST(Station, RefusesWhenThePicturesContradictTheArmTwice) {
+  StationRig rig(2);
+  rig.measurer.disagreements = 2;
+  EXPECT_FALSE(rig.run().all_worked());
+  EXPECT_EQ(rig.sink.lines, (Lines{"1 device_failed simulated arm stalled", "2 measured ok 540"}));
+  EXPECT_TRUE(rig.arm.true_position_deg() == 0.0);
+}
+
+TEST(Station, TellsWhenTheArmFailsOnItsWayToASecondTry) {
+  StationRig rig(1);
+  rig.measurer.disagreements = 1;
+  rig.arm.faults().add({DeviceCode::stalled, 5, 1});
+  rig.run();
+  ASSERT_FALSE(rig.sink.lines.empty());
+  EXPECT_EQ(rig.sink.lines[0], "1 device_failed simulated arm stalled");
+}
+
 TEST(Station, CountsAPartialMeasurementAsMeasured) {
   StationRig rig(1);
   rig.measurer.status = StatusCode::partial;
