@@ -54,6 +54,12 @@ board-test: packages
 	cmake --build --preset $(board_preset) -j $(JOBS) --target $(BOARD_TARGETS)
 	$(in_board) tests/board/drivers.sh $(board_build)/tests/drivers/drivers_test $(board_build)/tests/board/board_test \
 	  simulator/demo/mash_and_meatballs/view_0.jpg
+ifeq ($(BOARD),amd64)
+	tests/board/make_gpiod_2.sh build-board/gpiod-2
+	cmake --preset gpiod-2 $(launcher)
+	cmake --build --preset gpiod-2 -j $(JOBS) --target drivers_test board_test
+	$(in_board) tests/board/gpio.sh build-gpiod-2/tests/drivers/drivers_test build-gpiod-2/tests/board/board_test
+endif
 	$(in_board) tests/board/station.sh $(board_build)/traygauge $(board_build)/tests/board/station_cycle \
 	  simulator/demo/mash_and_meatballs
 
@@ -99,4 +105,4 @@ tsan: packages
 	for test in $(TSAN_TESTS); do find build-tsan -type f -name $$test -exec {} --gtest_brief=1 \; -quit || exit; done
 
 clean:
-	rm -rf build build-without-surf build-debug build-asan-ubsan build-tsan build-aarch64 build-board
+	rm -rf build build-without-surf build-debug build-asan-ubsan build-tsan build-aarch64 build-gpiod-2 build-board

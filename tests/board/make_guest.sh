@@ -35,7 +35,7 @@ export APT_CONFIG=$apt/apt.conf LC_ALL=C
 say "package lists"
 apt-get -qq update
 
-image=$(apt-cache depends "linux-image-$arch:$arch" | sed -n 's/.*Depends: \(linux-image-[^:]*\).*/\1/p' | head -n 1)
+image=$(apt-cache depends "linux-image-$arch:$arch" | sed -n 's/.*Depends: \(linux-image-[^:]*\).*/\1/p' | sed -n 1p)
 release=${image#linux-image-}
 series=$(echo "$release" | cut -d. -f1,2)
 say "kernel $release"

@@ -70,9 +70,13 @@ TEST_F(Recording, SavesCapturesWithEveryPixelThatItSaw) {
 
 TEST_F(Recording, LeavesNumbersOutThatAreTaken) {
   fs::create_directories(folder_.path() / "out" / "0001");
-  record(1);
-  EXPECT_EQ(sink_.names, std::vector<std::string>{"0002"});
-  EXPECT_TRUE(fs::is_empty(folder_.path() / "out" / "0001"));
+  fs::create_directories(folder_.path() / "out" / "0002");
+  const Capture source = read_capture(demo_);
+  CaptureRecorder recorder(folder_.path() / "out", source.views[0].camera, source.card);
+  recorder.begin_scan();
+  EXPECT_EQ(recorder.tray_name(), "0003");
+  recorder.begin_scan();
+  EXPECT_EQ(recorder.tray_name(), "0004");
 }
 
 TEST_F(Recording, SaysThatItCouldNotSave) {
