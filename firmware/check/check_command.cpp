@@ -20,7 +20,7 @@ CheckResult good(const Device& device, const std::string& text) {
   return {std::string(device.description()), true, text};
 }
 
-CheckResult try_camera(V4l2Camera& camera, const StationFile& station) {
+CheckResult try_camera(V4l2Camera& camera, const std::optional<LensConfig>& lens) {
   CheckResult result = check_camera(camera);
   if (result.is_good) {
     const CameraCounters& counters = camera.counters();
@@ -28,11 +28,10 @@ CheckResult try_camera(V4l2Camera& camera, const StationFile& station) {
                   " damaged, " + std::to_string(counters.missed) + " missed";
   }
   const auto focus = camera.held(CameraControl::focus);
-  if (result.is_good && station.lens && station.lens->focus && focus && *focus != *station.lens->focus) {
+  if (result.is_good && lens && lens->focus && focus && *focus != *lens->focus) {
     result.is_good = false;
-    result.text = "The lens was calibrated at focus " + std::to_string(*station.lens->focus) +
-                  " and stands at " + std::to_string(*focus) +
-                  "; set camera.focus to the former, or calibrate again.";
+    result.text = "The lens was calibrated at focus " + std::to_string(*lens->focus) + " and stands at " +
+                  std::to_string(*focus) + "; set camera.focus to the former, or calibrate again.";
   }
   camera.stop();
   return result;
@@ -110,7 +109,8 @@ int run_check(const CheckOptions& options, std::ostream& out) {
         << printable(result.text) << std::endl;
     all_good = all_good && result.is_good;
   };
-  tell(try_camera(hardware.camera(), station));
+  tell(try_camera(hardware.camera(), station.lens));
+  if (station.second_camera) tell(try_camera(*hardware.second_camera(), station.second_lens));
   tell(try_button(hardware.trigger(), options, out));
   if (!station.lamp.lines.empty()) tell(try_lamp(hardware.lamp(), hardware.clock()));
   if (station.arm) tell(try_arm(*hardware.arm(), station.arm->second_view_deg));

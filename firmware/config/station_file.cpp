@@ -227,7 +227,7 @@ std::array<InputFile, 2> read_labels(const JsonNode& table, const fs::path& fold
 StationFile read_station_file(const fs::path& file) {
   const nlohmann::json document = read_toml(file, kMaxFileBytes, "a station in TOML");
   const JsonNode root(document, file);
-  expect(root, {"camera", "button", "lamp", "arm", "lens", "card", "trays"});
+  expect(root, {"camera", "second_camera", "button", "lamp", "arm", "lens", "second_lens", "card", "trays"});
   const fs::path folder = file.parent_path();
   StationFile station;
   station.file = file;
@@ -236,16 +236,28 @@ StationFile read_station_file(const fs::path& file) {
   if (const auto lamp = root.find("lamp")) station.lamp = read_lamp(*lamp);
   if (const auto arm = root.find("arm")) station.arm = read_arm(*arm);
   if (const auto lens = root.find("lens")) station.lens = read_lens(*lens, station.camera);
+  if (const auto second = root.find("second_camera")) {
+    station.second_camera = read_camera(*second);
+    if (station.arm) second->fail("either an arm or a second camera", "remove one of the two");
+    if (station.second_camera->device == station.camera.device) {
+      second->member("device").fail("another camera than the first", "correct one of the two");
+    }
+    if (const auto lens = root.find("second_lens"))
+      station.second_lens = read_lens(*lens, *station.second_camera);
+  }
   if (const auto card = root.find("card")) station.card = read_card(*card, folder);
   if (const auto trays = root.find("trays")) station.labels = read_labels(*trays, folder);
   return station;
 }
 
 void require_geometry(const StationFile& station) {
-  if (!station.lens) {
-    throw InputError({station.file, "lens"}, "fx, fy, cx, cy and distortion of the lens", "nothing",
+  const auto require = [&station](const std::optional<LensConfig>& lens, const char* key) {
+    if (lens) return;
+    throw InputError({station.file, key}, "fx, fy, cx, cy and distortion of the lens", "nothing",
                      "calibrate the lens and write them there");
-  }
+  };
+  require(station.lens, "lens");
+  if (station.second_camera) require(station.second_lens, "second_lens");
   if (!station.card) {
     throw InputError({station.file, "card"}, "pattern, width_mm, height_mm and thickness_mm of the card",
                      "nothing", "describe the reference card there");

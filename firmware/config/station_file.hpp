@@ -45,8 +45,10 @@ struct StationFile {
   V4l2CameraParams camera;
   GpioTriggerParams button;
   LampConfig lamp;
-  std::optional<ArmConfig> arm;  // none: a hand moves the camera or the tray
+  std::optional<ArmConfig> arm;                   // none: a hand moves the camera or the tray
+  std::optional<V4l2CameraParams> second_camera;  // takes the second view; excludes the arm
   std::optional<LensConfig> lens;
+  std::optional<LensConfig> second_lens;  // of the second camera
   std::optional<CardDescription> card;
   // Outlines of dish and food, the same for every tray; none: to be found.
   std::optional<std::array<InputFile, 2>> labels;
@@ -55,7 +57,7 @@ struct StationFile {
 // Unknown keys are errors: they are typing mistakes. Paths in the file are relative to it. Throws InputError.
 StationFile read_station_file(const std::filesystem::path& file);
 
-// Throws InputError unless the file has lens and card, without which nothing is measured.
+// Throws InputError unless the file has the lenses and the card, without which nothing is measured.
 void require_geometry(const StationFile& station);
 
 }  // namespace traygauge

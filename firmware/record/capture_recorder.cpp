@@ -39,8 +39,9 @@ std::string numbered(int number) {
 
 }  // namespace
 
-CaptureRecorder::CaptureRecorder(fs::path out, const CameraDescription& camera, const CardDescription& card)
-    : out_(std::move(out)), camera_(camera), card_(card), pattern_(load_pattern(card)) {
+CaptureRecorder::CaptureRecorder(fs::path out, const std::array<CameraDescription, 2>& cameras,
+                                 const CardDescription& card)
+    : out_(std::move(out)), cameras_(cameras), card_(card), pattern_(load_pattern(card)) {
   std::error_code error;
   fs::create_directories(out_, error);
   if (!fs::is_directory(out_)) throw OutputError(out_, error ? error.message() : "it is no folder");
@@ -55,8 +56,9 @@ void CaptureRecorder::begin_scan() {
 }
 
 Status CaptureRecorder::add_view(const StationView& view) {
+  const PictureSize& size = cameras_.at(views_.size()).size;
   views_.push_back({view.frame, view.arm_angle_deg});
-  const bool has_size = view.frame.width == camera_.size.width && view.frame.height == camera_.size.height;
+  const bool has_size = view.frame.width == size.width && view.frame.height == size.height;
   return has_size ? StatusCode::ok : StatusCode::frame_size_mismatch;
 }
 
@@ -80,7 +82,6 @@ void CaptureRecorder::save() const {
   if (error) throw OutputError(folder, error.message());
   nlohmann::ordered_json json;
   json["version"] = 1;
-  json["camera"] = compose_camera(camera_);
   json["card"] = {{"pattern", "card.png"},
                   {"width_mm", card_.width_mm},
                   {"height_mm", card_.height_mm},
@@ -89,7 +90,7 @@ void CaptureRecorder::save() const {
   for (std::size_t i = 0; i < views_.size(); ++i) {
     const std::string image = "view_" + std::to_string(i) + ".png";
     write_png(folder / image, as_rgb(views_[i].frame).frame());
-    nlohmann::ordered_json view = {{"image", image}};
+    nlohmann::ordered_json view = {{"image", image}, {"camera", compose_camera(cameras_[i])}};
     if (views_[i].arm_angle_deg) view["arm_angle_deg"] = *views_[i].arm_angle_deg;
     json["views"].push_back(view);
   }

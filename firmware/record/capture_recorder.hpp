@@ -17,8 +17,10 @@ namespace traygauge {
 // the camera delivered them; capture.json comes last, so that a folder with it is complete.
 class CaptureRecorder final : public Measurer {
  public:
-  // Reads the card's pattern, makes the folder; throws InputError, OutputError.
-  CaptureRecorder(std::filesystem::path out, const CameraDescription& camera, const CardDescription& card);
+  // `cameras` of the first and the second view. Reads the card's pattern, makes the folder; throws
+  // InputError, OutputError.
+  CaptureRecorder(std::filesystem::path out, const std::array<CameraDescription, 2>& cameras,
+                  const CardDescription& card);
 
   void begin_scan() override;
   Status add_view(const StationView& view) override;
@@ -36,7 +38,7 @@ class CaptureRecorder final : public Measurer {
   void save() const;
 
   std::filesystem::path out_;
-  CameraDescription camera_;
+  std::array<CameraDescription, 2> cameras_;
   CardDescription card_;
   Picture pattern_;
   int number_ = 0;

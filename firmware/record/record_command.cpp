@@ -54,7 +54,8 @@ int run_record(const RecordOptions& options, const std::atomic<bool>& stop, std:
                std::ostream& log) {
   const StationFile station_file = read_station_file(options.station);
   require_geometry(station_file);
-  CaptureRecorder recorder(options.out, station_file.lens->camera, *station_file.card);
+  const LensConfig& second = station_file.second_lens ? *station_file.second_lens : *station_file.lens;
+  CaptureRecorder recorder(options.out, {station_file.lens->camera, second.camera}, *station_file.card);
   RecordPrinter printer(recorder, options.out, out, log);
   Hardware hardware(station_file);
   StationParams params = hardware_params(station_file);

@@ -30,7 +30,11 @@ Hardware::Hardware(const StationFile& station)
     : camera_(std::make_unique<SystemVideoDevice>(), clock_, station.camera),
       trigger_(make_gpio_line(station.button.line), clock_, station.button),
       lamp_(make_lamps(station.lamp), station.lamp.table),
-      arm_(station.arm ? make_arm(*station.arm, clock_) : nullptr) {}
+      arm_(station.arm ? make_arm(*station.arm, clock_) : nullptr) {
+  if (station.second_camera) {
+    second_camera_.emplace(std::make_unique<SystemVideoDevice>(), clock_, *station.second_camera);
+  }
+}
 
 StationParams hardware_params(const StationFile& station) {
   StationParams params;

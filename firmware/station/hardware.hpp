@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 
 #include "firmware/config/station_file.hpp"
 #include "firmware/station/station.hpp"
@@ -13,8 +14,9 @@ class Hardware {
   // Nothing is opened yet.
   explicit Hardware(const StationFile& station);
 
-  StationDevices devices() { return {camera_, trigger_, arm_.get(), lamp_, clock_}; }
+  StationDevices devices() { return {camera_, trigger_, arm_.get(), lamp_, clock_, second_camera()}; }
   V4l2Camera& camera() { return camera_; }
+  V4l2Camera* second_camera() { return second_camera_ ? &*second_camera_ : nullptr; }
   GpioTrigger& trigger() { return trigger_; }
   GpioIndicator& lamp() { return lamp_; }
   Arm* arm() { return arm_.get(); }  // null: there is none
@@ -23,6 +25,7 @@ class Hardware {
  private:
   SystemClock clock_;
   V4l2Camera camera_;
+  std::optional<V4l2Camera> second_camera_;
   GpioTrigger trigger_;
   GpioIndicator lamp_;
   std::unique_ptr<Arm> arm_;

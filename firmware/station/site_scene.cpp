@@ -15,10 +15,12 @@ SiteScene::SiteScene(const StationFile& station, const std::vector<DishDescripti
         "this version does not find the food by itself: outline where dish and food lie, the same "
         "for every tray");
   }
+  const std::array<const LensConfig*, 2> lenses = {
+      &*station.lens, station.second_lens ? &*station.second_lens : &*station.lens};
   for (std::size_t i = 0; i < 2; ++i) {
-    labels_[i] = read_label_picture((*station.labels)[i], station.lens->camera.size);
+    labels_[i] = read_label_picture((*station.labels)[i], lenses[i]->camera.size);
+    setup_.lenses[i] = lens_of(lenses[i]->camera);
   }
-  setup_.lenses.fill(lens_of(station.lens->camera));
   setup_.card = *station.card;
   setup_.pattern = load_pattern(*station.card);
   for (const DishDescription& dish : dishes) setup_.dishes.push_back(dish_of(dish));
@@ -30,7 +32,9 @@ SiteScene::SiteScene(const StationFile& station, const std::vector<DishDescripti
 ViewInput SiteScene::describe(const StationView& view) {
   ViewInput input;
   input.frame = view.frame;
-  input.labels = labels_[std::min<std::size_t>(views_, 1)].gray();
+  const std::size_t i = std::min<std::size_t>(views_, 1);
+  input.labels = labels_[i].gray();
+  input.lens = setup_.lenses[i];
   input.arm_angle_deg = view.arm_angle_deg;
   ++views_;
   return input;

@@ -41,7 +41,8 @@ class Recording : public testing::Test {
     SimulatedTrigger trigger(clock, lamp, static_cast<std::uint64_t>(scans));
     trigger.before_press([&player] { player.handle_press(); });
     const Capture source = read_capture(demo_);
-    CaptureRecorder recorder(folder_.path() / "out", source.views[0].camera, source.card);
+    CaptureRecorder recorder(folder_.path() / "out", {source.views[0].camera, source.views[1].camera},
+                             source.card);
     std::atomic<bool> stop = false;
     StationParams params;
     params.max_scans = static_cast<std::uint64_t>(scans);
@@ -72,7 +73,8 @@ TEST_F(Recording, LeavesNumbersOutThatAreTaken) {
   fs::create_directories(folder_.path() / "out" / "0001");
   fs::create_directories(folder_.path() / "out" / "0002");
   const Capture source = read_capture(demo_);
-  CaptureRecorder recorder(folder_.path() / "out", source.views[0].camera, source.card);
+  CaptureRecorder recorder(folder_.path() / "out", {source.views[0].camera, source.views[1].camera},
+                           source.card);
   recorder.begin_scan();
   EXPECT_EQ(recorder.tray_name(), "0003");
   recorder.begin_scan();
@@ -82,9 +84,12 @@ TEST_F(Recording, LeavesNumbersOutThatAreTaken) {
 TEST_F(Recording, SaysThatItCouldNotSave) {
   write_text(folder_.path() / "file", "");
   const Capture source = read_capture(demo_);
-  EXPECT_THROW(CaptureRecorder(folder_.path() / "file", source.views[0].camera, source.card), OutputError);
+  EXPECT_THROW(
+      CaptureRecorder(folder_.path() / "file", {source.views[0].camera, source.views[1].camera}, source.card),
+      OutputError);
 
-  CaptureRecorder recorder(folder_.path() / "out", source.views[0].camera, source.card);
+  CaptureRecorder recorder(folder_.path() / "out", {source.views[0].camera, source.views[1].camera},
+                           source.card);
   const LoadedView view = load_view(source.views[0]);
   recorder.begin_scan();
   fs::remove_all(folder_.path() / "out");
@@ -98,7 +103,8 @@ TEST_F(Recording, SaysThatItCouldNotSave) {
 
 TEST_F(Recording, RefusesPicturesOfAnotherSize) {
   const Capture source = read_capture(demo_);
-  CaptureRecorder recorder(folder_.path() / "out", source.views[0].camera, source.card);
+  CaptureRecorder recorder(folder_.path() / "out", {source.views[0].camera, source.views[1].camera},
+                           source.card);
   recorder.begin_scan();
   const Picture small({32, 32}, PixelFormat::rgb8);
   EXPECT_EQ(recorder.add_view({small.frame(), 1, std::nullopt}).code(), StatusCode::frame_size_mismatch);

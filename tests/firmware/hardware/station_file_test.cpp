@@ -114,6 +114,19 @@ TEST_F(StationFileTest, ASerialArmIsAnother) {
   EXPECT_EQ(station.arm->second_view_deg, 18.0);
 }
 
+TEST_F(StationFileTest, ASecondCameraHasALensOfItsOwn) {
+  const std::string lens = "fx = 600\nfy = 601\ncx = 320\ncy = 240\ndistortion = [0, 0, 0, 0, 0]\n";
+  const std::string card = "[card]\npattern = \"p.png\"\nwidth_mm = 80\nheight_mm = 50\nthickness_mm = 1\n";
+  const std::string twin = std::string(kSmallest) + card +
+                           "[second_camera]\ndevice = \"serial:A2\"\nwidth = 800\nheight = 600\n[lens]\n" +
+                           lens;
+  EXPECT_THROW(require_geometry(read(twin)), InputError);
+  const StationFile station = read(twin + "[second_lens]\n" + lens);
+  EXPECT_NO_THROW(require_geometry(station));
+  EXPECT_EQ(station.second_camera->device, "serial:A2");
+  EXPECT_EQ(station.second_lens->camera.size, (PictureSize{800, 600}));
+}
+
 TEST_F(StationFileTest, NamesTheKeyThatIsWrong) {
   const std::string small = kSmallest;
   for (const auto& [text, expected] : std::vector<std::pair<std::string, std::string>>{
@@ -134,6 +147,8 @@ TEST_F(StationFileTest, NamesTheKeyThatIsWrong) {
            {small + "[lamp]\nlines = [\"G\"]\nready = [\"G\"]\n", "lamp.hold_still"},
            {small + "[trays]\nlabels = [\"a.png\"]\n", "trays.labels"},
            {small + "[gps]\n", "gps"},
+           {small + "[second_camera]\ndevice = \"serial:A1\"\n", "second_camera.device"},
+           {small + kStepper + "[second_camera]\ndevice = \"serial:A2\"\n", "second_camera"},
        }) {
     const std::string found = problem(text);
     EXPECT_NE(found.find(": " + expected + ":"), std::string::npos) << expected << " in \"" << found << "\"";
