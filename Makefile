@@ -1,6 +1,7 @@
 # make build | demo | test | bench: each installs what config/packages.txt names and is missing, then does it.
 # make without-surf: builds and tries what may be shipped where SURF's patents hold, in build-without-surf.
 # make board-test: the drivers and the station on a real kernel in an emulated machine; BOARD=arm64 cross-builds for it.
+# make arm-test: cross-builds for 64-bit ARM, runs tests and compares volumes under user-mode emulation.
 # make lint | format | sanitize: further checks; CI=true adds the sanitizers to `make test`. Lint takes a quarter of an
 # hour and runs on its own.
 
@@ -13,7 +14,7 @@ launcher := $(if $(shell command -v ccache),-DCMAKE_CXX_COMPILER_LAUNCHER=ccache
 sources = git ls-files '*.cpp' '*.hpp'
 ctest = ctest --output-on-failure --no-tests=error -j $(JOBS) -LE '^bench$$'
 
-.PHONY: configure build build-all demo test bench board-test without-surf lint format check-format check-captures sanitize asan-ubsan tsan packages clean
+.PHONY: configure build build-all demo test bench board-test arm-test without-surf lint format check-format check-captures sanitize asan-ubsan tsan packages clean
 
 configure: packages
 	cmake --preset release $(launcher)
@@ -62,6 +63,19 @@ ifeq ($(BOARD),amd64)
 endif
 	$(in_board) tests/board/station.sh $(board_build)/traygauge $(board_build)/tests/board/station_cycle \
 	  simulator/demo/mash_and_meatballs
+
+# The cross-build under user-mode emulation: the drivers' tests, and the volumes of the demo beside this machine's.
+ARM_TESTS = pixels v4l2 gpio serial
+arm_sysroot = $(abspath build-board/sysroot-arm64)
+arm_libraries = /usr/lib/aarch64-linux-gnu
+in_arm = qemu-aarch64-static -L $(arm_sysroot) -E LD_LIBRARY_PATH=$(arm_libraries)/blas:$(arm_libraries)/lapack
+arm-test: build
+	config/install_packages.sh tests/board/packages.txt
+	tests/board/make_sysroot.sh $(arm_sysroot)
+	cmake --preset aarch64 $(launcher)
+	cmake --build --preset aarch64 -j $(JOBS) --target traygauge $(ARM_TESTS:=_test)
+	for test in $(ARM_TESTS); do $(in_arm) build-aarch64/tests/drivers/$$test/$${test}_test --gtest_brief=1 || exit; done
+	RUN_B='$(in_arm)' LIMIT_ML=0.01 tests/captures/compare_builds.sh build build-aarch64 simulator/demo/*_and_*
 
 # The measurement refuses profile paper there; the tests that measure with it are left out.
 WITHOUT_SURF_TESTS = core_symbols_test without_surf_test firmware_without_surf_test
