@@ -44,7 +44,9 @@ struct EstimatorLimits {
 // The pictures that the stages work on.
 struct ViewParams {
   double matching_dish_px = 131072.0;  // 2^17: area of the dish for dense matching (paper V-B)
-  bool match_dish_only = true;     // dense matching leaves the background out (paper V-B, region of interest)
+  // Dense matching leaves the background out (paper V-B, region of interest); else the whole picture is
+  // matched and needs memory for itself: max_working_px, max_working_side_px, the rectification's caps.
+  bool match_dish_only = true;
   double working_margin_px = 6.0;  // around the dish: half of census and window
   double feature_dish_px =
       524288.0;  // 2^19: area of the dish where salient points are looked for; the card needs it

@@ -8,7 +8,7 @@ namespace {
 
 constexpr std::uint8_t kInRegion = 255;
 
-// The region of interest: the dish, or all of the working picture.
+// The region of interest: the dish, or the whole picture.
 ImageView<std::uint8_t> mark_region(ImageView<const std::uint8_t> labels, bool dish_only,
                                     std::span<std::uint8_t> storage) {
   const ImageView<std::uint8_t> region{storage.data(), labels.width, labels.height};

@@ -22,7 +22,7 @@ struct LinesOfSight {
 
 // Where the ray from a camera through the middle of its picture of the dish meets the table.
 Vec3 place_dish(const PreparedView& view, const Pose& first_from_view, const Plane& table) {
-  const Vec2 middle = view.cutout.camera.ray(Vec2(0.5 * view.cutout.width, 0.5 * view.cutout.height));
+  const Vec2 middle = view.dish.camera.ray(Vec2(0.5 * view.dish.width, 0.5 * view.dish.height));
   const Vec3 direction = first_from_view.rotation * middle.homogeneous();
   return first_from_view.translation -
          direction * (table.height(first_from_view.translation) / table.normal.dot(direction));

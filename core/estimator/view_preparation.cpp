@@ -14,9 +14,9 @@ double area_scale(double pixels, double target_pixels) {
   return std::sqrt(target_pixels / pixels);
 }
 
-// The smallest upright rectangle of the undistorted, scaled picture that holds the dish's box and a margin.
-// The box's edge is sampled because lens distortion bends it.
-Cutout cut_out_dish(const LensModel& lens, const PixelBox& box, double scale, double margin_px) {
+// The smallest upright rectangle of the undistorted, scaled picture that holds the box and a margin. The
+// box's edge is sampled because lens distortion bends it.
+Cutout cut_out(const LensModel& lens, const PixelBox& box, double scale, double margin_px) {
   PinholeCamera scaled{lens.pinhole.fx_px * scale, lens.pinhole.fy_px * scale,
                        scale_coordinate(lens.pinhole.cx_px, scale),
                        scale_coordinate(lens.pinhole.cy_px, scale)};
@@ -45,12 +45,14 @@ Cutout cut_out_dish(const LensModel& lens, const PixelBox& box, double scale, do
 }
 
 // A dish that is long and lies obliquely needs more working pixels than the memory holds: the scale gives
-// way.
+// way. Where the background is matched too (paper V-B), the whole picture is worked on at that scale.
 Status choose_cutout(const Configuration& configuration, PreparedView& view) {
+  const PixelBox whole{0, 0, view.lens.width, view.lens.height};
   double scale = area_scale(view.regions.dish_pixels, configuration.view.matching_dish_px);
   constexpr int kShrinkAttempts = 8;
   for (int attempt = 0; attempt < kShrinkAttempts; ++attempt) {
-    view.cutout = cut_out_dish(view.lens, view.regions.dish, scale, configuration.view.working_margin_px);
+    view.dish = cut_out(view.lens, view.regions.dish, scale, configuration.view.working_margin_px);
+    view.cutout = configuration.view.match_dish_only ? view.dish : cut_out(view.lens, whole, scale, 0.0);
     const double pixels = static_cast<double>(view.cutout.width) * view.cutout.height;
     if (view.cutout.width <= 0) return StatusCode::invalid_configuration;
     if (pixels <= configuration.limits.max_working_px) return StatusCode::ok;

@@ -25,6 +25,13 @@ void sort_by_correlation(std::span<Candidate> candidates) {
             [](const Candidate& a, const Candidate& b) { return a.correlation > b.correlation; });
 }
 
+// That takes at least so many of the pixels, or all.
+CardSampling sparsest_sampling(int pixels, int min_samples) {
+  if (pixels >= 16 * min_samples) return CardSampling::sixteenth;
+  if (pixels >= 4 * min_samples) return CardSampling::quarter;
+  return pixels >= 2 * min_samples ? CardSampling::half : CardSampling::all;
+}
+
 // Chooses and refines poses of one view.
 class Search {
  public:
@@ -77,11 +84,13 @@ class Search {
     return other.correlation > best.correlation ? other : best;
   }
 
-  // Refines at this blur and correlates again; a lost pose gets −1.
-  void refine(double blur_px, CardSampling sampling, int iterations, Candidate& candidate) {
+  // Refines at this blur and correlates again; a lost pose gets −1. A small card is sampled more densely.
+  void refine(double blur_px, CardSampling sparsest, int iterations, Candidate& candidate) {
     const Pose& pose = candidate.state.camera_from_table;
     const CardPatternLevel& level = refinement_.level_for(pose, blur_px);
     refinement_.select(pose, level);
+    const CardSampling sampling =
+        std::min(sparsest, sparsest_sampling(refinement_.selected_pixels(), params_.min_stage_samples));
     const bool is_kept = refinement_.refine(level, sampling, iterations, candidate.state);
     candidate.correlation =
         is_kept ? refinement_.correlate_inliers(candidate.state, level, sampling).correlation : -1.0;

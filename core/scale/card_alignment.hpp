@@ -36,6 +36,9 @@ struct CardAlignmentParams {
   // Of the mirror pose behind the best after the coarse stage, to be refined as well: they differ by 0.015
   // and more in the captures, by nothing from afar.
   double max_mirror_lag = 0.06;
+  // Of the coarse and medium stages. Fewer do not hold twelve unknowns: of a card 90 px wide a sixteenth is
+  // 200 pixels, and the coarse stage then ends up to 50 degrees away.
+  int min_stage_samples = 600;
   int max_samples = 32'000;  // of the fine stage; of a larger card every second row, and so on
 
   double min_correlation = 0.5;    // of print and picture; wrong places stay below 0.3

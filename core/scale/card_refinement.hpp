@@ -48,6 +48,8 @@ class CardRefinement {
   // Takes the pixels well inside the print: near its edge the blur mixes in the table.
   void select(const Pose& camera_from_table, const CardPatternLevel& level);
 
+  int selected_pixels() const { return picture_.used_pixels(); }
+
   // Over all samples.
   CardCorrelation correlate(const Pose& camera_from_table, const CardPatternLevel& level,
                             CardSampling sampling) const {

@@ -45,16 +45,17 @@ std::array<double, 256> undercut_areas(const HeightMap& map) {
 }  // namespace
 
 void close_overhangs(std::span<const SurfaceGrid> views, const HeightMap& map, const InnerSurface& dish,
-                     const OverhangParams& params, std::span<HeightVolume> items) {
+                     const LabelSet& round, const OverhangParams& params, std::span<HeightVolume> items) {
   const double tangent = steepest_tilt_tangent(views, dish);
   const std::array<double, 256> undercut = undercut_areas(map);
   for (std::size_t label = kFirstItemLabel; label <= kLastItemLabel; ++label) {
     HeightVolume& item = items[label];
     item.undercut_mm2 = undercut[label];
     const double of_ball = std::sqrt(item.area_mm2) * 0.5 * item.max_height_mm * tangent;
-    const bool overhangs = item.area_mm2 > 0.0 && undercut[label] > params.min_undercut_mm2 &&
-                           undercut[label] > params.min_undercut_share * of_ball;
-    if (overhangs) item.volume_ml = item.column_volume_ml / params.column_over_closed;
+    const bool is_seen =
+        undercut[label] > params.min_undercut_mm2 && undercut[label] > params.min_undercut_share * of_ball;
+    const bool overhangs = is_seen || round.contains(static_cast<std::uint8_t>(label));
+    if (item.area_mm2 > 0.0 && overhangs) item.volume_ml = item.column_volume_ml / params.column_over_closed;
   }
 }
 

@@ -3,6 +3,7 @@
 
 #include <span>
 
+#include "core/segmentation/label_set.hpp"
 #include "core/surface/height_map.hpp"
 #include "core/surface/surface_grid.hpp"
 #include "core/volume/height_volume.hpp"
@@ -21,8 +22,9 @@ struct OverhangParams {
 
 // Sets `volume_ml` of items that overhang to that of fruit with such columns: mirroring the upper side at the
 // equator takes up to twice as much away from scanned fruit as it should, which is flat where it rests.
-// Others keep their column volume. After integrate_height_map.
+// What is in `round` does whether or not a view sees below it. Others keep their column volume. After
+// integrate_height_map.
 void close_overhangs(std::span<const SurfaceGrid> views, const HeightMap& map, const InnerSurface& dish,
-                     const OverhangParams& params, std::span<HeightVolume> items);
+                     const LabelSet& round, const OverhangParams& params, std::span<HeightVolume> items);
 
 }  // namespace traygauge

@@ -63,8 +63,11 @@ int run_render(const RenderOptions& options, std::ostream& out, std::ostream& er
   std::vector<SceneDescription> scenes = find_scenes(options);
   const std::filesystem::path folder = options.out;
   const std::size_t all = scenes.size();
-  std::erase_if(
-      scenes, [&](const SceneDescription& scene) { return is_complete_capture(folder / scene.name, scene); });
+  std::erase_if(scenes, [&](const SceneDescription& scene) {
+    if (!is_complete_capture(folder / scene.name, scene)) return false;
+    update_description(folder / scene.name, scene);
+    return true;
+  });
   std::size_t pictures = 0;
   for (const SceneDescription& scene : scenes) pictures += scene.views.size();
 

@@ -127,8 +127,7 @@ Json compose_truth(const LaidScene& laid, const std::vector<std::vector<std::siz
   json["origin"] = scene.origin;
   json["items"] = Json::array();
   for (const FoodTruth& food : laid.foods()) json["items"].push_back(compose_food(food, laid));
-  for (const Photograph& view : scene.views)
-    json["poses"].push_back(compose_pose(view_camera(scene, view).camera_from_world));
+  for (const Photograph& view : scene.views) json["poses"].push_back(compose_pose(camera_from_world(view)));
   for (const LaidDish& dish : scene.dishes) json["dishes"].push_back(compose_place(dish));
   add_angles(json, laid);
   json["world"] = scene.tray ? "mm; origin on the tray's floor, z up; the table 3 mm below"

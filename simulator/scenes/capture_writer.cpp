@@ -6,6 +6,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <sstream>
 #include <string>
 #include <system_error>
 #include <vector>
@@ -103,6 +104,17 @@ class UnfinishedFolder {
   fs::path path_;
 };
 
+std::string compose_description(const SceneDescription& scene) {
+  return compose_capture(scene).dump(1) + "\n";
+}
+
+bool holds(const fs::path& file, const std::string& text) {
+  std::ifstream stream(file, std::ios::binary);
+  std::ostringstream content;
+  content << stream.rdbuf();
+  return stream.good() && content.str() == text;
+}
+
 SensorSettings sensor_of(const SceneDescription& scene, const Photograph& view, double exposure) {
   SensorSettings sensor;
   sensor.exposure = exposure * view.exposure;
@@ -129,6 +141,17 @@ bool is_complete_capture(const fs::path& folder, const SceneDescription& scene) 
   } catch (const InputError&) {
     return false;  // a damaged one is rendered again
   }
+}
+
+void update_description(const fs::path& folder, const SceneDescription& scene) {
+  const fs::path file = folder / "capture.json";
+  const std::string text = compose_description(scene);
+  if (holds(file, text)) return;
+  const fs::path unfinished = file.string() + ".part";
+  write_text(unfinished, text);
+  std::error_code problem;
+  fs::rename(unfinished, file, problem);
+  if (problem) throw OutputError(file, problem.message());
 }
 
 void render_capture(const SceneDescription& scene, const fs::path& folder, const RenderSettings& settings,
@@ -166,7 +189,7 @@ void render_capture(const SceneDescription& scene, const fs::path& folder, const
     std::vector<std::size_t>& pixels = visible.emplace_back(256, 0);
     for (const std::uint8_t label : view.labels) ++pixels[label];
   }
-  write_text(out / "capture.json", compose_capture(scene).dump(1) + "\n");
+  write_text(out / "capture.json", compose_description(scene));
   write_text(out / "truth.json", compose_truth(laid, visible).dump(1) + "\n");
   unfinished.finish();
 }

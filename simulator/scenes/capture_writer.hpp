@@ -12,6 +12,10 @@ namespace traygauge {
 // Whether `folder` holds all files of a capture of this scene, by its origin.
 bool is_complete_capture(const std::filesystem::path& folder, const SceneDescription& scene);
 
+// Writes capture.json of such a folder anew where this program describes the scene otherwise than the one
+// that rendered it. Throws OutputError.
+void update_description(const std::filesystem::path& folder, const SceneDescription& scene);
+
 // Renders every view of the scene and stores them with capture.json and truth.json in `folder`, which appears
 // only when it is complete. `progress` is called with the share that is done. Throws InputError, OutputError,
 // and std::invalid_argument for a scene that makes no sense.

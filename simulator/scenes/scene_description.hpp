@@ -93,6 +93,10 @@ struct Photograph {
   double exposure = 1.0;                                // beside that of the first view
   std::array<double, 2> white_balance = {1.0, 1.0};     // gains of red and blue
   double focus_error_mm = 0.0;
+  // Of the camera while the shutter is open, in its own axes (OpenCV's): how far it goes, and the axis times
+  // the angle by which it turns. All that is said of the view holds in the middle of the exposure.
+  Eigen::Vector3d motion_mm = Eigen::Vector3d::Zero();
+  Eigen::Vector3d motion_deg = Eigen::Vector3d::Zero();
   std::optional<double> arm_angle_deg;
   // Where the tray has moved since it was laid; the camera, the table and the lamps stay.
   Eigen::Vector2d tray_shift_mm = Eigen::Vector2d::Zero();

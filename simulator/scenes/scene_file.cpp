@@ -186,7 +186,7 @@ void read_card(const JsonNode& node, LaidCard& card) {
 Photograph read_view(const JsonNode& node) {
   const SceneTable table(
       node, {"target_mm", "distance_mm", "tilt_deg", "azimuth_deg", "roll_deg", "exposure", "white_balance",
-             "focus_error_mm", "arm_angle_deg", "tray_shift_mm", "tray_turn_deg"});
+             "focus_error_mm", "motion_mm", "motion_deg", "arm_angle_deg", "tray_shift_mm", "tray_turn_deg"});
   Photograph view;
   table.read("target_mm", view.target_mm, kPlaceMm);
   table.read("distance_mm", view.distance_mm, {50.0, 5000.0});
@@ -196,6 +196,8 @@ Photograph read_view(const JsonNode& node) {
   table.read("exposure", view.exposure, {0.01, 100.0});
   table.read("white_balance", view.white_balance, {0.1, 10.0});
   table.read("focus_error_mm", view.focus_error_mm, {-300.0, 300.0});
+  table.read("motion_mm", view.motion_mm, {-100.0, 100.0});
+  table.read("motion_deg", view.motion_deg, {-20.0, 20.0});
   table.read("tray_shift_mm", view.tray_shift_mm, kPlaceMm);
   table.read("tray_turn_deg", view.tray_turn_deg, kAngleDeg);
   if (const auto angle = table.find("arm_angle_deg")) view.arm_angle_deg = angle->number(kAngleDeg);

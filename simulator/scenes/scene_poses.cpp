@@ -4,7 +4,20 @@
 #include <cmath>
 #include <numbers>
 
+#include "simulator/render/camera_rays.hpp"
+
 namespace traygauge {
+namespace {
+
+// From the camera's axes after a share of its motion to those in the middle of the exposure.
+Eigen::Isometry3d middle_from_moved(const Photograph& view, double share) {
+  const double turn_deg = view.motion_deg.norm();
+  Eigen::Isometry3d pose(Eigen::Translation3d(share * view.motion_mm));
+  if (turn_deg > 0.0) pose.rotate(Eigen::AngleAxisd(share * radians(turn_deg), view.motion_deg / turn_deg));
+  return pose;
+}
+
+}  // namespace
 
 double radians(double angle_deg) {
   return angle_deg * std::numbers::pi / 180.0;
@@ -29,19 +42,7 @@ Eigen::Isometry3d world_from_room(const Photograph& view) {
   return placement({view.tray_shift_mm.x(), view.tray_shift_mm.y(), 0.0}, view.tray_turn_deg).inverse();
 }
 
-ViewCamera view_camera(const SceneDescription& scene, const Photograph& view) {
-  const CameraDescription& lens = scene.photography.camera;
-  ViewCamera camera;
-  camera.width = lens.size.width;
-  camera.height = lens.size.height;
-  camera.fx = lens.fx_px;
-  camera.fy = lens.fy_px;
-  camera.cx = lens.cx_px;
-  camera.cy = lens.cy_px;
-  camera.distortion = lens.distortion;
-  camera.aperture_mm = scene.photography.aperture_mm;
-  camera.focus_mm = view.distance_mm + view.focus_error_mm;
-
+Eigen::Isometry3d camera_from_world(const Photograph& view) {
   const double tilt = radians(view.tilt_deg);
   const double azimuth = radians(view.azimuth_deg);
   const Eigen::Vector3d back(std::sin(tilt) * std::cos(azimuth), std::sin(tilt) * std::sin(azimuth),
@@ -55,14 +56,33 @@ ViewCamera view_camera(const SceneDescription& scene, const Photograph& view) {
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
   pose.linear() = room_from_camera * roll.toRotationMatrix();
   pose.translation() = view.target_mm + view.distance_mm * back;
-  camera.camera_from_world = (world_from_room(view) * pose).inverse();
+  return (world_from_room(view) * pose).inverse();
+}
+
+ViewCamera view_camera(const SceneDescription& scene, const Photograph& view) {
+  const CameraDescription& lens = scene.photography.camera;
+  ViewCamera camera;
+  camera.width = lens.size.width;
+  camera.height = lens.size.height;
+  camera.fx = lens.fx_px;
+  camera.fy = lens.fy_px;
+  camera.cx = lens.cx_px;
+  camera.cy = lens.cy_px;
+  camera.distortion = lens.distortion;
+  camera.aperture_mm = scene.photography.aperture_mm;
+  camera.focus_mm = view.distance_mm + view.focus_error_mm;
+
+  const Eigen::Isometry3d middle = camera_from_world(view);
+  camera.moves = !view.motion_mm.isZero(0.0) || !view.motion_deg.isZero(0.0);
+  camera.camera_from_world = camera.moves ? middle_from_moved(view, -0.5).inverse() * middle : middle;
+  if (camera.moves) camera.camera_from_world_at_end = middle_from_moved(view, 0.5).inverse() * middle;
   return camera;
 }
 
 double relative_angle_deg(const ViewCamera& first, const ViewCamera& second,
                           const Eigen::Vector3d& point_mm) {
   const auto direction = [&](const ViewCamera& camera) {
-    return (camera.camera_from_world.inverse().translation() - point_mm).normalized();
+    return (pose_in_exposure(camera, 0.5).inverse().translation() - point_mm).normalized();
   };
   const double cosine = direction(first).dot(direction(second));
   return std::acos(std::clamp(cosine, -1.0, 1.0)) * 180.0 / std::numbers::pi;

@@ -21,10 +21,13 @@ Eigen::Isometry3d world_from_card(const LaidCard& card);
 // The tray's frame is the world's: where the room (camera, table, lamps) is in it when a view is taken.
 Eigen::Isometry3d world_from_room(const Photograph& view);
 
-// With the pose of the view in the world.
+// In the middle of the exposure.
+Eigen::Isometry3d camera_from_world(const Photograph& view);
+
+// With the poses of the view in the world.
 ViewCamera view_camera(const SceneDescription& scene, const Photograph& view);
 
-// Between the directions from which two views see a point.
+// Between the directions from which two views see a point, in the middle of their exposures.
 double relative_angle_deg(const ViewCamera& first, const ViewCamera& second, const Eigen::Vector3d& point_mm);
 
 }  // namespace traygauge

@@ -100,40 +100,45 @@ SceneDescription lay_meal(const std::string& name, Draws draws, DishStyle style,
   return scene;
 }
 
-std::vector<SceneDescription> make_meals(std::uint64_t seed) {
-  constexpr std::size_t kMeals = 45;
-  constexpr std::size_t kWithThree = 23;
-  Draws menu_draws(seed, "meals-45 menu");
-  Menu menu(menu_draws, {FoodGroup::canteen, FoodGroup::fast_food}, FoodServing::solid);
+// One scene after the other, each with draws of its own: lay(i, name, draws) gives it with its views.
+template <class Lay>
+std::vector<SceneDescription> make_each(std::size_t count, const char* letter, const std::string& set,
+                                        std::uint64_t seed, Lay lay) {
   std::vector<SceneDescription> scenes;
-  for (std::size_t i = 0; i < kMeals; ++i) {
-    const std::string name = numbered("m", i + 1);
-    Draws draws(seed, "meals-45 " + name);
-    const std::size_t count = (i * kWithThree) / kMeals != ((i + 1) * kWithThree) / kMeals ? 3 : 2;
-    const DishStyle style = kPlates[(i * 2 + i / 3) % kPlates.size()];
-    const auto kinds = menu.deal(count);
-    SceneDescription scene = lay_meal(name, draws, style, draws.between(0.96, 1.05), kinds, kTables);
-    draw_views(scene, draws, 3, {});
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::string name = numbered(letter, i + 1);
+    Draws draws(seed, set + " " + name);
+    SceneDescription scene = lay(i, name, draws);
     finish(scene, draws);
     scenes.push_back(std::move(scene));
   }
   return scenes;
 }
 
+std::vector<SceneDescription> make_meals(std::uint64_t seed) {
+  constexpr std::size_t kMeals = 45;
+  constexpr std::size_t kWithThree = 23;
+  Draws menu_draws(seed, "meals-45 menu");
+  Menu menu(menu_draws, {FoodGroup::canteen, FoodGroup::fast_food}, FoodServing::solid);
+  return make_each(kMeals, "m", "meals-45", seed, [&](std::size_t i, const std::string& name, Draws& draws) {
+    const std::size_t count = (i * kWithThree) / kMeals != ((i + 1) * kWithThree) / kMeals ? 3 : 2;
+    const DishStyle style = kPlates[(i * 2 + i / 3) % kPlates.size()];
+    const auto kinds = menu.deal(count);
+    SceneDescription scene = lay_meal(name, draws, style, draws.between(0.96, 1.05), kinds, kTables);
+    draw_views(scene, draws, 3, {});
+    return scene;
+  });
+}
+
 std::vector<SceneDescription> make_angles(std::uint64_t seed) {
   Draws menu_draws(seed, "angles-13 menu");
   Menu menu(menu_draws, {FoodGroup::canteen, FoodGroup::fast_food}, FoodServing::solid);
-  std::vector<SceneDescription> scenes;
-  for (std::size_t i = 0; i < 13; ++i) {
-    const std::string name = numbered("a", i + 1);
-    Draws draws(seed, "angles-13 " + name);
+  return make_each(13, "a", "angles-13", seed, [&](std::size_t i, const std::string& name, Draws& draws) {
     const auto kinds = menu.deal(2 + i % 2);
     SceneDescription scene = lay_meal(name, draws, kPlates[i % 2 == 0 ? 0 : 2], 1.0, kinds, kTables);
     draw_arm_views(scene, draws, 500.0);
-    finish(scene, draws);
-    scenes.push_back(std::move(scene));
-  }
-  return scenes;
+    return scene;
+  });
 }
 
 std::vector<SceneDescription> make_plates(std::uint64_t seed) {
@@ -167,18 +172,13 @@ std::vector<SceneDescription> make_plates(std::uint64_t seed) {
 std::vector<SceneDescription> make_other_meals(std::uint64_t seed) {
   Draws menu_draws(seed, "meals-14 menu");
   Menu menu(menu_draws, {FoodGroup::other}, FoodServing::solid);
-  std::vector<SceneDescription> scenes;
-  for (std::size_t i = 0; i < 14; ++i) {
-    const std::string name = numbered("n", i + 1);
-    Draws draws(seed, "meals-14 " + name);
+  return make_each(14, "n", "meals-14", seed, [&](std::size_t i, const std::string& name, Draws& draws) {
     const auto kinds = menu.deal(2 + (i % 3) / 2);
     SceneDescription scene =
         lay_meal(name, draws, kPlates[i % 3], draws.between(0.92, 1.08), kinds, kOtherTables);
     draw_views(scene, draws, 3, {});
-    finish(scene, draws);
-    scenes.push_back(std::move(scene));
-  }
-  return scenes;
+    return scene;
+  });
 }
 
 // A plate with a meal, a bowl or plate with soup and, on some, a dessert.
@@ -216,10 +216,7 @@ std::vector<SceneDescription> make_trays(std::uint64_t seed, const std::string& 
   Menu menu(menu_draws, {FoodGroup::canteen}, FoodServing::solid);
   Menu soups(menu_draws, {FoodGroup::canteen}, FoodServing::soup);
   Menu desserts(menu_draws, {FoodGroup::canteen}, FoodServing::dessert);
-  std::vector<SceneDescription> scenes;
-  for (std::size_t i = 0; i < count; ++i) {
-    const std::string name = numbered(letter, i + 1);
-    Draws draws(seed, set + " " + name);
+  return make_each(count, letter, set, seed, [&](std::size_t i, const std::string& name, Draws& draws) {
     const auto meal = menu.deal(2 + i % 2);
     SceneDescription scene = lay_tray(name, draws, !is_moved && i % 2 == 0, meal, soups, desserts);
     if (is_moved) {
@@ -227,10 +224,8 @@ std::vector<SceneDescription> make_trays(std::uint64_t seed, const std::string& 
     } else {
       draw_views(scene, draws, 3, kTrayViews);
     }
-    finish(scene, draws);
-    scenes.push_back(std::move(scene));
-  }
-  return scenes;
+    return scene;
+  });
 }
 
 // A quarter of the pixels.

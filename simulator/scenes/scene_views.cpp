@@ -76,7 +76,7 @@ std::optional<Photograph> draw_view(const SceneDescription& scene, Draws& draws,
 }  // namespace
 
 bool is_card_hidden(const SceneDescription& scene, const Photograph& view) {
-  const Eigen::Vector3d pupil = view_camera(scene, view).camera_from_world.inverse().translation();
+  const Eigen::Vector3d pupil = camera_from_world(view).inverse().translation();
   const Eigen::Isometry3d world_of_card = world_from_card(scene.card);
   constexpr int kSteps = 6;
   for (const LaidDish& dish : scene.dishes) {
@@ -104,10 +104,11 @@ bool is_card_hidden(const SceneDescription& scene, const Photograph& view) {
 bool is_all_in_picture(const SceneDescription& scene, const Photograph& view) {
   const ViewCamera camera = view_camera(scene, view);
   const Lens lens(camera);
+  const Eigen::Isometry3d pose = camera_from_world(view);
   const double border = kBorderShare * camera.width;
   const std::vector<Eigen::Vector3d> points = outline_of(scene);
   return std::all_of(points.begin(), points.end(), [&](const Eigen::Vector3d& point) {
-    const Eigen::Vector3d at = camera.camera_from_world * point;
+    const Eigen::Vector3d at = pose * point;
     if (at.z() <= 1.0) return false;
     const Eigen::Vector2d pixel = lens.pixel_of(at.head<2>() / at.z());
     return pixel.x() > border && pixel.y() > border && pixel.x() < camera.width - border &&
@@ -144,7 +145,7 @@ void draw_arm_views(SceneDescription& scene, Draws& draws, double distance_mm) {
   const Eigen::Vector3d target_mm = target_of(scene);
   for (int tries = 0; tries < kTries; ++tries) {
     const double start_deg = draws.between(-25.0, -10.0);
-    const double sense = draws.chance(0.5) ? 1.0 : -1.0;
+    const int sense = draws.chance(0.5) ? 1 : -1;
     scene.views.clear();
     for (int i = 0; i <= kSteps; ++i) {
       const double arm = radians(sense * (start_deg + kStepDeg * i));
@@ -157,6 +158,7 @@ void draw_arm_views(SceneDescription& scene, Draws& draws, double distance_mm) {
       view.distance_mm = offset.norm();
       view.tilt_deg = std::acos(back.z()) * 180.0 / std::numbers::pi;
       view.azimuth_deg = std::atan2(back.y(), back.x()) * 180.0 / std::numbers::pi;
+      view.arm_angle_deg = kStepDeg * (sense * i);
       scene.views.push_back(view);
     }
     const auto is_seen = [&](const Photograph& view) { return shows_all(scene, view); };

@@ -1,8 +1,11 @@
 // Every method measures a rendered capture, each within what such a method can be held to.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 
+#include "firmware/config/dish_choice.hpp"
+#include "firmware/measure/capture_session.hpp"
 #include "simulator/capture/truth.hpp"
 #include "tests/evaluation/tables/pair_method.hpp"
 #include "tests/simulator/capture/temporary_capture.hpp"
@@ -35,6 +38,30 @@ TEST(MethodsOnCaptures, MeasureAMeal) {
       EXPECT_NEAR(found->volume_ml, truth_ml, tolerance * truth_ml) << name(method) << ", " << item.name;
     }
   }
+}
+
+// Paper, V-B: the region of interest against the whole photograph.
+TEST(MethodsOnCaptures, MatchTheWholePictureWithoutARegionOfInterest) {
+  if (captures_folder().empty()) GTEST_SKIP() << "TRAYGAUGE_CAPTURES names no captures";
+  const Capture capture = read_capture(captures_folder() / "meals/m08");
+  const std::array<int, 2> pair = {0, 1};
+  Variant variant;
+  CaptureSession usual(capture, pair, choose_dishes(capture, ""), configure(variant));
+  variant.settings = {"view.match_dish_only=false"};
+  CaptureSession whole(capture, pair, choose_dishes(capture, ""), configure(variant));
+  const Measurement& by_dish = usual.measure(1);
+  const Measurement& by_all = whole.measure(1);
+  ASSERT_EQ(by_all.status.code(), StatusCode::ok) << name(by_all.status.code());
+  for (std::size_t i = 0; i < 2; ++i) {
+    const double scale = by_all.views.cameras[i].fx_px / capture.views[i].camera.fx_px;
+    EXPECT_NEAR(scale, by_dish.views.cameras[i].fx_px / capture.views[i].camera.fx_px, 1e-12);
+    EXPECT_GT(by_all.views.gray[i].width, 0.95 * scale * capture.views[i].camera.size.width);
+    EXPECT_GT(by_all.views.gray[i].height, 0.95 * scale * capture.views[i].camera.size.height);
+  }
+  EXPECT_DOUBLE_EQ(by_all.relative_angle_deg, by_dish.relative_angle_deg);
+  ASSERT_EQ(by_all.items.size(), by_dish.items.size());
+  for (std::size_t i = 0; i < by_all.items.size(); ++i)
+    EXPECT_NEAR(by_all.items[i].volume_ml, by_dish.items[i].volume_ml, 0.1 * by_dish.items[i].volume_ml);
 }
 
 }  // namespace

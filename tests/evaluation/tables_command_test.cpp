@@ -13,7 +13,7 @@
 #include "tests/evaluation/tables/table_runner.hpp"
 #include "tests/evaluation/tables/tables_command.hpp"
 #include "tests/firmware/evaluate/xml_check.hpp"
-#include "tests/firmware/fake/fake_estimator.hpp"
+#include "tests/firmware/fake/fake_meal.hpp"
 #include "tests/simulator/capture/temporary_capture.hpp"
 
 namespace traygauge::tables {
@@ -40,27 +40,13 @@ CommandResult run(std::vector<std::string> arguments) {
 constexpr int kPairs = 2;     // of the capture
 constexpr int kVariants = 5;  // of Table IV
 
-class TablesCommand : public testing::Test {
+class TablesCommand : public FakeMeal {
  protected:
-  TablesCommand() {
-    fake_estimator() = {};
-    write_text(files_.file("truth.json"), R"({"items": [
-      {"label": 2, "name": "rice", "volume_ml": 100.0, "volume_above_bottom_plane_ml": 200.0},
-      {"label": 3, "name": "peas", "volume_ml": 50.0, "volume_above_bottom_plane_ml": 50.0}], "poses": []})");
-    items_ = std::vector<ItemResult>(2);
-    items_[0].label = 2;
-    items_[0].volume_ml = 208.0;
-    items_[1].label = 3;
-    items_[1].volume_ml = 50.0;
-    answer(StatusCode::ok);
-  }
-
-  void answer(StatusCode status) {
-    Measurement& measurement = fake_estimator().measurement;
-    measurement.status = status;
-    measurement.items = items_;
-    measurement.total_ms = 250.0;
-  }
+  TablesCommand()
+      : FakeMeal(R"({"items": [
+          {"label": 2, "name": "rice", "volume_ml": 100.0, "volume_above_bottom_plane_ml": 200.0},
+          {"label": 3, "name": "peas", "volume_ml": 50.0, "volume_above_bottom_plane_ml": 50.0}], "poses": []})",
+                 208.0) {}
 
   CommandResult table(const std::string& name, std::vector<std::string> more = {}) const {
     std::vector<std::string> arguments = {name, "--meals", files_.folder().string()};
@@ -87,9 +73,7 @@ class TablesCommand : public testing::Test {
     return files;
   }
 
-  TemporaryCapture files_;
   TemporaryFolder cache_;
-  std::vector<ItemResult> items_;
 };
 
 TEST_F(TablesCommand, PrintsThePapersFiguresBesideOurs) {

@@ -145,6 +145,7 @@ TEST(Parameters, EveryFieldOfProfileBestHasAName) {
   EXPECT_EQ(count("best.surface.consistency."), field_count<ConsistencyParams>());
   EXPECT_EQ(count("best.surface.refinement."), field_count<SurfaceRefinementParams>());
   EXPECT_EQ(count("best.height_map."), field_count<HeightMapParams>());
+  EXPECT_EQ(count("best.round_body."), field_count<RoundBodyParams>());
   EXPECT_EQ(count("best.liquid."), field_count<LevelLiquidParams>());
   EXPECT_EQ(count("best.volume."), field_count<HeightVolumeParams>());
   EXPECT_EQ(count("best.overhang."), field_count<OverhangParams>());

@@ -9,6 +9,7 @@
 #include "core/segmentation/dish_membership.hpp"
 #include "core/surface/dish_outline.hpp"
 #include "core/surface/height_map.hpp"
+#include "core/surface/round_body.hpp"
 #include "core/surface/two_view_surface.hpp"
 #include "core/volume/height_volume.hpp"
 #include "core/volume/level_liquid.hpp"
@@ -41,6 +42,7 @@ struct BestParams {
   DishOutlineParams outline;
   JointParams joint;
   TwoViewSurfaceParams surface;
+  RoundBodyParams round_body;
   HeightMapParams height_map;
   LevelLiquidParams liquid;
   HeightVolumeParams volume;

@@ -91,6 +91,30 @@ void visit_height_parameters(Params& best, Visit&& visit) {
 }
 
 template <class Params, class Visit>
+void visit_round_body_parameters(Params& best, Visit&& visit) {
+  auto& body = best.round_body;
+  using Range = ParameterRange;
+  visit("best.round_body.min_rows", body.min_rows, Range{1, 4096});
+  visit("best.round_body.min_usable_share", body.min_usable_share, Range{0, 1});
+  visit("best.round_body.max_run", body.max_run, Range{0, 10});
+  visit("best.round_body.min_centre_mm", body.min_centre_mm, Range{0, 200});
+  visit("best.round_body.least_roundness", body.least_roundness, Range{0, 1});
+  visit("best.round_body.most_roundness", body.most_roundness, Range{0, 100});
+  visit("best.round_body.max_edge_rise", body.max_edge_rise, Range{0, 10});
+  visit("best.round_body.contact_share", body.contact_share, Range{0.01, 0.99});
+  visit("best.round_body.flatness", body.flatness, Range{0.1, 10});
+  visit("best.round_body.flatness_sigma", body.flatness_sigma, Range{1e-3, 100});
+  visit("best.round_body.outline_sigma", body.outline_sigma, Range{1e-3, 100});
+  visit("best.round_body.raise_quantile", body.raise_quantile, Range{0, 1});
+  visit("best.round_body.min_raise_samples", body.min_raise_samples, Range{1, 1e6});
+  visit("best.round_body.max_raise", body.max_raise, Range{1, 10});
+  visit("best.round_body.rim_share", body.rim_share, Range{0, 1});
+  visit("best.round_body.above_rim", body.above_rim, Range{0, 10});
+  visit("best.round_body.max_rim_above", body.max_rim_above, Range{0, 1});
+  visit("best.round_body.reach", body.reach, Range{1e-3, 10});
+}
+
+template <class Params, class Visit>
 void visit_volume_parameters(Params& best, Visit&& visit) {
   auto& sigma = best.uncertainty;
   auto& pipeline = best.pipeline;
@@ -107,6 +131,7 @@ void visit_volume_parameters(Params& best, Visit&& visit) {
   visit("best.uncertainty.surface_share", sigma.surface_share, Range{0, 100});
   visit("best.uncertainty.steepness_share", sigma.steepness_share, Range{0, 100});
   visit("best.uncertainty.filled_share", sigma.filled_share, Range{0, 100});
+  visit("best.uncertainty.round_share", sigma.round_share, Range{0, 100});
   visit("best.uncertainty.dish_height_mm", sigma.dish_height_mm, Range{0, 100});
   visit("best.pipeline.summit_margin_mm", pipeline.summit_margin_mm, Range{0, 400});
   visit("best.pipeline.min_top_mm", pipeline.min_top_mm, Range{0, 400});

@@ -110,6 +110,9 @@ void measure_dish(const ViewPair& views, const SceneGeometry& geometry, std::siz
     TwoViewSurfaceWorkspace::View& view = workspace.surface.views[v];
     settle_dish_samples(inner, grids[v], view.points, view.evidence);
   }
+  const LabelSet round =
+      shape_round_bodies({grids, {workspace.surface.views[0].points, workspace.surface.views[1].points}},
+                         inner, best.round_body, workspace.round_body);
   if (tap != nullptr) tap->on_surfaces(geometry.joint.camera_from_table, grids);
   report.label_agreement =
       measure_food_agreement(grids, views, geometry.joint.camera_from_table, best.agreement);
@@ -131,7 +134,7 @@ void measure_dish(const ViewPair& views, const SceneGeometry& geometry, std::siz
   if (liquid.label != 0) matched[liquid.label] = 1.0;  // its outline says how high it stands
   status = integrate_height_map(map, inner, best.volume, workspace.volume);
   if (!status.ok()) return refuse(status);
-  close_overhangs(grids, map, inner, best.overhang, workspace.volume.items);
+  close_overhangs(grids, map, inner, round, best.overhang, workspace.volume.items);
   const double height_per_px_mm = height_per_sample_mm(
       geometry.joint.camera_from_table, middle_of(placed.placed.place, bottom_mm), dense.column_step_mm);
   for_each_item(views, dish, [&](std::uint8_t label) {
@@ -147,7 +150,8 @@ void measure_dish(const ViewPair& views, const SceneGeometry& geometry, std::siz
     item.max_height_mm = volume.max_height_mm;
     if (item.status == StatusCode::ok && matched[label] < best.pipeline.min_matched_share)
       measurement.warn(Warning::item_hardly_matched, true);
-    const UncertaintyInput input{volume, matched[label], height_per_px_mm, dense.column_step_mm};
+    const UncertaintyInput input{volume, matched[label], height_per_px_mm, dense.column_step_mm,
+                                 round.contains(label)};
     item.sigma_ml = estimate_sigma_ml(input, geometry.joint.camera_from_table, geometry.joint.covariance,
                                       best.uncertainty);
     workspace.items.push_back(item);

@@ -12,11 +12,13 @@
 #include "core/estimator/best/scene_geometry.hpp"
 #include "core/estimator/best/stage_tap.hpp"
 #include "core/estimator/measurement.hpp"
+#include "core/surface/round_body.hpp"
 
 namespace traygauge {
 
 struct DishMeasurementWorkspace {
   TwoViewSurfaceWorkspace surface;
+  RoundBodyWorkspace round_body;
   HeightMapWorkspace height_map;
   LevelLiquidWorkspace liquid;
   HeightVolumeWorkspace volume;
@@ -32,9 +34,11 @@ struct DishMeasurementWorkspace {
   }
   template <class Allocator>
   constexpr void allocate(Allocator& arena, const Configuration& configuration) {
-    surface.allocate(arena, configuration.best.surface);
+    const TwoViewSurfaceParams& params = configuration.best.surface;
+    surface.allocate(arena, params);
+    round_body.allocate(arena, params.rectification.max_rows, params.max_columns);
     height_map.allocate(arena, configuration.best.pipeline.max_height_cells,
-                        static_cast<std::size_t>(configuration.best.surface.max_columns));
+                        static_cast<std::size_t>(params.max_columns));
     liquid.allocate(arena);
     volume.allocate(arena);
   }

@@ -19,6 +19,9 @@ struct UncertaintyParams {
   // Of the volume, times the squared share that was filled instead of matched: the wider a gap, the less its
   // rims say about it.
   double filled_share = 0.7;
+  // Of the volume of a round body, instead: its height and width are those of its outlines. From fruit
+  // rendered for this, and from how closed and column volume of scanned fruit differ.
+  double round_share = 0.05;
   double dish_height_mm = 0.10;  // of the dish's inner surface: firing, glaze, feet
 };
 
@@ -28,6 +31,7 @@ struct UncertaintyInput {
   double matched_share = 1.0;     // of its samples
   double height_per_px_mm = 0.0;  // of disparity
   double px_mm = 0.0;             // of the samples, on the dish
+  bool is_round = false;          // shaped by its outlines
 };
 
 // Standard deviation of the height of a point that both cameras see, as far as the cameras' covariance goes.

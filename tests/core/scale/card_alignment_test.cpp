@@ -98,6 +98,19 @@ TEST_F(CardAlignmentTest, TheMirrorPoseIsNotTakenForTheCards) {
   }
 }
 
+// 90 px wide: a sixteenth of its pixels would not hold the pose.
+TEST_F(CardAlignmentTest, SmallCardIsFound) {
+  for (const std::uint64_t seed : {4U, 20U, 25U, 40U, 55U}) {
+    cv::RNG random(seed);
+    const double distance_mm = random.uniform(1150.0, 1350.0);
+    const double tilt_deg = random.uniform(0.0, 20.0);
+    const double azimuth_deg = random.uniform(0.0, 360.0);
+    const double roll_deg = random.uniform(0.0, 360.0);
+    const Pose pose = look_at_card(kCard, distance_mm, tilt_deg, azimuth_deg, roll_deg, {800.0, 600.0});
+    expect_close(noisy(pose, seed, 0.6), pose, 0.2, 3.0, "seed " + std::to_string(seed));
+  }
+}
+
 // Stairs of the label that line up put two sides of the hull on one line.
 TEST_F(CardAlignmentTest, SidesThatAreOneAreFoundAsOne) {
   for (const std::uint64_t seed : {158U, 180U, 194U, 220U, 315U}) {

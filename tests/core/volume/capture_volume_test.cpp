@@ -123,11 +123,13 @@ TEST_F(CaptureVolume, AFinerMeshErodesLess) {
 }
 
 TEST_F(CaptureVolume, SignedAreaKeepsDepthNoiseOutOfTheVolume) {
-  const Outcome exact = measure({}, {});
+  VolumeParams subtracted;
+  subtracted.folded = FoldedArea::subtracted;
   VolumeParams added;
   added.folded = FoldedArea::added;
+  const Outcome exact = measure({}, subtracted);
   for (const double noise_mm : {1.0, 2.0}) {
-    const Outcome with_sign = measure({}, {}, noise_mm);
+    const Outcome with_sign = measure({}, subtracted, noise_mm);
     const Outcome without = measure({}, added, noise_mm);
     std::printf("noise %.0f mm: signed %+.2f%%  unsigned %+.2f%%\n", noise_mm, 100 * with_sign.bias(),
                 100 * without.bias());

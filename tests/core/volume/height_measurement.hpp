@@ -22,13 +22,15 @@ struct HeightMeasurement {
   LevelLiquid liquid;
   OverhangParams overhang{.min_undercut_share = 0.2};  // true depth shows all of an undercut
 
+  LabelSet round;  // as round bodies
+
   Status run(std::span<const SurfaceGrid> views, const InnerSurface& dish,
              const HeightMapParams& params = {.hidden_steepness = 1.0}) {
     const Status built = build_height_map(views, dish, params, *map_space, map);
     if (!built.ok()) return built;
     liquid = level_liquid(views, dish, {}, *liquid_space, map);
     const Status integrated = integrate_height_map(map, dish, {}, *volume_space);
-    close_overhangs(views, map, dish, overhang, volume_space->items);
+    close_overhangs(views, map, dish, round, overhang, volume_space->items);
     return integrated;
   }
   const HeightVolume& item(int label) { return volume_space->items[static_cast<std::size_t>(label)]; }

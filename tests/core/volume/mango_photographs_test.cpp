@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "core/scale/card_alignment.hpp"
+#include "core/surface/round_body.hpp"
 #include "core/surface/two_view_surface.hpp"
 #include "tests/core/surface/capture_scene.hpp"
 #include "tests/core/volume/height_measurement.hpp"
@@ -73,6 +74,7 @@ struct MangoVolume {
   Status status;
   HeightVolume volume;
   double matched_share = 0.0;
+  bool is_round = false;
 };
 
 class Mango : public ::testing::Test {
@@ -128,6 +130,9 @@ class Mango : public ::testing::Test {
                                         labels_on_dish(labels_of_single_dish()), 0.0, kTopMm, surface_params_,
                                         *surface_space_, grids, report);
     if (!result.status.ok()) return result;
+    measurement_.round = shape_round_bodies(
+        {grids, {surface_space_->views[0].points, surface_space_->views[1].points}}, page_, {}, *body_space_);
+    result.is_round = measurement_.round.contains(kMango);
     result.status = measurement_.run(grids, page_);
     result.volume = measurement_.item(kMango);
     result.matched_share = matched_share(grids[0]);
@@ -149,10 +154,11 @@ class Mango : public ::testing::Test {
   static void print(const PagePair& pair, const MangoVolume& mango) {
     std::printf(
         "%s %s, %.0f degrees: column %.0f ml (%+.1f %%), volume %.0f ml, %.1f mm high, %.0f mm2, "
-        "matched %.2f\n",
+        "matched %.2f%s\n",
         pair.first.c_str(), pair.second.c_str(), pair.angle_deg, mango.volume.column_volume_ml,
         100.0 * (mango.volume.column_volume_ml / kHullColumnMl - 1.0), mango.volume.volume_ml,
-        mango.volume.max_height_mm, mango.volume.area_mm2, mango.matched_share);
+        mango.volume.max_height_mm, mango.volume.area_mm2, mango.matched_share,
+        mango.is_round ? ", round" : "");
   }
   static double mean(const std::vector<double>& values) {
     double sum = 0.0;
@@ -178,6 +184,8 @@ class Mango : public ::testing::Test {
   InnerSurface page_;
   TwoViewSurfaceParams surface_params_;
   Allocated<TwoViewSurfaceWorkspace> surface_space_{surface_params_};
+  Allocated<RoundBodyWorkspace> body_space_{surface_params_.rectification.max_rows,
+                                            surface_params_.max_columns};
   testing::HeightMeasurement measurement_;
 };
 

@@ -122,9 +122,10 @@ TEST(Volume, AFoldCancelsOrAdds) {
   const Sheet sheet{{{{0, 0, 490}, 5}, {{20, 0, 490}, 5}, {{0, 20, 490}, 5}},
                     {{{0, 1, 2}, 5}, {{0, 2, 1}, 5}}};
   Allocated<VolumeWorkspace> space(std::size_t{16});
-  ASSERT_TRUE(integrate_volume(sheet.mesh(), {-Vec3::UnitZ(), -500.0}, {}, *space).ok());
-  EXPECT_NEAR(space->items[5].volume_ml, 0.0, 1e-12);
   VolumeParams params;
+  params.folded = FoldedArea::subtracted;
+  ASSERT_TRUE(integrate_volume(sheet.mesh(), {-Vec3::UnitZ(), -500.0}, params, *space).ok());
+  EXPECT_NEAR(space->items[5].volume_ml, 0.0, 1e-12);
   params.folded = FoldedArea::added;
   ASSERT_TRUE(integrate_volume(sheet.mesh(), {-Vec3::UnitZ(), -500.0}, params, *space).ok());
   EXPECT_NEAR(space->items[5].volume_ml, 4.0, 1e-12);

@@ -1,17 +1,16 @@
 #include "tests/evaluation/methods/dense_views.hpp"
 
 #include <array>
-#include <chrono>
 #include <cmath>
 #include <opencv2/calib3d.hpp>
 #include <opencv2/imgproc.hpp>
 #include <opencv2/video/tracking.hpp>
 #include <vector>
 
+#include "tests/evaluation/methods/stopwatch.hpp"
+
 namespace traygauge::tables {
 namespace {
-
-using Clock = std::chrono::steady_clock;
 
 constexpr int kCorners = 2000;
 constexpr double kQuality = 0.001;  // of the strongest corner's response: food is far weaker than print
@@ -23,10 +22,6 @@ constexpr int kLevels = 5;          // the rest of the motion: up to 100 px for 
 constexpr double kReturn_px = 0.5;  // of a track followed back to its corner
 constexpr double kHomographyInlier_px = 3.0;
 constexpr std::size_t kMinCardMatches = 8;
-
-double since_ms(Clock::time_point start) {
-  return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
-}
 
 cv::Point2f as_point(const Vec2& pixel) {
   return {static_cast<float>(pixel.x()), static_cast<float>(pixel.y())};
@@ -47,7 +42,7 @@ cv::Mat card_homography(const PairMatches& by_sift) {
 }  // namespace
 
 PairMatches track_corners(const CaptureSession& session, const PairMatches& by_sift) {
-  const Clock::time_point start = Clock::now();
+  const Stopwatch watch;
   PairMatches tracks;
   tracks.card_matches = by_sift.card_matches;
   tracks.time_ms = by_sift.time_ms;
@@ -74,7 +69,7 @@ PairMatches track_corners(const CaptureSession& session, const PairMatches& by_s
     if (found[i] == 0 || found_back[i] == 0 || cv::norm(returned[i] - corners[i]) > kReturn_px) continue;
     tracks.matches.push_back({Vec2(corners[i].x, corners[i].y), Vec2(in_second[i].x, in_second[i].y)});
   }
-  tracks.time_ms += since_ms(start);
+  tracks.time_ms += watch.elapsed_ms();
   return tracks;
 }
 
@@ -84,7 +79,7 @@ Run measure_dense_views(CaptureSession& session, const PairMatches& tracks, std:
   run.seed = seed;
   const auto pair = calibrate_pair(session, tracks, seed, run.status);
   if (!pair) return run;
-  const Clock::time_point start = Clock::now();
+  const Stopwatch watch;
   run.relative_angle_deg = pair->relative_angle_deg;
   const ImageView<const std::uint8_t> labels = pair->views.labels[0];
   const Pose first_from_dish = frame_on(pair->dish_bottom, pair->views.cameras[0], labels);
@@ -105,7 +100,7 @@ Run measure_dense_views(CaptureSession& session, const PairMatches& tracks, std:
     }
   }
   conclude(run);
-  run.total_ms = pair->time_ms + since_ms(start);
+  run.total_ms = pair->time_ms + watch.elapsed_ms();
   return run;
 }
 

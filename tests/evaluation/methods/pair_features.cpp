@@ -1,18 +1,16 @@
 #include "tests/evaluation/methods/pair_features.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <opencv2/features2d.hpp>
 #include <opencv2/imgproc.hpp>
 
 #include "core/image/resample.hpp"
 #include "core/segmentation/label_regions.hpp"
+#include "tests/evaluation/methods/stopwatch.hpp"
 
 namespace traygauge::tables {
 namespace {
-
-using Clock = std::chrono::steady_clock;
 
 // OpenCV's SIFT doubles the picture so that all points come to lie a quarter of a pixel too far right and
 // down (4.6, and later versions without enable_precise_upscale). Views that are turned against each other or
@@ -154,7 +152,7 @@ std::vector<IndexPair> match_points(const PointFeatures& first, const PointFeatu
 PairMatches match_pair(const CaptureSession& session, Detector detector) {
   const double ratio = static_cast<double>(MatcherParams{}.distinctiveness_ratio);
   const PointFeatures pattern = find_on_pattern(session, detector);
-  const Clock::time_point start = Clock::now();
+  const Stopwatch watch;
   const std::array<PointFeatures, 2> views = {find_in_view(session, 0, detector),
                                               find_in_view(session, 1, detector)};
   std::array<std::vector<int>, 2> on_pattern;
@@ -173,7 +171,7 @@ PairMatches match_pair(const CaptureSession& session, Detector detector) {
     found.card_matches.push_back(
         {pattern.pixels[static_cast<std::size_t>(point)], views[0].pixels[i], views[1].pixels[j]});
   }
-  found.time_ms = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+  found.time_ms = watch.elapsed_ms();
   return found;
 }
 

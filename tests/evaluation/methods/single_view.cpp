@@ -1,14 +1,12 @@
 #include "tests/evaluation/methods/single_view.hpp"
 
-#include <chrono>
 #include <cmath>
 
 #include "core/segmentation/label_regions.hpp"
+#include "tests/evaluation/methods/stopwatch.hpp"
 
 namespace traygauge::tables {
 namespace {
-
-using Clock = std::chrono::steady_clock;
 
 // The estimator's checks of the picture, and its undistorted, resized labels: the view taken twice goes as
 // far as that.
@@ -37,7 +35,7 @@ Run measure_single_view(CaptureSession& session, std::uint64_t seed, const Shape
   Run run;
   run.seed = seed;
   const PointFeatures pattern = find_on_pattern(session, Detector::sift);
-  const Clock::time_point start = Clock::now();
+  const Stopwatch watch;
   MeasurementViews views;
   run.status = prepare_first_view(session, views);
   if (run.status != StatusCode::ok) return run;
@@ -55,7 +53,7 @@ Run measure_single_view(CaptureSession& session, std::uint64_t seed, const Shape
     run.items.push_back({label, StatusCode::ok, volume_ml(fit_prior(item, priors).solid)});
   }
   conclude(run);
-  run.total_ms = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+  run.total_ms = watch.elapsed_ms();
   return run;
 }
 

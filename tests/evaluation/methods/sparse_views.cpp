@@ -2,18 +2,16 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cmath>
 #include <limits>
 #include <vector>
 
 #include "core/pose/triangulation.hpp"
 #include "firmware/evaluate/statistics.hpp"
+#include "tests/evaluation/methods/stopwatch.hpp"
 
 namespace traygauge::tables {
 namespace {
-
-using Clock = std::chrono::steady_clock;
 
 constexpr double kNormalDeviation = 1.4826;  // a normal distribution's standard deviation over its median one
 
@@ -103,7 +101,7 @@ Run measure_sparse_views(CaptureSession& session, const PairMatches& matches, st
   run.seed = seed;
   const auto pair = calibrate_pair(session, matches, seed, run.status);
   if (!pair) return run;
-  const Clock::time_point start = Clock::now();
+  const Stopwatch watch;
   run.relative_angle_deg = pair->relative_angle_deg;
   const ImageView<const std::uint8_t> labels = pair->views.labels[0];
   const cv::Mat picture = as_cv(labels);
@@ -119,7 +117,7 @@ Run measure_sparse_views(CaptureSession& session, const PairMatches& matches, st
     }
   }
   conclude(run);
-  run.total_ms = pair->time_ms + std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+  run.total_ms = pair->time_ms + watch.elapsed_ms();
   return run;
 }
 

@@ -16,10 +16,14 @@ namespace {
 constexpr std::array<const char*, 7> kNames = {"ours",        "sift",         "orb",        "presac",
                                                "single_view", "sparse_views", "dense_views"};
 
+// A picture over the box of the smallest dish in it.
+constexpr double kWholePicture = 8.0;
+
 // Memory for working pictures larger than the station's.
 void make_room(Configuration& configuration) {
   const Configuration usual;
-  const double factor = configuration.view.matching_dish_px / usual.view.matching_dish_px;
+  const double factor = configuration.view.matching_dish_px / usual.view.matching_dish_px *
+                        (configuration.view.match_dish_only ? 1.0 : kWholePicture);
   if (factor <= 1.0) return;
   const double side = std::sqrt(factor);
   const auto grown = [](int size, double by) { return static_cast<int>(std::ceil(size * by)); };

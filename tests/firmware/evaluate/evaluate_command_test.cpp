@@ -7,7 +7,7 @@
 
 #include "tests/firmware/command_runner.hpp"
 #include "tests/firmware/evaluate/xml_check.hpp"
-#include "tests/firmware/fake/fake_estimator.hpp"
+#include "tests/firmware/fake/fake_meal.hpp"
 #include "tests/simulator/capture/temporary_capture.hpp"
 
 namespace traygauge {
@@ -20,28 +20,12 @@ std::size_t count_lines(const std::string& text) {
 }
 
 // One capture with two pairs; item 2 holds 100 ml, item 3 holds 50 ml.
-class EvaluateCommand : public testing::Test {
+class EvaluateCommand : public FakeMeal {
  protected:
-  EvaluateCommand() {
-    fake_estimator() = {};
-    write_truth(R"({"items": [{"label": 2, "name": "rice", "volume_ml": 100.0},
-                              {"label": 3, "name": "peas", "volume_ml": 50.0}], "poses": []})");
-    items_ = std::vector<ItemResult>(2);
-    items_[0].label = 2;
-    items_[0].volume_ml = 104.0;
-    items_[1].label = 3;
-    items_[1].volume_ml = 50.0;
-    answer(StatusCode::ok);
-  }
-
-  void write_truth(const std::string& text) const { write_text(files_.file("truth.json"), text); }
-
-  void answer(StatusCode status) {
-    Measurement& measurement = fake_estimator().measurement;
-    measurement.status = status;
-    measurement.items = items_;
-    measurement.relative_angle_deg = 17.0;
-  }
+  EvaluateCommand()
+      : FakeMeal(R"({"items": [{"label": 2, "name": "rice", "volume_ml": 100.0},
+                               {"label": 3, "name": "peas", "volume_ml": 50.0}], "poses": []})",
+                 104.0) {}
 
   CommandResult evaluate(std::vector<std::string> options) const {
     options.insert(options.begin(), {"evaluate", files_.folder().string(), "--runs", "3"});
@@ -54,9 +38,7 @@ class EvaluateCommand : public testing::Test {
     return Json::parse(result.out);
   }
 
-  TemporaryCapture files_;
   TemporaryFolder out_;
-  std::vector<ItemResult> items_;
 };
 
 TEST_F(EvaluateCommand, MeasuresEveryPairWithEverySeed) {

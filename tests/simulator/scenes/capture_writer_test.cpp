@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 
 #include "simulator/capture/capture.hpp"
@@ -36,7 +37,7 @@ SceneDescription small_scene() {
 
 TEST(CaptureWriter, WritesWhatTheReaderReads) {
   const TemporaryFolder folder;
-  const SceneDescription scene = small_scene();
+  SceneDescription scene = small_scene();
   const std::filesystem::path out = folder.path() / scene.name;
   EXPECT_FALSE(is_complete_capture(out, scene));
   double last = 0.0;
@@ -75,6 +76,55 @@ TEST(CaptureWriter, WritesWhatTheReaderReads) {
   const DepthPicture depth = read_depth_picture({out / "depth_0.png", ""}, capture.views[0].camera.size);
   const double centre_mm = 0.02 * depth.view().at(100, 75);
   EXPECT_NEAR(centre_mm, scene.views[0].distance_mm, 60.0);
+
+  // What is said of a complete capture is mended without rendering it again.
+  scene.views[1].arm_angle_deg = 12.5;
+  ASSERT_TRUE(is_complete_capture(out, scene));
+  update_description(out, scene);
+  EXPECT_EQ(read_capture(out).views[1].arm_angle_deg, 12.5);
+  EXPECT_FALSE(std::filesystem::exists(out / "capture.json.part"));
+  const auto written = std::filesystem::last_write_time(out / "capture.json");
+  update_description(out, scene);
+  EXPECT_EQ(std::filesystem::last_write_time(out / "capture.json"), written);
+}
+
+// Along the motion detail is lost, across it is not; labels and pose are those of the exposure's middle.
+TEST(CaptureWriter, CameraThatMovesBlursThePictureAlone) {
+  const TemporaryFolder folder;
+  SceneDescription scene = small_scene();
+  scene.views.pop_back();
+  scene.pairs.clear();
+  scene.photography.aperture_mm = 0.0;
+  scene.photography.full_well_electrons = 1e7;
+  scene.photography.read_noise_electrons = 0.0;
+  render_capture(scene, folder.path() / "still", {}, [](double) {});
+  scene.views[0].motion_deg = {0.0, 2.0, 0.0};  // 6 px along the rows
+  render_capture(scene, folder.path() / "moved", {}, [](double) {});
+  struct Detail {
+    double along = 0.0;
+    double across = 0.0;
+  };
+  const auto read = [&](const char* name) { return load_view(read_capture(folder.path() / name).views[0]); };
+  const auto detail_of = [](const LoadedView& view) {
+    const Picture gray = to_gray(view.picture);
+    const auto at = [&](int x, int y) {
+      return static_cast<double>(gray.pixels[static_cast<std::size_t>(y * gray.size.width + x)]);
+    };
+    Detail detail;
+    for (int y = 0; y + 1 < gray.size.height; ++y) {
+      for (int x = 0; x + 1 < gray.size.width; ++x) {
+        detail.along += std::pow(at(x + 1, y) - at(x, y), 2);
+        detail.across += std::pow(at(x, y + 1) - at(x, y), 2);
+      }
+    }
+    return detail;
+  };
+  const LoadedView still = read("still");
+  const LoadedView moved = read("moved");
+  EXPECT_LT(detail_of(moved).along, 0.5 * detail_of(still).along);
+  EXPECT_GT(detail_of(moved).across, 0.5 * detail_of(still).across);
+  EXPECT_EQ(still.labels.pixels, moved.labels.pixels);
+  EXPECT_EQ(read_truth(folder.path() / "still")->poses, read_truth(folder.path() / "moved")->poses);
 }
 
 TEST(CaptureWriter, SameSceneGivesTheSameBytes) {

@@ -36,6 +36,8 @@ distance_mm = 520
 [[views]]
 distance_mm = 500
 tilt_deg = 20
+motion_mm = [0.5, 0, 0]
+motion_deg = [0, 0.2, 0]
 )";
 
 class SceneFile : public testing::Test {
@@ -82,6 +84,9 @@ TEST_F(SceneFile, IsRead) {
   ASSERT_EQ(scene.pairs.size(), 1U);
   EXPECT_EQ(scene.lamps.size(), 1U);
   EXPECT_DOUBLE_EQ(scene.photography.camera.cx_px, 79.5);
+  EXPECT_TRUE(scene.views[0].motion_deg.isZero());
+  EXPECT_EQ(scene.views[1].motion_mm, Eigen::Vector3d(0.5, 0.0, 0.0));
+  EXPECT_EQ(scene.views[1].motion_deg, Eigen::Vector3d(0.0, 0.2, 0.0));
 }
 
 TEST_F(SceneFile, NamesFileKeyAndWhatWasExpected) {
@@ -100,6 +105,7 @@ TEST_F(SceneFile, NamesFileKeyAndWhatWasExpected) {
       {with("#E0E0D8", "grey"), "dishes[0].colour"},
       {with("centre_mm = [180, 0]", "centre_mm = [180]"), "card.centre_mm"},
       {with("tilt_deg = 20", "tilt_deg = 120"), "views[1].tilt_deg"},
+      {with("motion_deg = [0, 0.2, 0]", "motion_deg = 0.2"), "views[1].motion_deg"},
       {std::string("pairs = [[0, 2]]\n") + kScene, "pairs[0][1]"},
       {std::string("name = \"../x\"\n") + kScene, "name"},
       {std::string(kScene) + "[table]\nsurface = \"marble\"\n", "table.surface"},

@@ -69,6 +69,13 @@ TEST(SceneSets, ArmTurnsInStepsOfFiveDegrees) {
     for (std::size_t i = 0; i < 7; ++i) {
       EXPECT_NEAR(angle_of(scene, scene.pairs[i]), 5.0 * static_cast<double>(i + 1), 1e-6) << scene.name;
     }
+    // The arm's axis is the world's x.
+    const Eigen::Matrix3d first = camera_from_world(scene.views[0]).linear();
+    for (const Photograph& view : scene.views) {
+      ASSERT_TRUE(view.arm_angle_deg.has_value());
+      const Eigen::AngleAxisd arm(radians(*view.arm_angle_deg), Eigen::Vector3d::UnitX());
+      EXPECT_TRUE((camera_from_world(view).linear() * arm).isApprox(first, 1e-9)) << scene.name;
+    }
   }
 }
 
