@@ -1,5 +1,7 @@
 # make build | demo | test | bench: each installs what config/packages.txt names and is missing, then does it.
 # make without-surf: builds and tries what may be shipped where SURF's patents hold, in build-without-surf.
+# make board-test: the drivers and the station on a real kernel in an emulated machine; BOARD=arm64 cross-builds for it.
+# make arm-test: cross-builds for 64-bit ARM, runs tests and compares volumes under user-mode emulation.
 # make lint | format | sanitize: further checks; CI=true adds the sanitizers to `make test`. Lint takes a quarter of an
 # hour and runs on its own.
 
@@ -12,7 +14,7 @@ launcher := $(if $(shell command -v ccache),-DCMAKE_CXX_COMPILER_LAUNCHER=ccache
 sources = git ls-files '*.cpp' '*.hpp'
 ctest = ctest --output-on-failure --no-tests=error -j $(JOBS) -LE '^bench$$'
 
-.PHONY: configure build build-all demo test bench without-surf lint format check-format check-captures sanitize asan-ubsan tsan packages clean
+.PHONY: configure build build-all demo test bench board-test arm-test without-surf lint format check-format check-captures sanitize asan-ubsan tsan packages clean
 
 configure: packages
 	cmake --preset release $(launcher)
@@ -36,6 +38,44 @@ endif
 # Benchmarks are tests with the label bench: they print figures and run alone.
 bench: build-all
 	ctest --test-dir build -L '^bench$$' -V --no-tests=error
+
+# What is downloaded and built for it stays in build-board. BOARD_UNPLUGS=100: how often the camera is pulled out.
+BOARD ?= amd64
+BOARD_TARGETS = traygauge drivers_test board_test station_cycle
+board_preset = $(if $(filter arm64,$(BOARD)),aarch64,release)
+board_build = $(if $(filter arm64,$(BOARD)),build-aarch64,build)
+board_sysroot = $(if $(filter arm64,$(BOARD)),build-board/sysroot-arm64)
+board_guest = build-board/guest-$(BOARD)
+in_board = SYSROOT=$(abspath $(board_sysroot)) tests/board/run_guest.sh $(BOARD) $(board_guest)
+board-test: packages
+	config/install_packages.sh tests/board/packages.txt
+	tests/board/make_guest.sh $(BOARD) $(board_guest)
+	$(if $(board_sysroot),tests/board/make_sysroot.sh $(board_sysroot))
+	cmake --preset $(board_preset) $(launcher)
+	cmake --build --preset $(board_preset) -j $(JOBS) --target $(BOARD_TARGETS)
+	$(in_board) tests/board/drivers.sh $(board_build)/tests/drivers/drivers_test $(board_build)/tests/board/board_test \
+	  simulator/demo/mash_and_meatballs/view_0.jpg
+ifeq ($(BOARD),amd64)
+	tests/board/make_gpiod_2.sh build-board/gpiod-2
+	cmake --preset gpiod-2 $(launcher)
+	cmake --build --preset gpiod-2 -j $(JOBS) --target drivers_test board_test
+	$(in_board) tests/board/gpio.sh build-gpiod-2/tests/drivers/drivers_test build-gpiod-2/tests/board/board_test
+endif
+	$(in_board) tests/board/station.sh $(board_build)/traygauge $(board_build)/tests/board/station_cycle \
+	  simulator/demo/mash_and_meatballs
+
+# The cross-build under user-mode emulation: the drivers' tests, and the volumes of the demo beside this machine's.
+ARM_TESTS = pixels v4l2 gpio serial
+arm_sysroot = $(abspath build-board/sysroot-arm64)
+arm_libraries = /usr/lib/aarch64-linux-gnu
+in_arm = qemu-aarch64-static -L $(arm_sysroot) -E LD_LIBRARY_PATH=$(arm_libraries)/blas:$(arm_libraries)/lapack
+arm-test: build
+	config/install_packages.sh tests/board/packages.txt
+	tests/board/make_sysroot.sh $(arm_sysroot)
+	cmake --preset aarch64 $(launcher)
+	cmake --build --preset aarch64 -j $(JOBS) --target traygauge $(ARM_TESTS:=_test)
+	for test in $(ARM_TESTS); do $(in_arm) build-aarch64/tests/drivers/$$test/$${test}_test --gtest_brief=1 || exit; done
+	RUN_B='$(in_arm)' LIMIT_ML=0.01 tests/captures/compare_builds.sh build build-aarch64 simulator/demo/*_and_*
 
 # The measurement refuses profile paper there; the tests that measure with it are left out.
 WITHOUT_SURF_TESTS = core_symbols_test without_surf_test firmware_without_surf_test
@@ -72,11 +112,11 @@ asan-ubsan: packages
 	$(ctest) --test-dir build-asan-ubsan
 
 # Where there is concurrency: the devices. The measurement runs on one thread.
-TSAN_TESTS = drivers_test simulated_devices_test
+TSAN_TESTS = drivers_test gpio_test serial_test v4l2_test simulated_devices_test
 tsan: packages
 	cmake --preset tsan $(launcher)
 	cmake --build --preset tsan -j $(JOBS) --target $(TSAN_TESTS)
 	for test in $(TSAN_TESTS); do find build-tsan -type f -name $$test -exec {} --gtest_brief=1 \; -quit || exit; done
 
 clean:
-	rm -rf build build-without-surf build-debug build-asan-ubsan build-tsan
+	rm -rf build build-without-surf build-debug build-asan-ubsan build-tsan build-aarch64 build-gpiod-2 build-board

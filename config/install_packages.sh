@@ -1,8 +1,8 @@
 #!/bin/sh
-# Installs the Debian packages of packages.txt that are missing; does nothing when all are there.
+# Installs the Debian packages of packages.txt (or of the list named) that are missing; does nothing when all are there.
 set -eu
 
-list=$(dirname "$0")/packages.txt
+list=${1:-$(dirname "$0")/packages.txt}
 wanted=$(sed 's/#.*//' "$list")
 
 if ! command -v dpkg-query >/dev/null 2>&1; then

@@ -1,6 +1,7 @@
 #include "drivers/device_status.hpp"
 
 #include <array>
+#include <cerrno>
 #include <cstddef>
 
 namespace traygauge {
@@ -29,6 +30,11 @@ constexpr auto kTexts = std::to_array<Text>({
      "cable."},
     {"unreadable", "The recorded picture could not be read."},
     {"stalled", "The arm did not reach its place; check that nothing blocks it."},
+    {"stuck", "The button stays pressed; see that nothing lies on it."},
+    {"unsupported", "The device cannot do what the configuration asks for."},
+    {"no_permission",
+     "This user may not open the device; add the user to its group (video, gpio, dialout) and log in again."},
+    {"in_use", "Another program uses the device; end that program."},
     {"device_gone", "The device has disappeared; plug it in again."},
     {"io_error", "The device reported an error."},
 });
@@ -43,6 +49,28 @@ const char* name(DeviceCode code) {
 
 const char* sentence(DeviceCode code) {
   return kTexts[static_cast<std::size_t>(code)].sentence;
+}
+
+DeviceStatus status_of_errno(int error_number) {
+  switch (error_number) {
+    case 0:
+      return DeviceCode::ok;
+    case ENODEV:
+    case ENXIO:
+    case ENOENT:
+    case ENOTCONN:
+    case ESHUTDOWN:
+      return {DeviceCode::device_gone, error_number};
+    case EACCES:
+    case EPERM:
+      return {DeviceCode::no_permission, error_number};
+    case EBUSY:
+      return {DeviceCode::in_use, error_number};
+    case ETIMEDOUT:
+      return {DeviceCode::timed_out, error_number};
+    default:
+      return {DeviceCode::io_error, error_number};
+  }
 }
 
 }  // namespace traygauge

@@ -20,6 +20,10 @@ enum class DeviceCode : std::uint8_t {
   unsteady,
   unreadable,
   stalled,
+  stuck,
+  unsupported,
+  no_permission,
+  in_use,
   device_gone,
   io_error,
 };
@@ -46,5 +50,8 @@ class [[nodiscard]] DeviceStatus {
   DeviceCode code_ = DeviceCode::ok;
   int error_number_ = 0;
 };
+
+// What an errno of open, ioctl, read or write says of the device.
+DeviceStatus status_of_errno(int error_number);
 
 }  // namespace traygauge

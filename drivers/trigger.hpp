@@ -25,7 +25,7 @@ class Trigger : public Device {
   // Presses that came meanwhile wait in a queue and are delivered first, in order. One call, one press.
   DeviceStatus wait_for_press(Nanoseconds timeout, Press& press);
   // Presses that wait; does not block.
-  int pending() const { return started_ ? do_pending() : 0; }
+  int pending() { return started_ ? do_pending() : 0; }
   // Forgets the presses that wait, e.g. those during a scan.
   void discard_pending();
 
@@ -36,7 +36,7 @@ class Trigger : public Device {
   virtual DeviceStatus do_start() = 0;
   virtual void do_stop() = 0;
   virtual DeviceStatus do_wait_for_press(Nanoseconds timeout, Press& press) = 0;
-  virtual int do_pending() const = 0;
+  virtual int do_pending() = 0;
   virtual void do_discard_pending() = 0;
 
   bool started_ = false;

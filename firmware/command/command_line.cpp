@@ -4,11 +4,13 @@
 #include <new>
 #include <stdexcept>
 
+#include "firmware/check/check_command.hpp"
 #include "firmware/command/program.hpp"
 #include "firmware/enrol/enrol_command.hpp"
 #include "firmware/evaluate/evaluate_command.hpp"
 #include "firmware/measure/measure_command.hpp"
 #include "firmware/memory/memory_command.hpp"
+#include "firmware/record/record_command.hpp"
 #include "firmware/station/recorded_captures.hpp"
 #include "firmware/station/station_command.hpp"
 #include "firmware/station/stop_signal.hpp"
@@ -22,6 +24,8 @@ struct Options {
   EnrolOptions enrol;
   MemoryOptions memory;
   StationCommand station;
+  CheckOptions check;
+  RecordOptions record;
 };
 
 int run_command(const CLI::App& app, const Options& options, std::ostream& out, std::ostream& error) {
@@ -31,6 +35,8 @@ int run_command(const CLI::App& app, const Options& options, std::ostream& out, 
   if (app.got_subcommand("station")) {
     return run_station(options.station, open_recorded_captures, stop_on_signals(), out, error);
   }
+  if (app.got_subcommand("check")) return run_check(options.check, out);
+  if (app.got_subcommand("record")) return run_record(options.record, stop_on_signals(), out, error);
   return run_memory(options.memory, out);
 }
 
@@ -47,6 +53,8 @@ int run_command_line(int argument_count, const char* const* arguments, std::ostr
   add_enrol_command(app, options.enrol);
   add_memory_command(app, options.memory);
   add_station_command(app, options.station);
+  add_check_command(app, options.check);
+  add_record_command(app, options.record);
   const auto run = [&] {
     try {
       return run_command(app, options, out, error);

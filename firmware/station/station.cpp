@@ -16,11 +16,14 @@ bool spoils_one_scan(DeviceCode code) {
   return code == DeviceCode::torn_frame || code == DeviceCode::unsteady || code == DeviceCode::unreadable;
 }
 
+bool contradicts_arm(const Measurement& measurement) {
+  return measurement.warnings[static_cast<std::size_t>(Warning::arm_angle_disagrees)];
+}
+
 // Lost steps show in what was seen only: the views are the same, too close, do not fit each other or the
 // angle.
 bool casts_doubt_on_arm(const Measurement& measurement) {
-  return !is_measured(measurement) ||
-         measurement.warnings[static_cast<std::size_t>(Warning::arm_angle_disagrees)];
+  return !is_measured(measurement) || contradicts_arm(measurement);
 }
 
 }  // namespace
@@ -54,7 +57,7 @@ StationState Station::step() {
       state_ = take_first_view();
       break;
     case StationState::awaiting_second_view:
-      state_ = devices_.arm != nullptr ? await_second_view() : await_second_press();
+      state_ = await_second_view();
       break;
     case StationState::taking_second_view:
       state_ = take_second_view();
@@ -86,6 +89,7 @@ StationState Station::wait_for_press() {
     return status.code() == DeviceCode::ended ? StationState::finished : StationState::waiting;
   ++totals_.scans;
   pressed_at_ = press.at;
+  is_repeated_ = false;
   return StationState::taking_first_view;
 }
 
@@ -93,7 +97,7 @@ StationState Station::wait_for_press() {
 StationState Station::take_first_view() {
   show(Signal::hold_still);
   measurer_.begin_scan();
-  DeviceStatus status = capture(first_);
+  DeviceStatus status = capture(devices_.camera, first_);
   if (!status.ok()) return fail_scan(devices_.camera, status);
   if (devices_.arm != nullptr) {
     status = devices_.arm->begin_move_to(params_.second_view_deg);
@@ -105,6 +109,8 @@ StationState Station::take_first_view() {
 }
 
 StationState Station::await_second_view() {
+  if (devices_.second_camera != nullptr) return StationState::taking_second_view;
+  if (devices_.arm == nullptr) return await_second_press();
   const DeviceStatus status = devices_.arm->wait_until_still(params_.arm_timeout);
   return status.ok() ? StationState::taking_second_view : fail_scan(*devices_.arm, status);
 }
@@ -133,26 +139,43 @@ StationState Station::take_second_view() {
     const DeviceStatus status = devices_.arm->read_position(angle_deg.emplace());
     if (!status.ok()) return fail_scan(*devices_.arm, status);
   }
-  const DeviceStatus status = capture(second_);
-  if (!status.ok()) return fail_scan(devices_.camera, status);
+  const DeviceStatus status = capture(second_camera(), second_);
+  if (!status.ok()) return fail_scan(second_camera(), status);
   // What goes wrong in the measurement, measure() says too.
   static_cast<void>(measurer_.add_view({second_.frame.view, second_.frame.sequence, angle_deg}));
   return StationState::measuring;
 }
 
-// The arm goes home while the volumes are computed.
+// The arm goes home while the volumes are computed. Where it stood elsewhere than it said, the scan is taken
+// again, once.
 StationState Station::measure() {
   show(Signal::busy);
   const DeviceStatus returning = begin_return();
   const Measurement& measurement = measurer_.measure();
-  const bool measured = is_measured(measurement);
+  const bool stood_elsewhere =
+      devices_.arm != nullptr && is_measured(measurement) && contradicts_arm(measurement);
+  if (stood_elsewhere && !is_repeated_) return repeat_scan(returning);
+  const bool measured = is_measured(measurement) && !stood_elsewhere;
   ScanResult result;
   result.outcome = measured ? ScanOutcome::measured : ScanOutcome::not_measurable;
   result.measurement = &measurement;
+  if (stood_elsewhere) {
+    result.outcome = ScanOutcome::device_failed;
+    result.measurement = nullptr;
+    result.failure = {devices_.arm->description(), DeviceCode::stalled,
+                      "twice the pictures show another angle than the arm's"};
+  }
   const StationState next =
       end_scan(result, measured ? Signal::done : Signal::try_again, StationState::waiting);
   if (!returning.ok()) return enter_fault(*devices_.arm, returning);
   return finish_return(next, casts_doubt_on_arm(measurement));
+}
+
+StationState Station::repeat_scan(DeviceStatus returning) {
+  is_repeated_ = true;
+  if (returning.ok()) returning = devices_.arm->wait_until_still(params_.arm_timeout);
+  if (returning.ok()) returning = devices_.arm->home(params_.arm_timeout);
+  return returning.ok() ? StationState::taking_first_view : fail_scan(*devices_.arm, returning);
 }
 
 // A press soon after the last one is the same one, bouncing: timed_out.
@@ -166,13 +189,13 @@ DeviceStatus Station::wait_for_press(Nanoseconds timeout, Press& press) {
 
 // A picture that the one before it confirms: damage that the camera does not notice, such as rows of an older
 // picture, can otherwise pass for food.
-DeviceStatus Station::capture(View& view) {
+DeviceStatus Station::capture(Camera& camera, View& view) {
   const Instant not_before = devices_.clock.now();
   DeviceStatus failure = DeviceCode::unsteady;
   auto& [last, current] = means_;
   current.clear();
   for (int attempt = 0; attempt < params_.capture_attempts; ++attempt) {
-    const DeviceStatus status = capture_once(view, not_before);
+    const DeviceStatus status = capture_once(camera, view, not_before);
     if (status.code() == DeviceCode::device_gone) return status;
     if (!status.ok()) {
       failure = status;
@@ -187,8 +210,8 @@ DeviceStatus Station::capture(View& view) {
 }
 
 // Exposed after `not_before`, so that nothing moved in it.
-DeviceStatus Station::capture_once(View& view, Instant not_before) {
-  const DeviceStatus status = devices_.camera.capture(view.pixels, params_.capture_timeout, view.frame);
+DeviceStatus Station::capture_once(Camera& camera, View& view, Instant not_before) {
+  const DeviceStatus status = camera.capture(view.pixels, params_.capture_timeout, view.frame);
   const bool is_old = status.ok() && view.frame.exposed_at < not_before;
   return is_old ? DeviceStatus(DeviceCode::stale_frame) : status;
 }

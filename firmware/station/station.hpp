@@ -26,6 +26,7 @@ struct StationDevices {
   Arm* arm;  // null: a hand moves the camera or the tray, and a second press takes the second view
   Indicator& lamp;
   Clock& clock;
+  Camera* second_camera = nullptr;  // takes the second view; then there is no arm, and one press suffices
 };
 
 struct StationParams {
@@ -97,9 +98,13 @@ class Station {
   DeviceStatus wait_for_press(Nanoseconds timeout, Press& press);
   StationState take_second_view();
   StationState measure();
+  StationState repeat_scan(DeviceStatus returning);
 
-  DeviceStatus capture(View& view);
-  DeviceStatus capture_once(View& view, Instant not_before);
+  DeviceStatus capture(Camera& camera, View& view);
+  DeviceStatus capture_once(Camera& camera, View& view, Instant not_before);
+  Camera& second_camera() {
+    return devices_.second_camera != nullptr ? *devices_.second_camera : devices_.camera;
+  }
   DeviceStatus begin_return();
   StationState finish_return(StationState next, bool arm_is_doubtful);
 
@@ -107,7 +112,7 @@ class Station {
   StationState fail_scan(Device& device, DeviceStatus status);
 
   Opening open_all();
-  DeviceStatus open_camera();
+  DeviceStatus open_camera(Camera& camera);
   StationState enter_fault(Device& device, DeviceStatus status);
   void remember_failure(Device& device, DeviceStatus status);
   void confirm_recovery();
@@ -127,6 +132,7 @@ class Station {
   View second_;
   std::array<BlockMeans, 2> means_;  // of the last two pictures
   Instant pressed_at_;
+  bool is_repeated_ = false;             // this scan, because the arm stood elsewhere than it said
   std::optional<Instant> last_edge_at_;  // of the button
   Instant result_until_;                 // the lamp shows the last result
   Device* failed_device_ = nullptr;      // while it does not work

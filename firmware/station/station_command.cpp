@@ -5,6 +5,7 @@
 
 #include "firmware/base/exit_status.hpp"
 #include "firmware/config/profile.hpp"
+#include "firmware/station/hardware_station.hpp"
 #include "firmware/station/scan_printer.hpp"
 #include "simulator/capture/input_error.hpp"
 #include "simulator/devices/capture_folders.hpp"
@@ -19,6 +20,7 @@ namespace traygauge {
 namespace {
 
 constexpr std::string_view kSimulatorPrefix = "simulator:";
+constexpr std::string_view kHardwarePrefix = "hardware:";
 // Retries of a device that does not come back, about ten minutes: a script may switch it off for ever.
 constexpr int kMaxRetries = 120;
 
@@ -71,8 +73,10 @@ int play(const StationCommand& command, Profile profile, const FaultPlan& faults
 CLI::App* add_station_command(CLI::App& app, StationCommand& command) {
   CLI::App* station = app.add_subcommand("station", "Wait for the button, measure the tray, report; again");
   station
-      ->add_option("--devices", command.devices,
-                   "simulator:FOLDER plays a capture, or a folder of captures by name")
+      ->add_option(
+          "--devices", command.devices,
+          "hardware:FILE opens the devices of a station file (config/station.toml); simulator:FOLDER plays "
+          "a capture, or a folder of captures by name")
       ->required();
   station->add_option("--faults", command.faults,
                       "A script of what goes wrong with the simulated devices; see simulator/README.md");
@@ -85,7 +89,9 @@ CLI::App* add_station_command(CLI::App& app, StationCommand& command) {
   station->add_flag("--json", command.json, "One JSON document a line for each scan");
   station->add_flag("--by-hand", command.by_hand,
                     "Without an arm: move the camera and press again for the second view");
-  station->add_option("--second-view", command.second_view_deg, "Where the arm goes, degrees from home")
+  station
+      ->add_option("--second-view", command.second_view_deg,
+                   "Where the simulated arm goes, degrees from home; a real one's is in its station file")
       ->capture_default_str();
   station->add_option("--profile", command.profile,
                       "best (default), or paper: every stage as the paper describes it");
@@ -96,8 +102,12 @@ CLI::App* add_station_command(CLI::App& app, StationCommand& command) {
 int run_station(const StationCommand& command, const OpenCaptures& open_captures,
                 const std::atomic<bool>& stop, std::ostream& out, std::ostream& log) {
   const Profile profile = choose_profile(command.profile);
+  if (command.devices.starts_with(kHardwarePrefix)) {
+    return run_hardware_station(command, command.devices.substr(kHardwarePrefix.size()), stop, out, log);
+  }
   if (!command.devices.starts_with(kSimulatorPrefix)) {
-    throw UsageError("--devices: expected simulator:FOLDER, found " + printable(command.devices));
+    throw UsageError("--devices: expected hardware:FILE or simulator:FOLDER, found " +
+                     printable(command.devices));
   }
   const std::filesystem::path folder = command.devices.substr(kSimulatorPrefix.size());
   const auto folders = find_capture_folders(folder);

@@ -17,9 +17,9 @@
 namespace traygauge {
 
 struct StationCommand {
-  std::string devices;      // "simulator:FOLDER"
+  std::string devices;      // "hardware:FILE" or "simulator:FOLDER"
   std::string faults;       // a fault script; empty: nothing goes wrong
-  std::uint64_t scans = 0;  // 0: every capture once
+  std::uint64_t scans = 0;  // 0: every capture once; on hardware without end
   bool json = false;
   bool by_hand = false;  // no arm: a second press takes the second view
   double second_view_deg = StationParams{}.second_view_deg;

@@ -16,7 +16,12 @@ StationState Station::start_devices() {
 
 Station::Opening Station::open_all() {
   if (const DeviceStatus status = devices_.trigger.start(); !status.ok()) return {&devices_.trigger, status};
-  if (const DeviceStatus status = open_camera(); !status.ok()) return {&devices_.camera, status};
+  if (const DeviceStatus status = open_camera(devices_.camera); !status.ok())
+    return {&devices_.camera, status};
+  if (devices_.second_camera != nullptr) {
+    const DeviceStatus status = open_camera(*devices_.second_camera);
+    if (!status.ok()) return {devices_.second_camera, status};
+  }
   if (devices_.arm == nullptr) return {};
   DeviceStatus status = devices_.arm->start();
   if (status.ok() && !devices_.arm->is_homed()) status = devices_.arm->home(params_.arm_timeout);
@@ -24,14 +29,15 @@ Station::Opening Station::open_all() {
   return status.ok() ? Opening{} : Opening{devices_.arm, status};
 }
 
-DeviceStatus Station::open_camera() {
-  const DeviceStatus status = devices_.camera.start();
+DeviceStatus Station::open_camera(Camera& camera) {
+  const DeviceStatus status = camera.start();
   if (!status.ok()) return status;
-  const CameraFormat format = devices_.camera.format();
+  const CameraFormat format = camera.format();
   const std::size_t frame_bytes = format.frame_bytes();
-  for (View* view : {&first_, &second_}) {
-    if (view->pixels.size() != frame_bytes) view->pixels.resize(frame_bytes);
-  }
+  View& view = &camera == &devices_.camera ? first_ : second_;
+  if (view.pixels.size() != frame_bytes) view.pixels.resize(frame_bytes);
+  if (devices_.second_camera == nullptr && second_.pixels.size() != frame_bytes)
+    second_.pixels.resize(frame_bytes);
   for (BlockMeans& means : means_) means.reserve(format.width, format.height);
   return status;
 }
@@ -64,12 +70,14 @@ void Station::confirm_recovery() {
 
 void Station::close(const Device& device) {
   if (&device == &devices_.camera) devices_.camera.stop();
+  if (&device == devices_.second_camera) devices_.second_camera->stop();
   if (&device == &devices_.trigger) devices_.trigger.stop();
   if (&device == devices_.arm) devices_.arm->stop();
 }
 
 void Station::close_all() {
   devices_.camera.stop();
+  second_camera().stop();
   devices_.trigger.stop();
   if (devices_.arm != nullptr) devices_.arm->stop();
   devices_.lamp.stop();

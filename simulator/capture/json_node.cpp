@@ -118,6 +118,11 @@ bool JsonNode::is_text() const {
   return value_->is_string();
 }
 
+bool JsonNode::truth() const {
+  if (!value_->is_boolean()) fail("true or false", "correct the value");
+  return value_->get<bool>();
+}
+
 std::string JsonNode::text() const {
   std::string text = value_->is_string() ? value_->get<std::string>() : std::string();
   if (text.empty()) fail("a text that is not empty", "put it in quotes");

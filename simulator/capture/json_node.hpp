@@ -30,6 +30,7 @@ class JsonNode {
   int integer(int min, int max) const;
   std::string text() const;  // not empty
   bool is_text() const;
+  bool truth() const;  // true or false
   std::vector<double> numbers(std::size_t count, NumberRange range) const;
 
   const std::filesystem::path& file() const { return *file_; }

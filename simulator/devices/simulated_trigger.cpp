@@ -43,7 +43,7 @@ DeviceStatus SimulatedTrigger::do_wait_for_press(Nanoseconds timeout, Press& pre
   return DeviceCode::ok;
 }
 
-int SimulatedTrigger::do_pending() const {
+int SimulatedTrigger::do_pending() {
   const Instant now = clock_.now();
   int pending = static_cast<int>(
       std::count_if(edges_.begin(), edges_.end(), [now](const Edge& edge) { return edge.seen_at <= now; }));

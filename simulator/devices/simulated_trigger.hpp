@@ -48,7 +48,7 @@ class SimulatedTrigger final : public Trigger {
   DeviceStatus do_start() override { return faults_.next_start(clock_.now()); }
   void do_stop() override {}
   DeviceStatus do_wait_for_press(Nanoseconds timeout, Press& press) override;
-  int do_pending() const override;
+  int do_pending() override;
   void do_discard_pending() override;
 
   Instant next_press() const;

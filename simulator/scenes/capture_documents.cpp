@@ -4,6 +4,7 @@
 #include <cmath>
 #include <string>
 
+#include "simulator/capture/capture_document.hpp"
 #include "simulator/scenes/scene_poses.hpp"
 
 namespace traygauge {
@@ -94,16 +95,9 @@ void add_angles(Json& json, const LaidScene& laid) {
 }  // namespace
 
 Json compose_capture(const SceneDescription& scene) {
-  const CameraDescription& camera = scene.photography.camera;
   Json json;
   json["version"] = 1;
-  json["camera"] = {{"width", camera.size.width},
-                    {"height", camera.size.height},
-                    {"fx", camera.fx_px},
-                    {"fy", camera.fy_px},
-                    {"cx", camera.cx_px},
-                    {"cy", camera.cy_px},
-                    {"distortion", camera.distortion}};
+  json["camera"] = compose_camera(scene.photography.camera);
   json["card"] = {{"pattern", "card.png"},
                   {"width_mm", scene.card.width_mm},
                   {"height_mm", scene.card.height_mm},

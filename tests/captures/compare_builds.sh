@@ -1,6 +1,7 @@
 #!/bin/sh
 # Largest difference of any volume between two builds, say release and debug, over captures.
 # Usage: compare_builds.sh BUILD_A BUILD_B CAPTURE...   (build folders that hold the program `traygauge`)
+# RUN_B: what runs the program of BUILD_B, an emulator say. LIMIT_ML: a larger difference is a failure.
 set -eu
 if [ $# -lt 3 ]; then
   echo "usage: $0 BUILD_A BUILD_B CAPTURE..." >&2
@@ -12,7 +13,7 @@ shift 2
 
 # label, volume and status of each item, one a line, from the document's "items"
 list_volumes() {
-  "$1/traygauge" measure "$2" --json --seed 1 | tr -d ' \n' | sed 's/.*"items":\[\([^]]*\)\].*/\1/' |
+  ${3:-} "$1/traygauge" measure "$2" --json --seed 1 | tr -d ' \n' | sed 's/.*"items":\[\([^]]*\)\].*/\1/' |
     tr '}' '\n' | sed -n 's/.*"label":\([0-9]*\).*"volume_ml":\([0-9.eE+-]*\).*/\1 \2/p'
 }
 
@@ -20,14 +21,14 @@ work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 for capture; do
   list_volumes "$build_a" "$capture" >"$work/a"
-  list_volumes "$build_b" "$capture" >"$work/b"
+  list_volumes "$build_b" "$capture" "${RUN_B:-}" >"$work/b"
   if [ ! -s "$work/a" ] || [ "$(wc -l <"$work/a")" != "$(wc -l <"$work/b")" ]; then
     echo "$capture: the builds measured different items" >&2
     exit 1
   fi
   paste -d ' ' "$work/a" "$work/b" | sed "s|\$| $(basename "$capture")|" >>"$work/all"
 done
-awk '{ difference = $2 - $4; if (difference < 0) difference = -difference
+awk -v limit="${LIMIT_ML:-1e9}" '{ difference = $2 - $4; if (difference < 0) difference = -difference
        printf "%s item %s: %.6f ml and %.6f ml\n", $5, $1, $2, $4
        if (difference > largest) largest = difference }
-     END { printf "largest difference: %.6g ml\n", largest }' "$work/all"
+     END { printf "largest difference: %.6g ml\n", largest; exit largest > limit }' "$work/all"

@@ -1,5 +1,6 @@
-// The devices that every contract test runs on. A rig holds one device and what it needs; hardware joins by a
-// rig of its own, whose maker returns null where the hardware is absent (the test is then skipped).
+// The devices that every contract test runs on: simulated ones, the drivers on models of the kernel, and
+// where TRAYGAUGE_BOARD_GPIO and TRAYGAUGE_BOARD_CAMERAS are set, on a kernel's own devices (tests/board). A
+// rig holds one device and what it needs.
 #pragma once
 
 #include <functional>
@@ -37,9 +38,22 @@ struct RigMaker {
   friend std::ostream& operator<<(std::ostream& out, const RigMaker& maker) { return out << maker.name; }
 };
 
-std::vector<RigMaker<Rig<Camera>>> camera_rigs();
-std::vector<RigMaker<Rig<Arm>>> arm_rigs();
-std::vector<RigMaker<Rig<Indicator>>> indicator_rigs();
-std::vector<RigMaker<TriggerRig>> trigger_rigs();
+template <class RigType>
+using RigMakers = std::vector<RigMaker<RigType>>;
+
+RigMakers<Rig<Camera>> camera_rigs();
+RigMakers<Rig<Arm>> arm_rigs();
+RigMakers<Rig<Indicator>> indicator_rigs();
+RigMakers<TriggerRig> trigger_rigs();
+
+// What the above are made of.
+RigMakers<Rig<Camera>> simulated_camera_rigs();
+RigMakers<Rig<Arm>> simulated_arm_rigs();
+RigMakers<Rig<Indicator>> simulated_indicator_rigs();
+RigMakers<TriggerRig> simulated_trigger_rigs();
+RigMakers<Rig<Camera>> v4l2_rigs();
+RigMakers<Rig<Arm>> gpio_arm_rigs();  // and the serial one
+RigMakers<Rig<Indicator>> gpio_indicator_rigs();
+RigMakers<TriggerRig> gpio_trigger_rigs();
 
 }  // namespace traygauge

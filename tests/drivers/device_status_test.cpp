@@ -29,5 +29,14 @@ TEST(DeviceStatus, KeepsTheSystemsError) {
   EXPECT_EQ(status.error_number(), ENODEV);
 }
 
+TEST(DeviceStatus, SaysWhatAnErrnoMeans) {
+  EXPECT_TRUE(status_of_errno(0).ok());
+  EXPECT_EQ(status_of_errno(ENODEV).code(), DeviceCode::device_gone);
+  EXPECT_EQ(status_of_errno(EACCES).code(), DeviceCode::no_permission);
+  EXPECT_EQ(status_of_errno(EBUSY).code(), DeviceCode::in_use);
+  EXPECT_EQ(status_of_errno(EIO).code(), DeviceCode::io_error);
+  EXPECT_EQ(status_of_errno(EIO).error_number(), EIO);
+}
+
 }  // namespace
 }  // namespace traygauge

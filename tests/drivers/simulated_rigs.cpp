@@ -56,16 +56,16 @@ class SimulatedTriggerRig final : public TriggerRig {
 
 }  // namespace
 
-std::vector<RigMaker<Rig<Camera>>> camera_rigs() {
+RigMakers<Rig<Camera>> simulated_camera_rigs() {
   return {{"simulated", [] { return std::make_unique<SimulatedCameraRig>(); }}};
 }
-std::vector<RigMaker<Rig<Arm>>> arm_rigs() {
+RigMakers<Rig<Arm>> simulated_arm_rigs() {
   return {{"simulated", [] { return std::make_unique<SimulatedArmRig>(); }}};
 }
-std::vector<RigMaker<Rig<Indicator>>> indicator_rigs() {
+RigMakers<Rig<Indicator>> simulated_indicator_rigs() {
   return {{"simulated", [] { return std::make_unique<SimulatedIndicatorRig>(); }}};
 }
-std::vector<RigMaker<TriggerRig>> trigger_rigs() {
+RigMakers<TriggerRig> simulated_trigger_rigs() {
   return {{"simulated", [] { return std::make_unique<SimulatedTriggerRig>(); }}};
 }
 

@@ -48,12 +48,15 @@ class FakeMeasurer final : public Measurer {
     if (measurement_.status.ok()) measurement_.status = judge_views();
     if (grays_.size() == 2) item_.volume_ml = 10.0 * grays_[0] + grays_[1];
     if (measurement_.status.ok() || status.code() == StatusCode::partial) measurement_.items = {&item_, 1};
+    measurement_.warn(Warning::arm_angle_disagrees, disagreements > 0);
+    if (disagreements > 0) --disagreements;
     return measurement_;
   }
   std::string_view tray_name() const override { return "tray"; }
 
   Status first_view_status;
   Status status;
+  int disagreements = 0;  // measurements that show another angle than the arm's
   CameraFormat camera_format;
   std::function<bool()> on_view;
   std::function<void()> on_measure;

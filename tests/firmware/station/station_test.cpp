@@ -104,6 +104,32 @@ TEST(Station, AsksToTryAgainWhenTheTrayIsNotMeasurable) {
   EXPECT_EQ(rig.signals(), (Signals{ready, hold_still, busy, try_again}));
 }
 
+TEST(Station, MeasuresAgainOnceWhenThePicturesContradictTheArm) {
+  StationRig rig(1);
+  rig.measurer.disagreements = 1;
+  EXPECT_TRUE(rig.run().all_worked());
+  EXPECT_EQ(rig.sink.lines, Lines{"1 measured ok 320"});
+  EXPECT_EQ(rig.measurer.scans, 2);
+  EXPECT_EQ(rig.signals(), (Signals{ready, hold_still, busy, hold_still, busy, done}));
+}
+
+TEST(Station, RefusesWhenThePicturesContradictTheArmTwice) {
+  StationRig rig(2);
+  rig.measurer.disagreements = 2;
+  EXPECT_FALSE(rig.run().all_worked());
+  EXPECT_EQ(rig.sink.lines, (Lines{"1 device_failed simulated arm stalled", "2 measured ok 540"}));
+  EXPECT_TRUE(rig.arm.true_position_deg() == 0.0);
+}
+
+TEST(Station, TellsWhenTheArmFailsOnItsWayToASecondTry) {
+  StationRig rig(1);
+  rig.measurer.disagreements = 1;
+  rig.arm.faults().add({DeviceCode::stalled, 5, 1});
+  rig.run();
+  ASSERT_FALSE(rig.sink.lines.empty());
+  EXPECT_EQ(rig.sink.lines[0], "1 device_failed simulated arm stalled");
+}
+
 TEST(Station, CountsAPartialMeasurementAsMeasured) {
   StationRig rig(1);
   rig.measurer.status = StatusCode::partial;
@@ -169,6 +195,51 @@ TEST(StationByHand, TakesTheSecondViewAtTheSecondPress) {
   const Signals twice{ready, hold_still, ready, hold_still, busy, done,
                       ready, hold_still, ready, hold_still, busy, done};
   EXPECT_EQ(rig.signals(), twice);
+}
+
+TEST(StationWithTwoCameras, TakesBothViewsAfterOnePress) {
+  StationRig rig(3, false);
+  // The other camera looks at the other view.
+  SyntheticCaptures captures(std::vector<SyntheticCapture>(3));
+  TrayPlayer other_side(captures, CameraMover::hand);
+  SimulatedCamera second(rig.clock, other_side, nullptr);
+  rig.trigger.before_press([&] {
+    rig.player.handle_press();
+    other_side.handle_press();
+    other_side.handle_press();
+  });
+  const auto new_scan = [&](Signal signal) {
+    rig.player.handle_signal(signal);
+    other_side.handle_signal(signal);
+  };
+  rig.lamp.on_signal(new_scan);
+  rig.devices.emplace(StationDevices{rig.camera, rig.trigger, nullptr, rig.lamp, rig.clock, &second});
+  rig.params.max_scans = 3;
+  EXPECT_TRUE(rig.run().all_worked());
+  EXPECT_EQ(rig.sink.lines, (Lines{"1 measured ok 320", "2 measured ok 540", "3 measured ok 760"}));
+  EXPECT_FALSE(second.is_started());
+}
+
+TEST(StationWithTwoCameras, TellsWhichOneFailsAndGoesOn) {
+  StationRig rig(2, false);
+  SyntheticCaptures captures(std::vector<SyntheticCapture>(2));
+  TrayPlayer other_side(captures, CameraMover::hand);
+  SimulatedCamera second(rig.clock, other_side, nullptr);
+  rig.trigger.before_press([&] {
+    rig.player.handle_press();
+    other_side.handle_press();
+    other_side.handle_press();
+  });
+  rig.lamp.on_signal([&](Signal signal) {
+    rig.player.handle_signal(signal);
+    other_side.handle_signal(signal);
+  });
+  second.faults().add({DeviceCode::device_gone, 1, 1});
+  rig.devices.emplace(StationDevices{rig.camera, rig.trigger, nullptr, rig.lamp, rig.clock, &second});
+  rig.params.max_scans = 2;
+  rig.run();
+  EXPECT_EQ(rig.sink.lines, (Lines{"1 device_failed simulated camera device_gone", "recovery all devices",
+                                   "2 measured ok 540"}));
 }
 
 TEST(StationByHand, GivesUpWhenTheSecondPressDoesNotCome) {

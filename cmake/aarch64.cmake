@@ -1,0 +1,21 @@
+# Cross-builds for 64-bit ARM with Debian's compiler and the sysroot that tests/board/make_sysroot.sh makes.
+set(CMAKE_SYSTEM_NAME Linux)
+set(CMAKE_SYSTEM_PROCESSOR aarch64)
+set(TRAYGAUGE_SYSROOT "${CMAKE_CURRENT_LIST_DIR}/../build-board/sysroot-arm64" CACHE PATH "Libraries of the board")
+set(CMAKE_TRY_COMPILE_PLATFORM_VARIABLES TRAYGAUGE_SYSROOT)
+get_filename_component(CMAKE_SYSROOT "${TRAYGAUGE_SYSROOT}" REALPATH)
+set(CMAKE_LIBRARY_ARCHITECTURE aarch64-linux-gnu)
+set(CMAKE_CXX_COMPILER aarch64-linux-gnu-g++)
+set(CMAKE_FIND_ROOT_PATH ${CMAKE_SYSROOT})
+set(CMAKE_FIND_ROOT_PATH_MODE_PROGRAM NEVER)
+set(CMAKE_FIND_ROOT_PATH_MODE_LIBRARY ONLY)
+set(CMAKE_FIND_ROOT_PATH_MODE_INCLUDE ONLY)
+set(CMAKE_FIND_ROOT_PATH_MODE_PACKAGE ONLY)
+# OpenCV's own needs, which we do not name.
+set(needs ${CMAKE_SYSROOT}/usr/lib/aarch64-linux-gnu)
+set(CMAKE_EXE_LINKER_FLAGS_INIT "-Wl,-rpath-link,${needs}:${needs}/blas:${needs}/lapack")
+# Tests run under user-mode emulation.
+find_program(TRAYGAUGE_QEMU NAMES qemu-aarch64-static qemu-aarch64)
+if(TRAYGAUGE_QEMU)
+  set(CMAKE_CROSSCOMPILING_EMULATOR "${TRAYGAUGE_QEMU};-L;${CMAKE_SYSROOT}")
+endif()

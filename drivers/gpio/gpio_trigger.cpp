@@ -1,0 +1,91 @@
+#include "drivers/gpio/gpio_trigger.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace traygauge {
+namespace {
+
+// Between two looks at whether the button is stuck.
+constexpr Nanoseconds kLongestWait = std::chrono::milliseconds(200);
+
+}  // namespace
+
+GpioTrigger::GpioTrigger(std::unique_ptr<GpioLine> line, Clock& clock, const GpioTriggerParams& params)
+    : Trigger("button " + params.line.line), line_(std::move(line)), clock_(clock), params_(params) {}
+
+DeviceStatus GpioTrigger::do_start() {
+  set_detail({});
+  presses_.clear();
+  sequence_ = 0;
+  DeviceStatus status = line_->open_edges();
+  if (!status.ok()) set_detail(line_->problem());
+  if (!status.ok()) return status;
+  status = line_->read(is_active_);
+  if (status.ok() && is_active_) status = DeviceCode::stuck;
+  if (!status.ok()) line_->close();
+  last_edge_at_ = clock_.now() - params_.debounce;
+  return status;
+}
+
+// Edges may be lost when many come at once: two to active in a row belong to one press.
+void GpioTrigger::take(const GpioEdge& edge) {
+  const bool was_open = !is_active_ && edge.at - last_edge_at_ >= params_.debounce;
+  if (edge.to_active && was_open) presses_.push_back(edge.at);
+  is_active_ = edge.to_active;
+  last_edge_at_ = edge.at;
+}
+
+DeviceStatus GpioTrigger::take_waiting_edges() {
+  while (true) {
+    GpioEdge edge;
+    const DeviceStatus status = line_->wait_for_edge(Nanoseconds::zero(), edge);
+    if (status.code() == DeviceCode::timed_out) break;
+    if (!status.ok()) return status;
+    take(edge);
+  }
+  // Where the last edge was lost, the line itself tells.
+  bool is_active = is_active_;
+  const DeviceStatus status = line_->read(is_active);
+  const bool has_settled = clock_.now() - last_edge_at_ >= params_.debounce;
+  if (status.ok() && is_active != is_active_ && has_settled) {
+    is_active_ = is_active;
+    last_edge_at_ = clock_.now();
+  }
+  return status;
+}
+
+bool GpioTrigger::is_stuck() const {
+  return is_active_ && clock_.now() - last_edge_at_ >= params_.stuck_after;
+}
+
+DeviceStatus GpioTrigger::do_wait_for_press(Nanoseconds timeout, Press& press) {
+  const Instant deadline = clock_.now() + timeout;
+  while (true) {
+    if (const DeviceStatus status = take_waiting_edges(); !status.ok()) return status;
+    if (!presses_.empty()) {
+      press = {presses_.front(), ++sequence_};
+      presses_.pop_front();
+      return DeviceCode::ok;
+    }
+    if (is_stuck()) return DeviceCode::stuck;
+    const Nanoseconds left = deadline - clock_.now();
+    if (left <= Nanoseconds::zero()) return DeviceCode::timed_out;
+    GpioEdge edge;
+    const DeviceStatus status = line_->wait_for_edge(std::min(left, kLongestWait), edge);
+    if (status.ok()) take(edge);
+    if (!status.ok() && status.code() != DeviceCode::timed_out) return status;
+  }
+}
+
+int GpioTrigger::do_pending() {
+  static_cast<void>(take_waiting_edges());  // what fails is told by the next wait
+  return static_cast<int>(presses_.size());
+}
+
+void GpioTrigger::do_discard_pending() {
+  static_cast<void>(take_waiting_edges());
+  presses_.clear();
+}
+
+}  // namespace traygauge

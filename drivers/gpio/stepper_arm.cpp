@@ -1,0 +1,237 @@
+#include "drivers/gpio/stepper_arm.hpp"
+
+#include <cmath>
+#include <cstdlib>
+#include <utility>
+
+#include "drivers/gpio/step_profile.hpp"
+
+namespace traygauge {
+namespace {
+
+// Homing looks this much further than the arm can stand.
+constexpr double kSearchMargin_deg = 10.0;
+constexpr Nanoseconds kWaitStep = std::chrono::milliseconds(1);
+constexpr Nanoseconds kLongestPause = std::chrono::milliseconds(4);     // a motor's inertia bridges no more
+constexpr Nanoseconds kDirectionSetup = std::chrono::microseconds(20);  // before the next step
+
+Nanoseconds seconds(double count) {
+  return std::chrono::round<Nanoseconds>(std::chrono::duration<double>(count));
+}
+
+}  // namespace
+
+StepperArm::StepperArm(StepperLines lines, Clock& clock, const StepperArmParams& params)
+    : Arm("arm"), lines_(std::move(lines)), clock_(clock), params_(params) {}
+
+std::int64_t StepperArm::steps_at(double angle_deg) const {
+  return std::llround(angle_deg * params_.steps_per_deg);
+}
+
+DeviceStatus StepperArm::do_start() {
+  set_detail({});
+  const DeviceStatus status = open_lines();
+  if (!status.ok()) {
+    close_lines();
+    return status;
+  }
+  must_end_ = false;
+  must_halt_ = false;
+  goal_ = Goal::none;
+  worker_ = std::thread([this] { work(); });
+  return DeviceCode::ok;
+}
+
+DeviceStatus StepperArm::open_lines() {
+  DeviceStatus status = lines_.step->open_output(false);
+  const GpioLine* last = lines_.step.get();
+  const auto open_next = [&](GpioLine* line, bool is_input, bool active) {
+    if (line == nullptr || !status.ok()) return;
+    last = line;
+    status = is_input ? line->open_input() : line->open_output(active);
+  };
+  open_next(lines_.direction.get(), false, false);
+  open_next(lines_.home.get(), true, false);
+  open_next(lines_.enable.get(), false, true);
+  if (!status.ok()) set_detail(last->problem());
+  return status;
+}
+
+void StepperArm::close_lines() {
+  if (lines_.enable) {
+    lines_.enable->close();
+  }
+  lines_.home->close();
+  lines_.direction->close();
+  lines_.step->close();
+}
+
+void StepperArm::do_stop() {
+  {
+    const std::lock_guard lock(mutex_);
+    must_end_ = true;
+    must_halt_ = true;
+  }
+  changed_.notify_all();
+  worker_.join();
+  if (lines_.enable) static_cast<void>(lines_.enable->write(false));  // an error leaves nothing to do
+  close_lines();
+}
+
+void StepperArm::begin(Goal goal, std::int64_t target) {
+  {
+    const std::lock_guard lock(mutex_);
+    goal_ = goal;
+    target_ = target;
+    must_halt_ = false;
+    problem_ = "";
+  }
+  changed_.notify_all();
+}
+
+// Waits for the worker, and once it is done for the arm to stop swinging. Beyond the timeout it halts.
+DeviceStatus StepperArm::finish(Nanoseconds timeout) {
+  const Instant deadline = clock_.now() + timeout;
+  const auto is_busy = [this] {
+    const std::lock_guard lock(mutex_);
+    return goal_ != Goal::none;
+  };
+  while (is_busy() && clock_.now() < deadline) clock_.sleep_for(kWaitStep);
+  if (is_busy() || deadline - clock_.now() < params_.settling_time) {
+    must_halt_ = true;
+    while (is_busy()) clock_.sleep_for(kWaitStep);
+    return DeviceCode::timed_out;
+  }
+  DeviceStatus result;
+  {
+    const std::lock_guard lock(mutex_);
+    set_detail(problem_);
+    result = result_;
+  }
+  if (result.ok()) clock_.sleep_for(params_.settling_time);
+  return result;
+}
+
+DeviceStatus StepperArm::do_home(Nanoseconds timeout) {
+  begin(Goal::home, 0);
+  return finish(timeout);
+}
+
+DeviceStatus StepperArm::do_begin_move_to(double angle_deg) {
+  {
+    const std::lock_guard lock(mutex_);
+    if (goal_ != Goal::none) return DeviceCode::busy;
+  }
+  begin(Goal::position, steps_at(angle_deg));
+  return DeviceCode::ok;
+}
+
+DeviceStatus StepperArm::do_wait_until_still(Nanoseconds timeout) {
+  return finish(timeout);
+}
+
+DeviceStatus StepperArm::do_read_position(double& angle_deg) {
+  angle_deg = static_cast<double>(position_) / params_.steps_per_deg;
+  return DeviceCode::ok;
+}
+
+void StepperArm::work() {
+  std::unique_lock lock(mutex_);
+  while (true) {
+    changed_.wait(lock, [this] { return must_end_ || goal_ != Goal::none; });
+    if (must_end_) return;
+    const Goal goal = goal_;
+    const std::int64_t target = target_;
+    lock.unlock();
+    const DeviceStatus result = carry_out(goal, target);
+    lock.lock();
+    result_ = result;
+    goal_ = Goal::none;
+  }
+}
+
+DeviceStatus StepperArm::carry_out(Goal goal, std::int64_t target) {
+  return goal == Goal::home ? go_home() : go_to(target);
+}
+
+// Off the switch when it is closed, then slowly onto it: the place where it closes is 0.
+DeviceStatus StepperArm::go_home() {
+  const std::int64_t reach = steps_at(params_.limits.max_deg + kSearchMargin_deg);
+  bool is_closed = false;
+  DeviceStatus status = lines_.home->read(is_closed);
+  if (status.ok() && is_closed) {
+    status = run(steps_at(params_.home_overlap_deg) + 1, true, params_.homing_speed_deg_per_s, false);
+    if (status.ok()) {
+      status =
+          expect_switch(false, "the home switch stays closed: the arm does not move, or the switch hangs");
+    }
+  }
+  if (status.ok()) status = run(reach, false, params_.homing_speed_deg_per_s, true);
+  if (status.ok()) {
+    status =
+        expect_switch(true, "the home switch did not close: check the switch, the motor and what blocks it");
+  }
+  if (status.ok()) position_ = 0;
+  return status;
+}
+
+DeviceStatus StepperArm::go_to(std::int64_t target) {
+  const std::int64_t from = position_;
+  const DeviceStatus status =
+      run(std::abs(target - from), target > from, params_.speed_deg_per_s, std::nullopt);
+  if (!status.ok()) return status;
+  if (target == 0) return expect_switch(true, "back at 0 the home switch is open: steps were lost");
+  if (target > steps_at(params_.home_overlap_deg)) {
+    return expect_switch(false, "away from home the home switch is closed: the arm does not move");
+  }
+  return DeviceCode::ok;
+}
+
+DeviceStatus StepperArm::expect_switch(bool closed, const char* otherwise) {
+  bool is_closed = false;
+  const DeviceStatus status = lines_.home->read(is_closed);
+  if (!status.ok() || is_closed == closed || must_halt_) return status;
+  const std::lock_guard lock(mutex_);
+  problem_ = otherwise;
+  return DeviceCode::stalled;
+}
+
+DeviceStatus StepperArm::run(std::int64_t steps, bool away, double speed_deg_per_s,
+                             std::optional<bool> until) {
+  DeviceStatus status = lines_.direction->write(away);
+  clock_.sleep_for(kDirectionSetup);
+  const double speed = speed_deg_per_s * params_.steps_per_deg;
+  const double acceleration = params_.acceleration_deg_per_s2 * params_.steps_per_deg;
+  StepProfile profile(steps, speed, acceleration);
+  Instant begun_at = clock_.now();
+  std::int64_t done = 0;  // before `profile` begins
+  for (std::int64_t i = 1; status.ok() && i <= steps && !must_halt_; ++i) {
+    const Instant due = begun_at + seconds(profile.time_s(i - done));
+    clock_.sleep_until(due);
+    const Nanoseconds late = clock_.now() - due;
+    // Steps that are due all at once would be lost; after a pause the motor stands and has to begin anew.
+    begun_at += late;
+    if (late > kLongestPause) {
+      done = i - 1;
+      profile = StepProfile(steps - done, speed, acceleration);
+      begun_at = clock_.now();
+    }
+    status = make_step(away);
+    bool is_closed = false;
+    if (status.ok() && until) {
+      status = lines_.home->read(is_closed);
+      if (is_closed == *until) break;
+    }
+  }
+  return status;
+}
+
+DeviceStatus StepperArm::make_step(bool away) {
+  DeviceStatus status = lines_.step->write(true);
+  clock_.sleep_for(params_.pulse);
+  if (status.ok()) status = lines_.step->write(false);
+  if (status.ok()) position_ += away ? 1 : -1;
+  return status;
+}
+
+}  // namespace traygauge

@@ -1,0 +1,96 @@
+#include "drivers/pixels/frame_converter.hpp"
+
+#include <bit>
+#include <cstdlib>
+#include <cstring>
+
+#include "drivers/pixels/bayer.hpp"
+#include "drivers/pixels/yuv.hpp"
+
+namespace traygauge {
+
+FrameConverter::FrameConverter(const RawFormat& format, int width, int height, std::ptrdiff_t stride_bytes)
+    : format_(format), width_(width), height_(height), stride_bytes_(stride_bytes) {
+  if (format.encoding == RawEncoding::bayer) scratch_.resize(bayer_scratch_bytes(width));
+  if (format.encoding == RawEncoding::mjpeg) jpeg_.emplace();
+}
+
+bool FrameConverter::is_whole(std::span<const std::uint8_t> bytes) {
+  problem_ = {};
+  if (format_.encoding == RawEncoding::mjpeg) {
+    if (jpeg_length(bytes) == 0) problem_ = "a JPEG picture without its beginning or end";
+  } else if (bytes.size() < frame_bytes(format_, width_, height_, stride_bytes_)) {
+    problem_ = "a picture with rows missing";
+  }
+  return problem_.empty();
+}
+
+bool FrameConverter::convert(std::span<const std::uint8_t> bytes, std::uint8_t* out) {
+  const RawFrame frame{bytes, width_, height_, stride_bytes_};
+  switch (format_.encoding) {
+    case RawEncoding::yuyv:
+      convert_yuyv(frame, out);
+      break;
+    case RawEncoding::nv12:
+      convert_nv12(frame, out);
+      break;
+    case RawEncoding::bayer:
+      convert_bayer(format_, frame, scratch_, out);
+      break;
+    case RawEncoding::mjpeg:
+      if (jpeg_->decode(bytes.first(jpeg_length(bytes)), width_, height_, out)) break;
+      problem_ = jpeg_->problem();
+      return false;
+    case RawEncoding::grey:
+    case RawEncoding::rgb24:
+    case RawEncoding::bgr24:
+      copy_rows(frame, out);
+      break;
+  }
+  return true;
+}
+
+void FrameConverter::copy_rows(const RawFrame& frame, std::uint8_t* out) const {
+  const std::size_t bytes = row_bytes(format_, width_);
+  for (int y = 0; y < height_; ++y) {
+    std::memcpy(out + static_cast<std::size_t>(y) * bytes, frame.bytes.data() + y * stride_bytes_, bytes);
+  }
+}
+
+// Differences between neighbours of one colour, squared, in every eighth row.
+double FrameConverter::sharpness(std::span<const std::uint8_t> bytes) const {
+  if (format_.encoding == RawEncoding::mjpeg) return static_cast<double>(jpeg_length(bytes));
+  const bool has_two_bytes = format_.encoding == RawEncoding::bayer && format_.bits > 8 && !format_.is_packed;
+  const std::size_t row = row_bytes(format_, width_);
+  std::size_t step = 2;  // YUYV: grey to grey; mosaic: colour to colour
+  if (format_.encoding == RawEncoding::rgb24 || format_.encoding == RawEncoding::bgr24) step = 3;
+  if (has_two_bytes) step = 4;
+  constexpr int kRowStep = 8;
+  double sum = 0.0;
+  for (int y = 0; y < height_; y += kRowStep) {
+    const std::uint8_t* const pixels = bytes.data() + y * stride_bytes_ + (has_two_bytes ? 1 : 0);
+    std::int64_t row_sum = 0;
+    for (std::size_t i = 0; i + step < row - (has_two_bytes ? 1 : 0); i += step) {
+      const int difference = pixels[i] - pixels[i + step];
+      row_sum += std::int64_t{difference} * difference;
+    }
+    sum += static_cast<double>(row_sum);
+  }
+  return sum;
+}
+
+std::uint64_t fingerprint(std::span<const std::uint8_t> bytes) {
+  constexpr std::uint64_t kOdd = 0x9e3779b97f4a7c15U;
+  std::uint64_t sum = bytes.size();
+  std::size_t i = 0;
+  std::uint64_t word = 0;
+  for (; i + sizeof(word) <= bytes.size(); i += sizeof(word)) {
+    std::memcpy(&word, bytes.data() + i, sizeof(word));
+    sum = std::rotl((sum ^ word) * kOdd, 31);
+  }
+  word = 0;
+  if (i < bytes.size()) std::memcpy(&word, bytes.data() + i, bytes.size() - i);
+  return (sum ^ word) * kOdd;
+}
+
+}  // namespace traygauge

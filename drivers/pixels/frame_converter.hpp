@@ -1,0 +1,51 @@
+// A camera's raw pictures, checked and converted.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "drivers/pixels/jpeg_decoder.hpp"
+#include "drivers/pixels/raw_format.hpp"
+
+namespace traygauge {
+
+// For one format and size. Takes its memory at construction; converting allocates nothing, but for MJPEG,
+// see JpegDecoder.
+class FrameConverter {
+ public:
+  // is_size_supported() holds. `stride_bytes`: of the camera's rows; not used for MJPEG.
+  FrameConverter(const RawFormat& format, int width, int height, std::ptrdiff_t stride_bytes);
+
+  const RawFormat& format() const { return format_; }
+  int width() const { return width_; }
+  int height() const { return height_; }
+  PixelFormat pixels() const { return converted_pixels(format_); }
+
+  // Whether these bytes can hold a picture from its first to its last byte; problem() says why not.
+  bool is_whole(std::span<const std::uint8_t> bytes);
+  // Of a whole one. False when it turns out damaged; `out` has room for width × height pixels.
+  bool convert(std::span<const std::uint8_t> bytes, std::uint8_t* out);
+  // How much fine detail a whole picture has. Compares pictures of one scene; no unit. For MJPEG its length:
+  // at one quality, detail is what takes bytes.
+  double sharpness(std::span<const std::uint8_t> bytes) const;
+  std::string_view problem() const { return problem_; }
+
+ private:
+  void copy_rows(const RawFrame& frame, std::uint8_t* out) const;
+
+  RawFormat format_;
+  int width_;
+  int height_;
+  std::ptrdiff_t stride_bytes_;
+  std::vector<std::uint8_t> scratch_;
+  std::optional<JpegDecoder> jpeg_;
+  std::string_view problem_;
+};
+
+// A fingerprint of the bytes: equal pictures have equal ones.
+std::uint64_t fingerprint(std::span<const std::uint8_t> bytes);
+
+}  // namespace traygauge

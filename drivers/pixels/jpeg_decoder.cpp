@@ -1,0 +1,100 @@
+#include "drivers/pixels/jpeg_decoder.hpp"
+
+#include <csetjmp>
+#include <cstddef>
+#include <cstdio>  // jpeglib.h needs FILE
+// jpeglib.h relies on the two above.
+#include <jpeglib.h>
+
+#include <algorithm>
+#include <array>
+
+namespace traygauge {
+namespace {
+
+constexpr std::uint8_t kMarker = 0xFF;
+constexpr std::uint8_t kStart = 0xD8;
+constexpr std::uint8_t kEnd = 0xD9;
+constexpr int kRowsAtOnce = 16;  // what the library decodes at once when colours have half the resolution
+
+}  // namespace
+
+std::size_t jpeg_length(std::span<const std::uint8_t> bytes) {
+  if (bytes.size() < 4 || bytes[0] != kMarker || bytes[1] != kStart) return 0;
+  // Cameras pad with zeros up to a transfer's size, some with 0xFF.
+  std::size_t length = bytes.size();
+  while (length > 2 && (bytes[length - 1] == 0 || bytes[length - 1] == kMarker)) --length;
+  return bytes[length - 2] == kMarker && bytes[length - 1] == kEnd ? length : 0;
+}
+
+// libjpeg reports by leaving through longjmp, so no object with a destructor is born below setjmp.
+struct JpegDecoder::State {
+  jpeg_decompress_struct library{};
+  jpeg_error_mgr errors{};
+  std::jmp_buf escape{};
+  std::array<char, JMSG_LENGTH_MAX> message{};
+
+  static State& of(j_common_ptr common) { return *static_cast<State*>(common->client_data); }
+
+  State() {
+    library.err = jpeg_std_error(&errors);
+    library.client_data = this;
+    errors.error_exit = [](j_common_ptr common) { of(common).leave(); };
+    errors.emit_message = [](j_common_ptr common, int level) {
+      // Damaged data is a warning to the library, which invents the rest.
+      if (level < 0) of(common).leave();
+    };
+    errors.output_message = [](j_common_ptr) {};
+    jpeg_create_decompress(&library);
+  }
+  State(const State&) = delete;
+  State& operator=(const State&) = delete;
+  ~State() { jpeg_destroy_decompress(&library); }
+
+  [[noreturn]] void leave() {
+    errors.format_message(reinterpret_cast<j_common_ptr>(&library), message.data());
+    std::longjmp(escape, 1);
+  }
+
+  bool decode(std::span<const std::uint8_t> bytes, int width, int height, std::uint8_t* rgb) {
+    if (setjmp(escape) != 0) {
+      jpeg_abort_decompress(&library);
+      return false;
+    }
+    jpeg_mem_src(&library, bytes.data(), bytes.size());
+    jpeg_read_header(&library, TRUE);
+    const bool has_size = library.image_width == static_cast<JDIMENSION>(width) &&
+                          library.image_height == static_cast<JDIMENSION>(height);
+    if (!has_size) {
+      std::snprintf(message.data(), message.size(), "a picture of %u x %u", library.image_width,
+                    library.image_height);
+      jpeg_abort_decompress(&library);
+      return false;
+    }
+    library.out_color_space = JCS_RGB;
+    jpeg_start_decompress(&library);
+    const std::size_t stride = 3 * static_cast<std::size_t>(width);
+    while (library.output_scanline < library.output_height) {
+      std::array<JSAMPROW, kRowsAtOnce> rows{};
+      const JDIMENSION first = library.output_scanline;
+      const JDIMENSION count = std::min<JDIMENSION>(kRowsAtOnce, library.output_height - first);
+      for (JDIMENSION i = 0; i < count; ++i) rows[i] = rgb + (first + i) * stride;
+      jpeg_read_scanlines(&library, rows.data(), count);
+    }
+    jpeg_finish_decompress(&library);
+    return true;
+  }
+};
+
+JpegDecoder::JpegDecoder() : state_(std::make_unique<State>()) {}
+JpegDecoder::~JpegDecoder() = default;
+
+bool JpegDecoder::decode(std::span<const std::uint8_t> bytes, int width, int height, std::uint8_t* rgb) {
+  return state_->decode(bytes, width, height, rgb);
+}
+
+std::string_view JpegDecoder::problem() const {
+  return state_->message.data();
+}
+
+}  // namespace traygauge

@@ -1,0 +1,33 @@
+// One camera's JPEG pictures, by libjpeg-turbo.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string_view>
+
+namespace traygauge {
+
+// Where a complete picture ends: just behind its end marker, after which there is padding at most. 0: it does
+// not begin as JPEG, or the end is missing.
+std::size_t jpeg_length(std::span<const std::uint8_t> bytes);
+
+// The library takes memory for every picture and gives it back; it cannot be told otherwise.
+class JpegDecoder {
+ public:
+  JpegDecoder();
+  ~JpegDecoder();
+  JpegDecoder(const JpegDecoder&) = delete;
+  JpegDecoder& operator=(const JpegDecoder&) = delete;
+
+  // Red, green, blue, rows without padding; `rgb` has room for width × height × 3. False when the picture is
+  // damaged anywhere, or of another size: problem() says which.
+  bool decode(std::span<const std::uint8_t> bytes, int width, int height, std::uint8_t* rgb);
+  std::string_view problem() const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace traygauge

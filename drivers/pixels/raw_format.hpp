@@ -1,0 +1,49 @@
+// What cameras deliver before it is a picture.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+
+#include "core/image_view/image_view.hpp"
+
+namespace traygauge {
+
+enum class RawEncoding : std::uint8_t { yuyv, nv12, grey, mjpeg, rgb24, bgr24, bayer };
+
+// The two first pixels of the two first rows.
+enum class BayerPattern : std::uint8_t { rggb, grbg, gbrg, bggr };
+
+struct RawFormat {
+  RawEncoding encoding = RawEncoding::yuyv;
+  BayerPattern pattern = BayerPattern::rggb;  // bayer only, as the two below
+  int bits = 8;                               // a sample, 8 to 12; above 8 in two bytes, low one first
+  bool is_packed = false;                     // 10 bits: four samples in five bytes; 12: two in three
+
+  bool operator==(const RawFormat&) const = default;
+};
+
+// One picture's bytes. NV12 has its colours right behind the last row of grey, in rows of the same stride.
+struct RawFrame {
+  std::span<const std::uint8_t> bytes;
+  int width = 0;
+  int height = 0;
+  std::ptrdiff_t stride_bytes = 0;
+};
+
+// As the configuration spells it: YUYV, NV12, GREY, MJPEG, RGB24, BGR24, or e.g. RGGB8, BGGR10, GRBG10P.
+std::string name(const RawFormat& format);
+
+// Bytes that a row needs at least; 0 where rows have no fixed length.
+std::size_t row_bytes(const RawFormat& format, int width);
+// Bytes that a whole picture needs at least; 0 where it has no fixed length.
+std::size_t frame_bytes(const RawFormat& format, int width, int height, std::ptrdiff_t stride_bytes);
+
+// What a converter makes of it.
+PixelFormat converted_pixels(const RawFormat& format);
+
+// Whether every picture of this size can be converted: even sides where colours are shared.
+bool is_size_supported(const RawFormat& format, int width, int height);
+
+}  // namespace traygauge

@@ -1,0 +1,188 @@
+#include "drivers/v4l2/camera_controls.hpp"
+
+#include <linux/videodev2.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdlib>
+#include <span>
+
+namespace traygauge {
+namespace {
+
+// How the kernel names a control. `unit`: of the configuration's number in steps of the kernel.
+struct Value {
+  std::uint32_t id;
+  int unit;
+};
+struct Automatic {
+  std::uint32_t id;
+  int off;
+  std::array<int, 2> on;  // what the camera knows of them, the better one first
+};
+struct Description {
+  const char* name;
+  Automatic automatic;
+  std::array<Value, 2> values;  // USB cameras have the first, sensors on the board the second
+};
+
+constexpr std::array<Description, kCameraControlCount> kDescriptions = {{
+    {"exposure_us",
+     {V4L2_CID_EXPOSURE_AUTO, V4L2_EXPOSURE_MANUAL, {V4L2_EXPOSURE_AUTO, V4L2_EXPOSURE_APERTURE_PRIORITY}},
+     {{{V4L2_CID_EXPOSURE_ABSOLUTE, 100}, {V4L2_CID_EXPOSURE, 1}}}},
+    {"gain", {V4L2_CID_AUTOGAIN, 0, {1, 1}}, {{{V4L2_CID_GAIN, 1}, {V4L2_CID_ANALOGUE_GAIN, 1}}}},
+    {"white_balance_k",
+     {V4L2_CID_AUTO_WHITE_BALANCE, 0, {1, 1}},
+     {{{V4L2_CID_WHITE_BALANCE_TEMPERATURE, 1}, {V4L2_CID_WHITE_BALANCE_TEMPERATURE, 1}}}},
+    {"focus",
+     {V4L2_CID_FOCUS_AUTO, 0, {1, 1}},
+     {{{V4L2_CID_FOCUS_ABSOLUTE, 1}, {V4L2_CID_FOCUS_ABSOLUTE, 1}}}},
+}};
+
+const Description& description(CameraControl control) {
+  return kDescriptions[static_cast<std::size_t>(control)];
+}
+
+std::optional<v4l2_queryctrl> find_control(VideoDevice& device, std::uint32_t id) {
+  v4l2_queryctrl query{};
+  query.id = id;
+  if (device.request(VIDIOC_QUERYCTRL, &query) != 0) return std::nullopt;
+  if ((query.flags & V4L2_CTRL_FLAG_DISABLED) != 0) return std::nullopt;
+  return query;
+}
+
+int read_control(VideoDevice& device, std::uint32_t id, int& value) {
+  v4l2_control control{id, 0};
+  const int error = device.request(VIDIOC_G_CTRL, &control);
+  value = control.value;
+  return error;
+}
+
+int write_control(VideoDevice& device, std::uint32_t id, int value) {
+  v4l2_control control{id, value};
+  return device.request(VIDIOC_S_CTRL, &control);
+}
+
+}  // namespace
+
+const char* name(CameraControl control) {
+  return description(control).name;
+}
+
+DeviceStatus CameraControls::fail(CameraControl control, DeviceStatus status, const std::string& what) {
+  problem_ = std::string(name(control)) + ": " + what;
+  return status;
+}
+
+DeviceStatus CameraControls::switch_automatic(CameraControl control, bool on) {
+  const Automatic& automatic = description(control).automatic;
+  const auto query = find_control(device_, automatic.id);
+  if (!query) return DeviceCode::ok;
+  const std::span<const int> choices = on ? std::span<const int>(automatic.on) : std::span(&automatic.off, 1);
+  int error = EINVAL;
+  for (const int choice : choices) {
+    error = write_control(device_, automatic.id, choice);
+    int found = 0;
+    if (error == 0) error = read_control(device_, automatic.id, found);
+    if (error == 0 && found == choice) return DeviceCode::ok;
+    if (error != 0 && status_of_errno(error).code() == DeviceCode::device_gone) break;
+  }
+  if (on && error == EINVAL) return DeviceCode::ok;  // it has only the manual setting
+  const DeviceStatus status = error == 0 || error == EINVAL || error == ERANGE
+                                  ? DeviceStatus(DeviceCode::unsupported)
+                                  : status_of_errno(error);
+  return fail(control, status,
+              "the camera does not let its automatic be switched " + std::string(on ? "on" : "off") +
+                  "; set it to \"leave\" if it may vary between the views");
+}
+
+DeviceStatus CameraControls::set_value(CameraControl control, int value) {
+  for (const Value& known : description(control).values) {
+    const auto query = find_control(device_, known.id);
+    if (!query) continue;
+    const int steps = value / known.unit;
+    if (steps < query->minimum || steps > query->maximum) {
+      return fail(control, DeviceCode::unsupported,
+                  std::to_string(value) + " is asked for; the camera has " +
+                      std::to_string(query->minimum * known.unit) + " to " +
+                      std::to_string(query->maximum * known.unit));
+    }
+    if (const int error = write_control(device_, known.id, steps); error != 0) {
+      return fail(control, status_of_errno(error), std::to_string(value) + " could not be set");
+    }
+    int found = 0;
+    if (const int error = read_control(device_, known.id, found); error != 0) {
+      return fail(control, status_of_errno(error), "it cannot be read back");
+    }
+    if (std::abs(found - steps) > std::max(0, query->step - 1)) {
+      return fail(control, DeviceCode::unsupported,
+                  std::to_string(value) + " was set, the camera says " + std::to_string(found * known.unit));
+    }
+    held_[static_cast<std::size_t>(control)] = {known.id, found, known.unit};
+    return DeviceCode::ok;
+  }
+  return fail(control, DeviceCode::unsupported,
+              "the camera has no such control; remove the key from the configuration");
+}
+
+// Automatics first: while one is on, its value cannot be set.
+DeviceStatus CameraControls::prepare(const ControlWishes& wishes) {
+  held_ = {};
+  for (std::size_t i = 0; i < kCameraControlCount; ++i) {
+    const auto control = static_cast<CameraControl>(i);
+    if (wishes[i].kind == ControlWish::Kind::leave) continue;
+    const bool holds = wishes[i].kind == ControlWish::Kind::hold;
+    DeviceStatus status = switch_automatic(control, holds);
+    if (status.ok() && !holds) status = set_value(control, wishes[i].value);
+    if (!status.ok()) return status;
+  }
+  return DeviceCode::ok;
+}
+
+DeviceStatus CameraControls::lock(const ControlWishes& wishes) {
+  for (std::size_t i = 0; i < kCameraControlCount; ++i) {
+    const auto control = static_cast<CameraControl>(i);
+    if (wishes[i].kind != ControlWish::Kind::hold) continue;
+    if (const DeviceStatus status = switch_automatic(control, false); !status.ok()) return status;
+    for (const Value& known : description(control).values) {
+      if (!find_control(device_, known.id)) continue;
+      int found = 0;
+      if (const int error = read_control(device_, known.id, found); error != 0) {
+        return fail(control, status_of_errno(error), "it cannot be read");
+      }
+      held_[i] = {known.id, found, known.unit};
+      break;
+    }
+  }
+  for (std::size_t i = 0; i < kCameraControlCount; ++i) {
+    const Held& held = held_[i];
+    int found = 0;
+    if (held.id == 0) continue;
+    if (const int error = read_control(device_, held.id, found); error != 0) {
+      return fail(static_cast<CameraControl>(i), status_of_errno(error), "it cannot be read");
+    }
+    if (found != held.value) {
+      return fail(static_cast<CameraControl>(i), DeviceCode::unsupported,
+                  "it stood at " + std::to_string(held.value * held.unit) + " and went to " +
+                      std::to_string(found * held.unit) + " by itself");
+    }
+  }
+  return DeviceCode::ok;
+}
+
+std::optional<int> CameraControls::held(CameraControl control) const {
+  const Held& held = held_[static_cast<std::size_t>(control)];
+  return held.id != 0 ? std::optional(held.value * held.unit) : std::nullopt;
+}
+
+std::string CameraControls::describe() const {
+  std::string text;
+  for (std::size_t i = 0; i < kCameraControlCount; ++i) {
+    if (held_[i].id == 0) continue;
+    text += (text.empty() ? "" : ", ") + std::string(kDescriptions[i].name) + " " +
+            std::to_string(held_[i].value * held_[i].unit);
+  }
+  return text.empty() ? "the camera has nothing to hold" : text;
+}
+
+}  // namespace traygauge

@@ -1,0 +1,62 @@
+// Exposure, gain, white balance and focus: the same for both views, proved by reading them back.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "drivers/device_status.hpp"
+#include "drivers/v4l2/video_device.hpp"
+
+namespace traygauge {
+
+enum class CameraControl : std::uint8_t { exposure, gain, white_balance, focus };
+inline constexpr std::size_t kCameraControlCount = static_cast<std::size_t>(CameraControl::focus) + 1;
+// As the configuration spells it, with its unit: exposure_us, gain, white_balance_k, focus.
+const char* name(CameraControl control);
+
+struct ControlWish {
+  enum class Kind : std::uint8_t {
+    hold,   // the camera's automatic settles, then keeps its value; nothing where there is no such control
+    value,  // this value, from the start
+    leave,  // as it is
+  };
+  Kind kind = Kind::hold;
+  int value = 0;  // in the unit of the name; gain and focus: the camera's own
+};
+using ControlWishes = std::array<ControlWish, kCameraControlCount>;
+
+class CameraControls {
+ public:
+  explicit CameraControls(VideoDevice& device) : device_(device) {}
+
+  // Sets the given values, and switches the automatics of those to hold on.
+  DeviceStatus prepare(const ControlWishes& wishes);
+  // After the picture has settled: switches every automatic off and holds what it found. Then each value
+  // that was set or is held is what the camera says.
+  DeviceStatus lock(const ControlWishes& wishes);
+  // Which control, what was set and what the camera says; after a failure.
+  const std::string& problem() const { return problem_; }
+  // What is held of a control, in the unit of its name; nothing where the camera has none, or it may vary.
+  std::optional<int> held(CameraControl control) const;
+  // "exposure_us 15600, focus 30": what is held, after lock().
+  std::string describe() const;
+
+ private:
+  struct Held {
+    std::uint32_t id = 0;  // 0: the camera has no such control
+    int value = 0;
+    int unit = 1;  // of the name in steps of the camera
+  };
+  DeviceStatus set_value(CameraControl control, int value);
+  DeviceStatus switch_automatic(CameraControl control, bool on);
+  DeviceStatus fail(CameraControl control, DeviceStatus status, const std::string& what);
+
+  VideoDevice& device_;
+  std::array<Held, kCameraControlCount> held_{};
+  std::string problem_;
+};
+
+}  // namespace traygauge

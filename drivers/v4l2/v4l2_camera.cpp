@@ -1,0 +1,249 @@
+#include "drivers/v4l2/v4l2_camera.hpp"
+
+#include <linux/videodev2.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <utility>
+
+#include "drivers/v4l2/device_finder.hpp"
+
+namespace traygauge {
+namespace {
+
+constexpr int kSpareBuffers = 3;  // that the camera fills while a burst is looked at
+constexpr double kAssumedRate_per_s = 30.0;
+
+}  // namespace
+
+V4l2Camera::V4l2Camera(std::unique_ptr<VideoDevice> device, Clock& clock, const V4l2CameraParams& params)
+    : Camera("camera " + params.device),
+      device_(std::move(device)),
+      clock_(clock),
+      params_(params),
+      stream_(*device_),
+      controls_(*device_) {
+  candidates_.reserve(static_cast<std::size_t>(params_.burst));
+}
+
+DeviceStatus V4l2Camera::fail(DeviceStatus status, std::string_view what) {
+  set_detail(what);
+  return status;
+}
+
+DeviceStatus V4l2Camera::do_start() {
+  set_detail({});
+  counters_ = {};
+  last_number_.reset();
+  last_fingerprint_.reset();
+  DeviceStatus status = open_and_set_up();
+  if (status.ok()) status = controls_.prepare(params_.controls);
+  if (!status.ok() && !controls_.problem().empty()) set_detail(controls_.problem());
+  if (status.ok()) status = stream_.start(params_.burst + kSpareBuffers);
+  if (status.ok()) status = settle();
+  if (status.ok()) {
+    status = controls_.lock(params_.controls);
+    if (!status.ok()) set_detail(controls_.problem());
+  }
+  if (!status.ok()) do_stop();
+  return status;
+}
+
+void V4l2Camera::do_stop() {
+  candidates_.clear();
+  stream_.stop();
+  device_->close();
+}
+
+DeviceStatus V4l2Camera::open_and_set_up() {
+  std::string problem;
+  if (const DeviceStatus found = find_camera(*device_, params_.device, node_, problem); !found.ok()) {
+    return fail(found, problem);
+  }
+  if (const int error = device_->open(node_); error != 0) return fail(status_of_errno(error), node_);
+  v4l2_capability capability{};
+  const int error = device_->request(VIDIOC_QUERYCAP, &capability);
+  if (error == ENOTTY || error == EINVAL) return fail(DeviceCode::unsupported, node_ + " is no camera");
+  if (error != 0) return fail(status_of_errno(error), node_);
+  return set_mode();
+}
+
+DeviceStatus V4l2Camera::set_mode() {
+  std::vector<OfferedMode> modes;
+  std::vector<std::string> unknown;
+  if (const DeviceStatus status = list_modes(*device_, modes, unknown); !status.ok()) return status;
+  const auto chosen = choose_mode(modes, params_.mode);
+  const auto refuse = [&](const std::string& what) {
+    return fail(DeviceCode::unsupported, what + "; it offers " + describe_modes(modes, unknown));
+  };
+  if (!chosen) return refuse("asked for " + describe_wish(params_.mode));
+  mode_ = *chosen;
+  v4l2_format format{};
+  format.type = V4L2_BUF_TYPE_VIDEO_CAPTURE;
+  format.fmt.pix.width = static_cast<std::uint32_t>(mode_.width);
+  format.fmt.pix.height = static_cast<std::uint32_t>(mode_.height);
+  format.fmt.pix.pixelformat = mode_.fourcc;
+  format.fmt.pix.field = V4L2_FIELD_NONE;
+  if (const int error = device_->request(VIDIOC_S_FMT, &format); error != 0) {
+    return fail(status_of_errno(error), "the format could not be set");
+  }
+  const auto& pix = format.fmt.pix;
+  const bool is_set = pix.width == static_cast<std::uint32_t>(mode_.width) &&
+                      pix.height == static_cast<std::uint32_t>(mode_.height) &&
+                      pix.pixelformat == mode_.fourcc;
+  if (!is_set) return refuse("asked for " + describe_wish(params_.mode) + ", which it then did not do");
+  if (pix.field != V4L2_FIELD_NONE) return refuse("its pictures are interlaced");
+  if (mode_.frames_per_s > 0.0) {
+    v4l2_streamparm rate{};
+    rate.type = V4L2_BUF_TYPE_VIDEO_CAPTURE;
+    rate.parm.capture.timeperframe.numerator = 10'000;
+    rate.parm.capture.timeperframe.denominator =
+        static_cast<std::uint32_t>(mode_.frames_per_s * 10'000.0 + 0.5);
+    // What cannot be set is told by the frames' times.
+    if (device_->request(VIDIOC_S_PARM, &rate) != 0) mode_.frames_per_s = 0.0;
+  }
+  const auto least = static_cast<std::ptrdiff_t>(row_bytes(mode_.format, mode_.width));
+  converter_.emplace(mode_.format, mode_.width, mode_.height,
+                     std::max<std::ptrdiff_t>(least, pix.bytesperline));
+  return DeviceCode::ok;
+}
+
+// The first frames: automatics still move, and some cameras begin with damaged ones.
+DeviceStatus V4l2Camera::settle() {
+  for (int i = 0; i < params_.settle_frames; ++i) {
+    FilledBuffer filled;
+    DeviceStatus status = stream_.take(params_.first_frame_timeout, filled);
+    if (status.code() == DeviceCode::timed_out) return fail(status, "it streams no pictures");
+    if (status.ok()) count(filled);
+    if (status.ok()) status = stream_.give_back(filled);
+    if (!status.ok()) return status;
+  }
+  return DeviceCode::ok;
+}
+
+CameraFormat V4l2Camera::do_format() const {
+  if (!converter_) return {params_.mode.width, params_.mode.height, PixelFormat::bgr8};
+  return {converter_->width(), converter_->height(), converter_->pixels()};
+}
+
+// The kernel's numbers have 32 bits and may start anew.
+void V4l2Camera::count(const FilledBuffer& filled) {
+  const auto step = last_number_ ? static_cast<std::uint32_t>(filled.sequence - *last_number_) : 1U;
+  const bool starts_anew = step == 0 || step > (1U << 31U);
+  last_number_ = filled.sequence;
+  number_ += starts_anew ? 1 : step;
+  if (!starts_anew) counters_.missed += step - 1;
+}
+
+CapturedFrame V4l2Camera::date(const FilledBuffer& filled) const {
+  CapturedFrame times;
+  const double rate = mode_.frames_per_s > 0.0 ? mode_.frames_per_s : kAssumedRate_per_s;
+  const auto interval = std::chrono::round<Nanoseconds>(std::chrono::duration<double>(1.0 / rate));
+  const Instant now = clock_.now();
+  const bool knows_start = filled.stamped_at && filled.is_stamped_at_start;
+  // Some drivers round their stamps up, into the future.
+  const Instant stamped_at = std::min(filled.stamped_at.value_or(now), now);
+  times.delivered_at = knows_start ? now : stamped_at;
+  // Exposure and readout take an interval each at most.
+  times.exposed_at = knows_start ? stamped_at : stamped_at - 2 * interval;
+  times.sequence = number_;
+  return times;
+}
+
+bool V4l2Camera::is_usable(const FilledBuffer& filled) {
+  if (filled.is_damaged) {
+    set_detail("the kernel marks the picture as damaged");
+    return false;
+  }
+  const bool is_whole = converter_->is_whole(filled.bytes);
+  if (!is_whole) set_detail(converter_->problem());
+  return is_whole;
+}
+
+// Frames that were exposed after `asked_at`, as many as a burst has, until `deadline`.
+DeviceStatus V4l2Camera::collect(Instant asked_at, Instant deadline) {
+  bool saw_damage = false;
+  const auto wanted =
+      static_cast<std::size_t>(std::clamp(params_.burst, 1, std::max(1, stream_.buffer_count() - 1)));
+  while (candidates_.size() < wanted) {
+    const Nanoseconds left = deadline - clock_.now();
+    FilledBuffer filled;
+    const DeviceStatus status = stream_.take(std::max(left, Nanoseconds::zero()), filled);
+    if (status.code() == DeviceCode::timed_out) {
+      if (clock_.now() < deadline) continue;
+      if (!candidates_.empty()) return DeviceCode::ok;
+      return saw_damage ? DeviceCode::torn_frame : DeviceCode::timed_out;
+    }
+    if (!status.ok()) return status;
+    count(filled);
+    const CapturedFrame times = date(filled);
+    const bool is_new = times.exposed_at >= asked_at;
+    const bool is_usable_now = is_new && is_usable(filled);
+    if (is_usable_now) {
+      candidates_.push_back({filled, times, converter_->sharpness(filled.bytes)});
+      continue;
+    }
+    if (is_new || filled.is_damaged) ++counters_.damaged;
+    saw_damage = saw_damage || is_new;
+    if (const DeviceStatus returned = stream_.give_back(filled); !returned.ok()) return returned;
+  }
+  return DeviceCode::ok;
+}
+
+// What turns out damaged only when it is decoded makes room for the next sharpest.
+DeviceStatus V4l2Camera::deliver_sharpest(std::span<std::uint8_t> buffer, CapturedFrame& frame) {
+  std::sort(candidates_.begin(), candidates_.end(),
+            [](const Candidate& a, const Candidate& b) { return a.sharpness > b.sharpness; });
+  bool repeats = false;
+  for (const Candidate& candidate : candidates_) {
+    const std::uint64_t own_fingerprint = fingerprint(candidate.filled.bytes);
+    if (!params_.may_repeat && own_fingerprint == last_fingerprint_) {
+      ++counters_.repeated;
+      repeats = true;
+      continue;
+    }
+    if (!converter_->convert(candidate.filled.bytes, buffer.data())) {
+      ++counters_.damaged;
+      set_detail(converter_->problem());
+      continue;
+    }
+    last_fingerprint_ = own_fingerprint;
+    frame = candidate.times;
+    frame.view = {buffer.data(), mode_.width, mode_.height,
+                  std::ptrdiff_t{mode_.width} * bytes_per_pixel(converter_->pixels()), converter_->pixels()};
+    ++counters_.delivered;
+    set_detail({});
+    return DeviceCode::ok;
+  }
+  if (!repeats) return DeviceCode::torn_frame;
+  return fail(DeviceCode::stale_frame, "the same picture, byte by byte, again");
+}
+
+DeviceStatus V4l2Camera::give_back_candidates() {
+  DeviceStatus status = DeviceCode::ok;
+  for (const Candidate& candidate : candidates_) {
+    const DeviceStatus returned = stream_.give_back(candidate.filled);
+    if (!returned.ok()) status = returned;
+  }
+  candidates_.clear();
+  return status;
+}
+
+DeviceStatus V4l2Camera::do_capture(std::span<std::uint8_t> buffer, Nanoseconds timeout,
+                                    CapturedFrame& frame) {
+  const Instant asked_at = clock_.now();
+  DeviceStatus status = collect(asked_at, asked_at + timeout);
+  CapturedFrame sharpest;
+  if (status.ok()) status = deliver_sharpest(buffer, sharpest);
+  const DeviceStatus returned = give_back_candidates();
+  if (!returned.ok() && status.ok()) status = returned;
+  if (status.ok()) frame = sharpest;
+  return status;
+}
+
+std::string V4l2Camera::describe_setup() const {
+  ModeWish mode{mode_.width, mode_.height, name(mode_.format), mode_.frames_per_s};
+  return node_ + ": " + describe_wish(mode) + "; " + controls_.describe();
+}
+
+}  // namespace traygauge

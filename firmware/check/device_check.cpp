@@ -1,0 +1,50 @@
+#include "firmware/check/device_check.hpp"
+
+#include <cstring>
+
+#include "firmware/base/text.hpp"
+
+namespace traygauge {
+
+CheckResult describe_failure(const Device& device, DeviceStatus status) {
+  std::string text = sentence(status.code());
+  if (!device.detail().empty()) text += " (" + std::string(device.detail()) + ")";
+  if (status.error_number() != 0) text += std::string(" [") + std::strerror(status.error_number()) + "]";
+  return {std::string(device.description()), false, text};
+}
+
+double mean_grey(const FrameView& frame) {
+  double sum = 0.0;
+  const int row_bytes = frame.width * bytes_per_pixel(frame.format);
+  for (int y = 0; y < frame.height; ++y) {
+    const std::uint8_t* const row = frame.data + y * frame.stride_bytes;
+    std::uint64_t row_sum = 0;
+    for (int i = 0; i < row_bytes; ++i) row_sum += row[i];
+    sum += static_cast<double>(row_sum);
+  }
+  return sum / (static_cast<double>(row_bytes) * frame.height);
+}
+
+CheckResult check_camera(Camera& camera, const PictureCheckParams& params) {
+  DeviceStatus status = camera.start();
+  if (!status.ok()) return describe_failure(camera, status);
+  std::vector<std::uint8_t> buffer(camera.format().frame_bytes());
+  CapturedFrame frame;
+  for (int i = 0; i < params.pictures; ++i) {
+    status = camera.capture(buffer, std::chrono::seconds(2), frame);
+    if (!status.ok()) return describe_failure(camera, status);
+  }
+  const double mean = mean_grey(frame.view);
+  const std::string brightness = "mean brightness " + fixed(mean, 0) + " of 255";
+  const std::string name(camera.description());
+  if (mean < params.darkest_mean) {
+    return {name, false,
+            "The picture is too dark, " + brightness + "; add light, or raise exposure_us or gain."};
+  }
+  if (mean > params.brightest_mean) {
+    return {name, false, "The picture is too bright, " + brightness + "; lower exposure_us or gain."};
+  }
+  return {name, true, brightness};
+}
+
+}  // namespace traygauge

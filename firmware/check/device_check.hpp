@@ -1,0 +1,37 @@
+// Tries a station's devices, one after the other, and says what is wrong and what to do.
+#pragma once
+
+#include <iosfwd>
+#include <string>
+#include <vector>
+
+#include "drivers/camera.hpp"
+#include "drivers/device.hpp"
+#include "drivers/device_status.hpp"
+
+namespace traygauge {
+
+// What became of one device: `text` is a sentence or two for people.
+struct CheckResult {
+  std::string device;
+  bool is_good = false;
+  std::string text;
+};
+
+// A failure in plain words: the status's sentence, and more where the device knows it.
+CheckResult describe_failure(const Device& device, DeviceStatus status);
+
+// What can be said of pictures that a camera delivered.
+struct PictureCheckParams {
+  int pictures = 5;
+  double darkest_mean = 40.0;     // of 255; below, noise drowns the food's texture
+  double brightest_mean = 225.0;  // above, white dishes are clipped
+};
+
+// Starts the camera, takes pictures, looks at their brightness, and stops it.
+CheckResult check_camera(Camera& camera, const PictureCheckParams& params = {});
+
+// The mean grey of a picture.
+double mean_grey(const FrameView& frame);
+
+}  // namespace traygauge

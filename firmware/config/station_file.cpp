@@ -1,0 +1,267 @@
+#include "firmware/config/station_file.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <string_view>
+
+#include "drivers/v4l2/device_finder.hpp"
+#include "simulator/capture/json_node.hpp"
+#include "simulator/capture/toml_file.hpp"
+
+namespace traygauge {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kMaxFileBytes = std::size_t{1} << 16U;
+constexpr std::size_t kMaxLamps = 32;
+constexpr int kMaxControl = 10'000'000;
+constexpr double kMaxFocalPx = 1e6;
+
+template <std::size_t N>
+void expect(const JsonNode& table, const std::string_view (&keys)[N]) {
+  expect_keys(table, keys);
+}
+
+Nanoseconds milliseconds(const JsonNode& node, double min_ms, double max_ms) {
+  return std::chrono::round<Nanoseconds>(
+      std::chrono::duration<double, std::milli>(node.number({min_ms, max_ms})));
+}
+
+// `value` stays as it is where the key is not given.
+void take(const JsonNode& table, const char* key, int min, int max, int& value) {
+  if (const auto node = table.find(key)) value = node->integer(min, max);
+}
+void take(const JsonNode& table, const char* key, NumberRange range, double& value) {
+  if (const auto node = table.find(key)) value = node->number(range);
+}
+void take(const JsonNode& table, const char* key, bool& value) {
+  if (const auto node = table.find(key)) value = node->truth();
+}
+void take_ms(const JsonNode& table, const char* key, double min_ms, double max_ms, Nanoseconds& value) {
+  if (const auto node = table.find(key)) value = milliseconds(*node, min_ms, max_ms);
+}
+
+std::string read_line_name(const JsonNode& node) {
+  GpioPlace place;
+  std::string line = node.text();
+  if (!parse_gpio_place(line, place)) {
+    node.fail("a line's name, or chip and number such as \"gpiochip0/17\"", "see gpioinfo");
+  }
+  return line;
+}
+
+GpioBias read_bias(const JsonNode& node) {
+  const std::string bias = node.text();
+  if (bias == "as-is") return GpioBias::as_is;
+  if (bias == "pull-up") return GpioBias::pull_up;
+  if (bias == "pull-down") return GpioBias::pull_down;
+  node.fail("\"pull-up\", \"pull-down\" or \"as-is\"", "correct the value");
+}
+
+ControlWish read_control(const JsonNode& node) {
+  if (!node.is_text()) return {ControlWish::Kind::value, node.integer(-kMaxControl, kMaxControl)};
+  const std::string text = node.text();
+  if (text == "hold") return {ControlWish::Kind::hold, 0};
+  if (text == "leave") return {ControlWish::Kind::leave, 0};
+  node.fail("a whole number, \"hold\" or \"leave\"", "correct the value");
+}
+
+V4l2CameraParams read_camera(const JsonNode& table) {
+  expect(table, {"device", "width", "height", "format", "frames_per_s", "exposure_us", "gain",
+                 "white_balance_k", "focus", "settle_frames", "burst", "may_repeat"});
+  V4l2CameraParams camera;
+  const JsonNode device = table.member("device");
+  camera.device = device.text();
+  if (!is_camera_name(camera.device)) {
+    device.fail(R"("serial:…", "port:…", "name:…" or the path of a node)", "see traygauge check");
+  }
+  take(table, "width", kMinPictureSide, kMaxPictureSide, camera.mode.width);
+  take(table, "height", kMinPictureSide, kMaxPictureSide, camera.mode.height);
+  if (const auto format = table.find("format")) camera.mode.format = format->text();
+  take(table, "frames_per_s", {0.1, 1000.0}, camera.mode.frames_per_s);
+  for (std::size_t i = 0; i < kCameraControlCount; ++i) {
+    if (const auto node = table.find(name(static_cast<CameraControl>(i)))) {
+      camera.controls[i] = read_control(*node);
+    }
+  }
+  take(table, "settle_frames", 0, 300, camera.settle_frames);
+  take(table, "burst", 1, 8, camera.burst);
+  take(table, "may_repeat", camera.may_repeat);
+  return camera;
+}
+
+GpioTriggerParams read_button(const JsonNode& table) {
+  expect(table, {"line", "active_low", "bias", "debounce_ms", "stuck_after_s"});
+  GpioTriggerParams button;
+  button.line.line = read_line_name(table.member("line"));
+  take(table, "active_low", button.line.is_active_low);
+  if (const auto bias = table.find("bias")) button.line.bias = read_bias(*bias);
+  take_ms(table, "debounce_ms", 1.0, 500.0, button.debounce);
+  if (const auto node = table.find("stuck_after_s")) {
+    button.stuck_after =
+        std::chrono::round<Nanoseconds>(std::chrono::duration<double>(node->number({1.0, 3600.0})));
+  }
+  return button;
+}
+
+std::uint32_t read_lit(const JsonNode& node, const std::vector<GpioLineParams>& lines) {
+  std::uint32_t lit = 0;
+  for (const JsonNode& entry : node.elements(0, kMaxLamps)) {
+    const std::string line = entry.text();
+    const auto found = std::find_if(lines.begin(), lines.end(),
+                                    [&line](const GpioLineParams& params) { return params.line == line; });
+    if (found == lines.end()) entry.fail("one of lamp.lines", "add it there, or correct its name");
+    lit |= 1U << static_cast<unsigned>(found - lines.begin());
+  }
+  return lit;
+}
+
+LampConfig read_lamp(const JsonNode& table) {
+  expect(table, {"lines", "active_low", "ready", "hold_still", "busy", "done", "try_again", "fault"});
+  LampConfig lamp;
+  bool is_active_low = false;
+  take(table, "active_low", is_active_low);
+  for (const JsonNode& node : table.member("lines").elements(1, kMaxLamps)) {
+    lamp.lines.push_back({read_line_name(node), is_active_low});
+  }
+  for (std::size_t i = 1; i < kSignalCount; ++i) {
+    lamp.table[i] = read_lit(table.member(name(static_cast<Signal>(i))), lamp.lines);
+  }
+  return lamp;
+}
+
+GpioLineParams read_output(const JsonNode& node, const std::vector<std::string>& inverted) {
+  const std::string line = read_line_name(node);
+  return {line, std::find(inverted.begin(), inverted.end(), line) != inverted.end()};
+}
+
+StepperConfig read_stepper(const JsonNode& table) {
+  std::vector<std::string> inverted;
+  if (const auto list = table.find("inverted")) {
+    for (const JsonNode& node : list->elements(1, 4)) inverted.push_back(read_line_name(node));
+  }
+  StepperConfig stepper;
+  stepper.step = read_output(table.member("step"), inverted);
+  stepper.direction = read_output(table.member("direction"), inverted);
+  if (const auto enable = table.find("enable")) stepper.enable = read_output(*enable, inverted);
+  stepper.home = read_output(table.member("home"), inverted);
+  if (const auto bias = table.find("home_bias")) stepper.home.bias = read_bias(*bias);
+  StepperArmParams& motion = stepper.motion;
+  motion.steps_per_deg = table.member("steps_per_deg").number({0.1, 10'000.0});
+  take(table, "max_deg", {1.0, 360.0}, motion.limits.max_deg);
+  take(table, "speed_deg_per_s", {0.1, 1000.0}, motion.speed_deg_per_s);
+  take(table, "acceleration_deg_per_s2", {0.1, 10'000.0}, motion.acceleration_deg_per_s2);
+  take(table, "homing_speed_deg_per_s", {0.1, 1000.0}, motion.homing_speed_deg_per_s);
+  take(table, "home_overlap_deg", {0.1, 20.0}, motion.home_overlap_deg);
+  take_ms(table, "settling_ms", 0.0, 10'000.0, motion.settling_time);
+  return stepper;
+}
+
+SerialArmParams read_serial(const JsonNode& table) {
+  SerialArmParams serial;
+  serial.device = table.member("device").text();
+  take(table, "baud", 9600, 230'400, serial.baud);
+  take_ms(table, "settling_ms", 0.0, 10'000.0, serial.settling_time);
+  return serial;
+}
+
+ArmConfig read_arm(const JsonNode& table) {
+  const JsonNode kind = table.member("kind");
+  const std::string text = kind.text();
+  ArmConfig arm;
+  if (text == "stepper") {
+    expect(table, {"kind", "second_view_deg", "step", "direction", "enable", "home", "home_bias", "inverted",
+                   "steps_per_deg", "max_deg", "speed_deg_per_s", "acceleration_deg_per_s2",
+                   "homing_speed_deg_per_s", "home_overlap_deg", "settling_ms"});
+    arm.kind = read_stepper(table);
+  } else if (text == "serial") {
+    expect(table, {"kind", "second_view_deg", "device", "baud", "settling_ms"});
+    arm.kind = read_serial(table);
+  } else {
+    kind.fail("\"stepper\" or \"serial\"", "leave [arm] out where a hand moves the camera");
+  }
+  take(table, "second_view_deg", {-90.0, 90.0}, arm.second_view_deg);
+  if (const auto* stepper = std::get_if<StepperConfig>(&arm.kind);
+      stepper != nullptr && !stepper->motion.limits.contains(arm.second_view_deg)) {
+    table.member("second_view_deg").fail("an angle from 0 to max_deg", "correct one of the two");
+  }
+  return arm;
+}
+
+LensConfig read_lens(const JsonNode& table, const V4l2CameraParams& camera) {
+  expect(table, {"fx", "fy", "cx", "cy", "distortion", "focus"});
+  LensConfig lens;
+  lens.camera.size = {camera.mode.width, camera.mode.height};
+  lens.camera.fx_px = table.member("fx").positive_number(kMaxFocalPx);
+  lens.camera.fy_px = table.member("fy").positive_number(kMaxFocalPx);
+  lens.camera.cx_px = table.member("cx").number({0.0, camera.mode.width - 1.0});
+  lens.camera.cy_px = table.member("cy").number({0.0, camera.mode.height - 1.0});
+  const auto distortion = table.member("distortion").numbers(5, {-1e3, 1e3});
+  std::copy(distortion.begin(), distortion.end(), lens.camera.distortion.begin());
+  if (const auto focus = table.find("focus")) lens.focus = focus->integer(-kMaxControl, kMaxControl);
+  return lens;
+}
+
+CardDescription read_card(const JsonNode& table, const fs::path& folder) {
+  expect(table, {"pattern", "width_mm", "height_mm", "thickness_mm"});
+  CardDescription card;
+  const JsonNode pattern = table.member("pattern");
+  card.pattern = {folder / pattern.text(), pattern.key()};
+  card.width_mm = table.member("width_mm").number({10.0, 500.0});
+  card.height_mm = table.member("height_mm").number({10.0, 500.0});
+  card.thickness_mm = table.member("thickness_mm").number({0.0, 10.0});
+  return card;
+}
+
+std::array<InputFile, 2> read_labels(const JsonNode& table, const fs::path& folder) {
+  expect(table, {"labels"});
+  const auto list = table.member("labels").elements(2, 2);
+  return {InputFile{folder / list[0].text(), list[0].key()},
+          InputFile{folder / list[1].text(), list[1].key()}};
+}
+
+}  // namespace
+
+StationFile read_station_file(const fs::path& file) {
+  const nlohmann::json document = read_toml(file, kMaxFileBytes, "a station in TOML");
+  const JsonNode root(document, file);
+  expect(root, {"camera", "second_camera", "button", "lamp", "arm", "lens", "second_lens", "card", "trays"});
+  const fs::path folder = file.parent_path();
+  StationFile station;
+  station.file = file;
+  station.camera = read_camera(root.member("camera"));
+  station.button = read_button(root.member("button"));
+  if (const auto lamp = root.find("lamp")) station.lamp = read_lamp(*lamp);
+  if (const auto arm = root.find("arm")) station.arm = read_arm(*arm);
+  if (const auto lens = root.find("lens")) station.lens = read_lens(*lens, station.camera);
+  if (const auto second = root.find("second_camera")) {
+    station.second_camera = read_camera(*second);
+    if (station.arm) second->fail("either an arm or a second camera", "remove one of the two");
+    if (station.second_camera->device == station.camera.device) {
+      second->member("device").fail("another camera than the first", "correct one of the two");
+    }
+    if (const auto lens = root.find("second_lens"))
+      station.second_lens = read_lens(*lens, *station.second_camera);
+  }
+  if (const auto card = root.find("card")) station.card = read_card(*card, folder);
+  if (const auto trays = root.find("trays")) station.labels = read_labels(*trays, folder);
+  return station;
+}
+
+void require_geometry(const StationFile& station) {
+  const auto require = [&station](const std::optional<LensConfig>& lens, const char* key) {
+    if (lens) return;
+    throw InputError({station.file, key}, "fx, fy, cx, cy and distortion of the lens", "nothing",
+                     "calibrate the lens and write them there");
+  };
+  require(station.lens, "lens");
+  if (station.second_camera) require(station.second_lens, "second_lens");
+  if (!station.card) {
+    throw InputError({station.file, "card"}, "pattern, width_mm, height_mm and thickness_mm of the card",
+                     "nothing", "describe the reference card there");
+  }
+}
+
+}  // namespace traygauge

@@ -1,0 +1,63 @@
+// A station's devices, lens and card: config/station.toml.
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "drivers/gpio/gpio_indicator.hpp"
+#include "drivers/gpio/gpio_trigger.hpp"
+#include "drivers/gpio/stepper_arm.hpp"
+#include "drivers/serial/serial_arm.hpp"
+#include "drivers/v4l2/v4l2_camera.hpp"
+#include "simulator/capture/capture.hpp"
+
+namespace traygauge {
+
+struct LampConfig {
+  std::vector<GpioLineParams> lines;  // empty: there is no lamp
+  LampTable table{};
+};
+
+struct StepperConfig {
+  GpioLineParams step;
+  GpioLineParams direction;
+  std::optional<GpioLineParams> enable;
+  GpioLineParams home;
+  StepperArmParams motion;
+};
+
+struct ArmConfig {
+  std::variant<StepperConfig, SerialArmParams> kind;
+  double second_view_deg = 18.0;
+};
+
+struct LensConfig {
+  CameraDescription camera;
+  std::optional<int> focus;  // the camera's, when the lens was calibrated
+};
+
+struct StationFile {
+  std::filesystem::path file;
+  V4l2CameraParams camera;
+  GpioTriggerParams button;
+  LampConfig lamp;
+  std::optional<ArmConfig> arm;                   // none: a hand moves the camera or the tray
+  std::optional<V4l2CameraParams> second_camera;  // takes the second view; excludes the arm
+  std::optional<LensConfig> lens;
+  std::optional<LensConfig> second_lens;  // of the second camera
+  std::optional<CardDescription> card;
+  // Outlines of dish and food, the same for every tray; none: to be found.
+  std::optional<std::array<InputFile, 2>> labels;
+};
+
+// Unknown keys are errors: they are typing mistakes. Paths in the file are relative to it. Throws InputError.
+StationFile read_station_file(const std::filesystem::path& file);
+
+// Throws InputError unless the file has the lenses and the card, without which nothing is measured.
+void require_geometry(const StationFile& station);
+
+}  // namespace traygauge

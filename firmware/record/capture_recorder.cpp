@@ -1,0 +1,104 @@
+#include "firmware/record/capture_recorder.hpp"
+
+#include <array>
+#include <cstdio>
+#include <cstring>
+#include <nlohmann/json.hpp>
+#include <system_error>
+#include <utility>
+
+#include "simulator/capture/capture_document.hpp"
+#include "simulator/capture/png_writer.hpp"
+
+namespace traygauge {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kViews = 2;
+
+// PNG has red first.
+Picture as_rgb(const FrameView& frame) {
+  const PixelFormat format = frame.format == PixelFormat::gray8 ? PixelFormat::gray8 : PixelFormat::rgb8;
+  Picture picture({frame.width, frame.height}, format);
+  const auto row_bytes = static_cast<std::size_t>(picture.stride_bytes());
+  for (int y = 0; y < frame.height; ++y) {
+    std::uint8_t* const row = picture.pixels.data() + static_cast<std::size_t>(y) * row_bytes;
+    std::memcpy(row, frame.data + y * frame.stride_bytes, row_bytes);
+    if (frame.format != PixelFormat::bgr8) continue;
+    for (std::size_t x = 0; x < row_bytes; x += 3) std::swap(row[x], row[x + 2]);
+  }
+  return picture;
+}
+
+std::string numbered(int number) {
+  std::array<char, 16> text{};
+  std::snprintf(text.data(), text.size(), "%04d", number);
+  return text.data();
+}
+
+}  // namespace
+
+CaptureRecorder::CaptureRecorder(fs::path out, const std::array<CameraDescription, 2>& cameras,
+                                 const CardDescription& card)
+    : out_(std::move(out)), cameras_(cameras), card_(card), pattern_(load_pattern(card)) {
+  std::error_code error;
+  fs::create_directories(out_, error);
+  if (!fs::is_directory(out_)) throw OutputError(out_, error ? error.message() : "it is no folder");
+}
+
+void CaptureRecorder::begin_scan() {
+  views_.clear();
+  std::error_code ignored;
+  do {
+    folder_name_ = numbered(++number_);
+  } while (fs::exists(out_ / folder_name_, ignored));
+}
+
+Status CaptureRecorder::add_view(const StationView& view) {
+  const PictureSize& size = cameras_.at(views_.size()).size;
+  views_.push_back({view.frame, view.arm_angle_deg});
+  const bool has_size = view.frame.width == size.width && view.frame.height == size.height;
+  return has_size ? StatusCode::ok : StatusCode::frame_size_mismatch;
+}
+
+const Measurement& CaptureRecorder::measure() {
+  measurement_ = {};
+  problem_.clear();
+  try {
+    if (views_.size() == kViews) save();
+    if (views_.size() != kViews) measurement_.status = StatusCode::frame_size_mismatch;
+  } catch (const OutputError& error) {
+    problem_ = error.what();
+    measurement_.status = StatusCode::frame_missing;
+  }
+  return measurement_;
+}
+
+void CaptureRecorder::save() const {
+  const fs::path folder = out_ / folder_name_;
+  std::error_code error;
+  fs::create_directory(folder, error);
+  if (error) throw OutputError(folder, error.message());
+  nlohmann::ordered_json json;
+  json["version"] = 1;
+  json["card"] = {{"pattern", "card.png"},
+                  {"width_mm", card_.width_mm},
+                  {"height_mm", card_.height_mm},
+                  {"thickness_mm", card_.thickness_mm}};
+  write_png(folder / "card.png", pattern_.frame());
+  for (std::size_t i = 0; i < views_.size(); ++i) {
+    const std::string image = "view_" + std::to_string(i) + ".png";
+    write_png(folder / image, as_rgb(views_[i].frame).frame());
+    nlohmann::ordered_json view = {{"image", image}, {"camera", compose_camera(cameras_[i])}};
+    if (views_[i].arm_angle_deg) view["arm_angle_deg"] = *views_[i].arm_angle_deg;
+    json["views"].push_back(view);
+  }
+  json["pairs"] = {{0, 1}};
+  const std::string text = json.dump(1) + "\n";
+  write_stream(folder / "capture.json", [&text](std::FILE* stream) {
+    return std::fwrite(text.data(), 1, text.size(), stream) == text.size();
+  });
+}
+
+}  // namespace traygauge

@@ -1,0 +1,67 @@
+#include "firmware/record/record_command.hpp"
+
+#include <ostream>
+
+#include "firmware/base/exit_status.hpp"
+#include "firmware/record/capture_recorder.hpp"
+#include "firmware/station/hardware.hpp"
+#include "firmware/station/scan_printer.hpp"
+
+namespace traygauge {
+namespace {
+
+// A line for each press.
+class RecordPrinter final : public ResultSink {
+ public:
+  RecordPrinter(const CaptureRecorder& recorder, std::filesystem::path out_folder, std::ostream& out,
+                std::ostream& log)
+      : recorder_(recorder),
+        out_folder_(std::move(out_folder)),
+        out_(out),
+        printer_(out, log, ScanPrinter::Format::text) {}
+
+  bool deliver(const ScanResult& result) override {
+    if (result.outcome == ScanOutcome::measured) {
+      out_ << "Saved " << (out_folder_ / result.tray).string() << std::endl;
+      return out_.good();
+    }
+    if (!recorder_.problem().empty()) {
+      out_ << "Not saved: " << recorder_.problem() << std::endl;
+      return false;
+    }
+    return printer_.deliver(result);
+  }
+  void report_fault(const DeviceFailure& failure) override { printer_.report_fault(failure); }
+  void report_recovery(std::string_view what) override { printer_.report_recovery(what); }
+
+ private:
+  const CaptureRecorder& recorder_;
+  std::filesystem::path out_folder_;
+  std::ostream& out_;
+  ScanPrinter printer_;
+};
+
+}  // namespace
+
+void add_record_command(CLI::App& app, RecordOptions& options) {
+  CLI::App* command = app.add_subcommand("record", "Save captures: press the button for each tray");
+  command->add_option("STATION", options.station, "The station file, see config/station.toml")->required();
+  command->add_option("--out", options.out, "Folder for the captures")->required();
+  command->add_option("--count", options.count, "End after so many")->check(CLI::PositiveNumber);
+}
+
+int run_record(const RecordOptions& options, const std::atomic<bool>& stop, std::ostream& out,
+               std::ostream& log) {
+  const StationFile station_file = read_station_file(options.station);
+  require_geometry(station_file);
+  const LensConfig& second = station_file.second_lens ? *station_file.second_lens : *station_file.lens;
+  CaptureRecorder recorder(options.out, {station_file.lens->camera, second.camera}, *station_file.card);
+  RecordPrinter printer(recorder, options.out, out, log);
+  Hardware hardware(station_file);
+  StationParams params = hardware_params(station_file);
+  params.max_scans = options.count;
+  Station station(hardware.devices(), recorder, printer, stop, params);
+  return station.run().all_worked() ? kExitMeasured : kExitNotMeasurable;
+}
+
+}  // namespace traygauge

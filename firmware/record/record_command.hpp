@@ -1,0 +1,24 @@
+// `traygauge record`: captures from a station's devices.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <atomic>
+#include <cstdint>
+#include <iosfwd>
+#include <string>
+
+namespace traygauge {
+
+struct RecordOptions {
+  std::string station;  // a station file
+  std::string out;
+  std::uint64_t count = 0;  // 0: until it is stopped
+};
+
+void add_record_command(CLI::App& app, RecordOptions& options);
+
+// Exit status: all captures saved, or some not. Throws InputError and OutputError before a device is opened.
+int run_record(const RecordOptions& options, const std::atomic<bool>& stop, std::ostream& out,
+               std::ostream& log);
+
+}  // namespace traygauge

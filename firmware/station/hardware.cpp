@@ -1,0 +1,46 @@
+#include "firmware/station/hardware.hpp"
+
+#include <utility>
+
+namespace traygauge {
+namespace {
+
+std::vector<std::unique_ptr<GpioLine>> make_lamps(const LampConfig& config) {
+  std::vector<std::unique_ptr<GpioLine>> lamps;
+  for (const GpioLineParams& line : config.lines) lamps.push_back(make_gpio_line(line));
+  return lamps;
+}
+
+std::unique_ptr<Arm> make_arm(const ArmConfig& config, Clock& clock) {
+  if (const auto* serial = std::get_if<SerialArmParams>(&config.kind)) {
+    return std::make_unique<SerialArm>(clock, *serial);
+  }
+  const auto& stepper = std::get<StepperConfig>(config.kind);
+  StepperLines lines;
+  lines.step = make_gpio_line(stepper.step);
+  lines.direction = make_gpio_line(stepper.direction);
+  if (stepper.enable) lines.enable = make_gpio_line(*stepper.enable);
+  lines.home = make_gpio_line(stepper.home);
+  return std::make_unique<StepperArm>(std::move(lines), clock, stepper.motion);
+}
+
+}  // namespace
+
+Hardware::Hardware(const StationFile& station)
+    : camera_(std::make_unique<SystemVideoDevice>(), clock_, station.camera),
+      trigger_(make_gpio_line(station.button.line), clock_, station.button),
+      lamp_(make_lamps(station.lamp), station.lamp.table),
+      arm_(station.arm ? make_arm(*station.arm, clock_) : nullptr) {
+  if (station.second_camera) {
+    second_camera_.emplace(std::make_unique<SystemVideoDevice>(), clock_, *station.second_camera);
+  }
+}
+
+StationParams hardware_params(const StationFile& station) {
+  StationParams params;
+  params.last_retry = std::chrono::seconds(1);
+  if (station.arm) params.second_view_deg = station.arm->second_view_deg;
+  return params;
+}
+
+}  // namespace traygauge

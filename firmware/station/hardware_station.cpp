@@ -1,0 +1,41 @@
+#include "firmware/station/hardware_station.hpp"
+
+#include "firmware/base/exit_status.hpp"
+#include "firmware/config/dish_library.hpp"
+#include "firmware/config/profile.hpp"
+#include "firmware/station/hardware.hpp"
+#include "firmware/station/scan_printer.hpp"
+#include "firmware/station/site_scene.hpp"
+
+namespace traygauge {
+namespace {
+
+// Those beside the station file, or where it has none, the usual ones.
+std::vector<DishDescription> read_dishes(const std::filesystem::path& file) {
+  const std::filesystem::path folder = std::filesystem::absolute(file).parent_path();
+  const bool has_own = std::filesystem::is_directory(folder / "dishes");
+  return read_dish_library(find_config_folder(has_own ? folder.string() : ""));
+}
+
+}  // namespace
+
+int run_hardware_station(const StationCommand& command, const std::filesystem::path& file,
+                         const std::atomic<bool>& stop, std::ostream& out, std::ostream& log) {
+  if (!command.faults.empty()) throw UsageError("--faults: only simulated devices fail as a script says");
+  const Profile profile = choose_profile(command.profile);
+  const StationFile station_file = read_station_file(file);
+  if (command.by_hand && station_file.arm) {
+    throw UsageError("--by-hand: " + station_file.file.string() + " has an [arm]; remove one of the two");
+  }
+  require_geometry(station_file);
+  SiteScene scene(station_file, read_dishes(file), profile);
+  EstimatorMeasurer measurer(scene, scene.limits(), profile, command.seed);
+  ScanPrinter printer(out, log, command.json ? ScanPrinter::Format::json : ScanPrinter::Format::text);
+  Hardware hardware(station_file);
+  StationParams params = hardware_params(station_file);
+  params.max_scans = command.scans;
+  Station station(hardware.devices(), measurer, printer, stop, params);
+  return station.run().all_worked() ? kExitMeasured : kExitNotMeasurable;
+}
+
+}  // namespace traygauge

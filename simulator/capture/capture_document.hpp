@@ -1,0 +1,12 @@
+// Parts of capture.json, as every writer of captures needs them.
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+#include "simulator/capture/capture.hpp"
+
+namespace traygauge {
+
+nlohmann::ordered_json compose_camera(const CameraDescription& camera);
+
+}  // namespace traygauge

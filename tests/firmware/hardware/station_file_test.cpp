@@ -1,0 +1,181 @@
+// A station's file: what a person may write, and what they are told when it is wrong.
+#include "firmware/config/station_file.hpp"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "simulator/capture/input_error.hpp"
+#include "tests/simulator/capture/temporary_capture.hpp"
+
+namespace traygauge {
+namespace {
+
+constexpr const char* kSmallest = "[camera]\ndevice = \"serial:A1\"\n[button]\nline = \"TRIGGER\"\n";
+constexpr const char* kStepper =
+    "[arm]\nkind = \"stepper\"\nstep = \"a\"\ndirection = \"b\"\nhome = \"gpiochip1/4\"\nsteps_per_deg = "
+    "20\n";
+constexpr const char* kLamp =
+    "[lamp]\nlines = [\"G\", \"Y\"]\nready = [\"G\"]\nhold_still = [\"Y\"]\nbusy = [\"G\", \"Y\"]\ndone = "
+    "[\"G\"]\n"
+    "try_again = [\"Y\"]\nfault = []\n";
+
+class StationFileTest : public testing::Test {
+ protected:
+  StationFile read(const std::string& text) {
+    write_text(file(), text);
+    return read_station_file(file());
+  }
+  // What the reader says.
+  std::string problem(const std::string& text) {
+    try {
+      read(text);
+    } catch (const InputError& error) {
+      return std::string(error.what()).substr(file().string().size());
+    }
+    return "nothing";
+  }
+  std::filesystem::path file() const { return folder_.path() / "station.toml"; }
+
+  TemporaryFolder folder_;
+};
+
+TEST_F(StationFileTest, TheOneThatIsShippedIsReadable) {
+  const StationFile station =
+      read_station_file(std::filesystem::path(TRAYGAUGE_SOURCE_DIR) / "config/station.toml");
+  EXPECT_EQ(station.camera.device, "/dev/video0");
+  EXPECT_EQ(station.lamp.lines.size(), 3U);
+  EXPECT_FALSE(station.arm);
+  for (const ControlWish& wish : station.camera.controls) EXPECT_EQ(wish.kind, ControlWish::Kind::hold);
+}
+
+TEST_F(StationFileTest, TheSmallestHasACameraAndAButton) {
+  const StationFile station = read(kSmallest);
+  EXPECT_EQ(station.camera.device, "serial:A1");
+  EXPECT_EQ(station.camera.mode.width, 1600);
+  EXPECT_EQ(station.button.line.line, "TRIGGER");
+  EXPECT_TRUE(station.button.line.is_active_low);
+  EXPECT_TRUE(station.lamp.lines.empty());
+  EXPECT_THROW(require_geometry(station), InputError);
+}
+
+TEST_F(StationFileTest, EveryKeyArrives) {
+  const StationFile station = read(
+      "[camera]\ndevice = \"name:Doc Cam\"\nwidth = 640\nheight = 480\nformat = \"NV12\"\nframes_per_s = "
+      "7.5\n"
+      "exposure_us = 12000\ngain = \"leave\"\nwhite_balance_k = \"hold\"\nfocus = 30\nsettle_frames = 4\n"
+      "burst = 5\nmay_repeat = true\n[button]\nline = \"x/3\"\nactive_low = false\nbias = \"pull-down\"\n"
+      "debounce_ms = 12.5\nstuck_after_s = 7\n" +
+      std::string(kLamp) + kStepper +
+      "enable = \"e\"\ninverted = [\"e\"]\nhome_bias = \"pull-up\"\nmax_deg = 30\nsecond_view_deg = 15\n"
+      "speed_deg_per_s = 11\nacceleration_deg_per_s2 = 12\nhoming_speed_deg_per_s = 3\nhome_overlap_deg = "
+      "1.5\n"
+      "settling_ms = 250\n[lens]\nfx = 600\nfy = 601\ncx = 320\ncy = 240\ndistortion = [1, 2, 3, 4, "
+      "5]\nfocus = 30\n"
+      "[card]\npattern = \"p.png\"\nwidth_mm = 80\nheight_mm = 50\nthickness_mm = 1\n"
+      "[trays]\nlabels = [\"a.png\", \"b.png\"]\n");
+  EXPECT_EQ(station.camera.mode.format, "NV12");
+  EXPECT_EQ(station.camera.mode.frames_per_s, 7.5);
+  const auto& controls = station.camera.controls;
+  EXPECT_EQ(controls[0].kind, ControlWish::Kind::value);
+  EXPECT_EQ(controls[0].value, 12'000);
+  EXPECT_EQ(controls[1].kind, ControlWish::Kind::leave);
+  EXPECT_EQ(controls[2].kind, ControlWish::Kind::hold);
+  EXPECT_EQ(controls[3].value, 30);
+  EXPECT_EQ(station.camera.settle_frames, 4);
+  EXPECT_EQ(station.camera.burst, 5);
+  EXPECT_TRUE(station.camera.may_repeat);
+  EXPECT_FALSE(station.button.line.is_active_low);
+  EXPECT_EQ(station.button.line.bias, GpioBias::pull_down);
+  EXPECT_EQ(station.button.debounce, std::chrono::microseconds(12'500));
+  EXPECT_EQ(station.button.stuck_after, std::chrono::seconds(7));
+  EXPECT_EQ(station.lamp.table, (LampTable{0, 1, 2, 3, 1, 2, 0}));
+  const auto& stepper = std::get<StepperConfig>(station.arm->kind);
+  EXPECT_EQ(stepper.home.line, "gpiochip1/4");
+  EXPECT_EQ(stepper.home.bias, GpioBias::pull_up);
+  EXPECT_TRUE(stepper.enable->is_active_low);
+  EXPECT_FALSE(stepper.step.is_active_low);
+  EXPECT_EQ(stepper.motion.steps_per_deg, 20.0);
+  EXPECT_EQ(stepper.motion.limits.max_deg, 30.0);
+  EXPECT_EQ(stepper.motion.settling_time, std::chrono::milliseconds(250));
+  EXPECT_EQ(station.arm->second_view_deg, 15.0);
+  EXPECT_EQ(station.lens->camera.fy_px, 601.0);
+  EXPECT_EQ(station.lens->focus, 30);
+  EXPECT_EQ(station.card->pattern.path, folder_.path() / "p.png");
+  EXPECT_EQ((*station.labels)[1].path, folder_.path() / "b.png");
+  EXPECT_NO_THROW(require_geometry(station));
+}
+
+TEST_F(StationFileTest, ASerialArmIsAnother) {
+  const StationFile station =
+      read(std::string(kSmallest) + "[arm]\nkind = \"serial\"\ndevice = \"/dev/ttyS7\"\nbaud = 9600\n");
+  EXPECT_EQ(std::get<SerialArmParams>(station.arm->kind).device, "/dev/ttyS7");
+  EXPECT_EQ(std::get<SerialArmParams>(station.arm->kind).baud, 9600);
+  EXPECT_EQ(station.arm->second_view_deg, 18.0);
+}
+
+TEST_F(StationFileTest, ASecondCameraHasALensOfItsOwn) {
+  const std::string lens = "fx = 600\nfy = 601\ncx = 320\ncy = 240\ndistortion = [0, 0, 0, 0, 0]\n";
+  const std::string card = "[card]\npattern = \"p.png\"\nwidth_mm = 80\nheight_mm = 50\nthickness_mm = 1\n";
+  const std::string twin = std::string(kSmallest) + card +
+                           "[second_camera]\ndevice = \"serial:A2\"\nwidth = 800\nheight = 600\n[lens]\n" +
+                           lens;
+  EXPECT_THROW(require_geometry(read(twin)), InputError);
+  const StationFile station = read(twin + "[second_lens]\n" + lens);
+  EXPECT_NO_THROW(require_geometry(station));
+  EXPECT_EQ(station.second_camera->device, "serial:A2");
+  EXPECT_EQ(station.second_lens->camera.size, (PictureSize{800, 600}));
+}
+
+TEST_F(StationFileTest, NamesTheKeyThatIsWrong) {
+  const std::string small = kSmallest;
+  for (const auto& [text, expected] : std::vector<std::pair<std::string, std::string>>{
+           {"[button]\nline = \"T\"\n", "camera"},
+           {"[camera]\ndevice = \"video0\"\n[button]\nline = \"T\"\n", "camera.device"},
+           {small + "lien = 3\n", "button.lien"},
+           {small + "bias = \"up\"\n", "button.bias"},
+           {small + "line2 = \"x/\"\n", "button.line2"},
+           {small + "debounce_ms = 0\n", "button.debounce_ms"},
+           {small + "active_low = 1\n", "button.active_low"},
+           {"[camera]\ndevice = \"/dev/v\"\nfocus = \"auto\"\n[button]\nline = \"T\"\n", "camera.focus"},
+           {"[camera]\ndevice = \"/dev/v\"\nburst = 9\n[button]\nline = \"T\"\n", "camera.burst"},
+           {"[camera]\ndevice = \"/dev/v\"\n[button]\nline = \"gpiochip0/\"\n", "button.line"},
+           {small + "[arm]\nkind = \"hydraulic\"\n", "arm.kind"},
+           {small + kStepper + "second_view_deg = 60\n", "arm.second_view_deg"},
+           {small + kStepper + "baud = 9600\n", "arm.baud"},
+           {small + "[lamp]\nlines = [\"G\"]\nready = [\"B\"]\n", "lamp.ready[0]"},
+           {small + "[lamp]\nlines = [\"G\"]\nready = [\"G\"]\n", "lamp.hold_still"},
+           {small + "[trays]\nlabels = [\"a.png\"]\n", "trays.labels"},
+           {small + "[gps]\n", "gps"},
+           {small + "[second_camera]\ndevice = \"serial:A1\"\n", "second_camera.device"},
+           {small + kStepper + "[second_camera]\ndevice = \"serial:A2\"\n", "second_camera"},
+       }) {
+    const std::string found = problem(text);
+    EXPECT_NE(found.find(": " + expected + ":"), std::string::npos) << expected << " in \"" << found << "\"";
+  }
+  EXPECT_NE(problem("[camera\n").find("correct line 1"), std::string::npos);
+}
+
+TEST_F(StationFileTest, SurvivesAnyText) {
+  std::mt19937 random(20261122);
+  const std::string good = std::string(kSmallest) + kLamp + kStepper;
+  for (int run = 0; run < 500; ++run) {
+    std::string text = good;
+    for (int i = 0; i < 1 + run % 4; ++i) {
+      const std::size_t at = random() % text.size();
+      if (random() % 2 == 0) {
+        text[at] = static_cast<char>(random() % 128);
+      } else {
+        text.erase(at, random() % 9);
+      }
+      if (text.empty()) text.push_back(10);
+    }
+    try {
+      read(text);
+    } catch (const InputError&) {  // said, not crashed
+    }
+  }
+}
+
+}  // namespace
+}  // namespace traygauge
