@@ -7,6 +7,7 @@
 #include "core/image/resample.hpp"
 #include "core/scale/card_hypotheses.hpp"
 #include "core/segmentation/convex_fill.hpp"
+#include "core/surface/dish_profile.hpp"
 
 namespace traygauge {
 namespace {
@@ -40,6 +41,21 @@ std::array<Vec2, 4> corners_of(const Pose& camera_from_table, const CardModelSiz
   return corners;
 }
 
+using RimOutline = std::array<Vec2, kRimCorners>;
+
+// A ring parallel to the rim, in pixels.
+RimOutline rim_outline(const DishPlace& place, const DishSearchView& camera, double beyond_mm,
+                       double above_mm) {
+  RimOutline outline;
+  for (std::size_t i = 0; i < outline.size(); ++i) {
+    const double angle = 2.0 * std::numbers::pi * static_cast<double>(i) / kRimCorners;
+    Vec3 point = rim_point_mm(place, {std::cos(angle), std::sin(angle)}, beyond_mm);
+    point.z() += above_mm;
+    outline[i] = pixel_of((camera.camera_from_table * point).hnormalized(), camera.lens);
+  }
+  return outline;
+}
+
 void clear(ImageView<std::uint8_t> labels) {
   for (int y = 0; y < labels.height; ++y) std::fill_n(labels.row(y), labels.width, kBackgroundLabel);
 }
@@ -55,7 +71,11 @@ constexpr void Segmenter::Memory::allocate(Allocator& arena, const Configuration
   dish.allocate(arena, params.dish);
   gray = arena.template take_image<std::uint8_t>(limits.max_frame_width, limits.max_frame_height);
   alignment.allocate(arena, configuration.best.card);
+  const std::size_t shared = arena.mark();
   card.allocate(arena, limits.max_frame_width, limits.max_frame_height, params.card);
+  arena.rewind(shared);
+  food.allocate(arena, params.food);
+  cells = arena.template take<std::uint8_t>(static_cast<std::size_t>(params.food.raster.max_cells));
 }
 
 std::size_t segmenter_bytes(const Configuration& configuration, const SegmenterParams& params) {
@@ -100,10 +120,14 @@ const Segmentation& Segmenter::segment(const std::array<SegmentedView, 2>& views
     clock.enter(Stage::surface);
     result_.status = find_dishes(cameras);
   }
-  if (result_.status.ok()) draw_dishes(views, cameras);
+  if (result_.status.ok()) {
+    clock.enter(Stage::volume);
+    draw_dishes(views, cameras);
+  }
   clock.stop();
   result_.card_ms = clock.stage_ms()[static_cast<std::size_t>(Stage::scale)];
   result_.dish_ms = clock.stage_ms()[static_cast<std::size_t>(Stage::surface)];
+  result_.food_ms = clock.stage_ms()[static_cast<std::size_t>(Stage::volume)];
   return result_;
 }
 
@@ -159,23 +183,62 @@ Status Segmenter::find_dishes(const DishSearchViews& views) {
     dish.label = label;
     dish.status = search_dish(views, candidates, std::span(taken).first(taken_count), params_.dish,
                               memory_.dish, dish.found);
-    if (dish.status.ok()) taken[taken_count++] = dish.found;
+    if (!dish.status.ok()) continue;
+    dish.model = &candidates[static_cast<std::size_t>(dish.found.candidate)];
+    taken[taken_count++] = dish.found;
   }
   return taken_count > 0 ? StatusCode::ok : StatusCode::rim_not_found;
 }
 
 void Segmenter::draw_dishes(const std::array<SegmentedView, 2>& views, const DishSearchViews& cameras) {
-  std::array<Vec2, kRimCorners> outline;
   for (std::size_t d = 0; d < result_.dish_count; ++d) {
     const SegmentedDish& dish = result_.dishes[d];
     if (!dish.status.ok()) continue;
     for (std::size_t v = 0; v < 2; ++v) {
-      for (std::size_t i = 0; i < outline.size(); ++i) {
-        const double angle = 2.0 * std::numbers::pi * static_cast<double>(i) / kRimCorners;
-        const Vec3 point = rim_point_mm(dish.found.place, {std::cos(angle), std::sin(angle)}, 0.0);
-        outline[i] = pixel_of((cameras[v].camera_from_table * point).hnormalized(), cameras[v].lens);
+      fill_convex(views[v].labels, rim_outline(dish.found.place, cameras[v], 0.0, 0.0), dish.label);
+      draw_food(views[v], cameras[v], dish);
+    }
+  }
+}
+
+void Segmenter::draw_food(const SegmentedView& view, const DishSearchView& camera,
+                          const SegmentedDish& dish) {
+  const DishPlace& place = dish.found.place;
+  const DishModel& model = *dish.model;
+  DishProfile profile;
+  if (!profile.set(model).ok()) return;
+  RimOutline outline = rim_outline(place, camera, 0.0, 0.0);
+  const Vec3 middle = camera.camera_from_table * Vec3(place.centre_mm.x(), place.centre_mm.y(), 0.0);
+  const double px_per_mm = camera.lens.pinhole.mean_focal_px() / middle.z();
+  DishRaster raster;
+  if (!load_dish_raster(view.frame, outline, px_per_mm, params_.food.raster, memory_.food.raster, raster))
+    return;
+  mark_zone(raster, outline, DishZone::edge);
+  const double edge_mm = profile.height_at_inset_mm(0.0);
+  double well_mm = params_.flange_begin_mm;
+  const double most_mm = 0.3 * std::min(place.size_mm[0], place.size_mm[1]);
+  while (well_mm < most_mm && profile.height_at_inset_mm(well_mm) > edge_mm - params_.flange_depth_mm)
+    well_mm += 1.0;
+  const auto ring = [&](double inset_mm) {
+    return rim_outline(place, camera, -inset_mm, profile.height_at_inset_mm(inset_mm) - edge_mm);
+  };
+  outline = ring(params_.flange_begin_mm);
+  mark_zone(raster, outline, DishZone::flange);
+  outline = ring(std::max(well_mm, params_.flange_begin_mm + 4.0));
+  mark_zone(raster, outline, DishZone::inside);
+  const ImageView<std::uint8_t> cells{memory_.cells.data(), raster.width(), raster.height()};
+  if (outline_food(raster, params_.food, memory_.food, cells) <= 0) return;
+  for (int y = 0; y < raster.height(); ++y) {
+    for (int x = 0; x < raster.width(); ++x) {
+      if (!is_item(cells.at(x, y))) continue;
+      const int left = raster.left_px + x * raster.step_px;
+      const int top = raster.top_px + y * raster.step_px;
+      for (int j = 0; j < raster.step_px; ++j) {
+        for (int i = 0; i < raster.step_px; ++i) {
+          std::uint8_t& label = view.labels.at(left + i, top + j);
+          if (label == dish.label) label = cells.at(x, y);
+        }
       }
-      fill_convex(views[v].labels, outline, dish.label);
     }
   }
 }

@@ -15,6 +15,7 @@
 #include "core/estimator/stage_clock.hpp"
 #include "core/scale/card_alignment.hpp"
 #include "core/scale/card_search.hpp"
+#include "core/segmentation/food_outline.hpp"
 #include "core/surface/dish_search.hpp"
 
 namespace traygauge {
@@ -22,6 +23,11 @@ namespace traygauge {
 struct SegmenterParams {
   CardSearchParams card;
   DishSearchParams dish;
+  FoodOutlineParams food;
+  // Insets from the outer edge between which a flange counts as such, and the depth below it where the well
+  // begins.
+  double flange_begin_mm = 2.5;
+  double flange_depth_mm = 6.0;
   int max_alignments = 3;  // of the card, each from the outline that the last one gave
   // Of print and picture, from which the card's place is sure; a print out of focus or hidden reaches less.
   double sure_correlation = 0.9;
@@ -38,6 +44,7 @@ struct SegmentedDish {
   std::uint8_t label = kDishLabel;
   Status status;
   FoundDish found;
+  const DishModel* model = nullptr;  // of the configuration, where it was found
 };
 
 // What a segmentation found; the labels themselves are in the caller's pictures.
@@ -74,6 +81,8 @@ class Segmenter {
     CardAlignmentWorkspace alignment;
     CardSearchWorkspace card;
     DishSearchWorkspace dish;
+    FoodOutlineWorkspace food;
+    std::span<std::uint8_t> cells;
 
     template <class Allocator>
     constexpr void allocate(Allocator& arena, const Configuration& configuration,
@@ -84,6 +93,7 @@ class Segmenter {
   Status find_card(const SegmentedView& view, const LensModel& lens, std::size_t index);
   Status find_dishes(const DishSearchViews& views);
   void draw_dishes(const std::array<SegmentedView, 2>& views, const DishSearchViews& cameras);
+  void draw_food(const SegmentedView& view, const DishSearchView& camera, const SegmentedDish& dish);
 
   Configuration configuration_;
   SegmenterParams params_;
