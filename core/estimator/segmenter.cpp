@@ -12,6 +12,8 @@
 namespace traygauge {
 namespace {
 
+constexpr double kMostFlange = 0.3;          // of the smaller axis
+constexpr int kSeedStep = 2;                 // cells, a power of two
 constexpr std::size_t kRimCorners = 180;     // of the polygon that an ellipse is drawn as
 constexpr std::size_t kCardSideCorners = 8;  // on each side, which a lens bends
 
@@ -123,6 +125,8 @@ const Segmentation& Segmenter::segment(const std::array<SegmentedView, 2>& views
   if (result_.status.ok()) {
     clock.enter(Stage::volume);
     draw_dishes(views, cameras);
+    draw_food(views, cameras);
+    if (result_.items == 0) result_.status = StatusCode::no_food_label;
   }
   clock.stop();
   result_.card_ms = clock.stage_ms()[static_cast<std::size_t>(Stage::scale)];
@@ -194,29 +198,45 @@ void Segmenter::draw_dishes(const std::array<SegmentedView, 2>& views, const Dis
   for (std::size_t d = 0; d < result_.dish_count; ++d) {
     const SegmentedDish& dish = result_.dishes[d];
     if (!dish.status.ok()) continue;
-    for (std::size_t v = 0; v < 2; ++v) {
+    for (std::size_t v = 0; v < 2; ++v)
       fill_convex(views[v].labels, rim_outline(dish.found.place, cameras[v], 0.0, 0.0), dish.label);
-      draw_food(views[v], cameras[v], dish);
-    }
   }
 }
 
-void Segmenter::draw_food(const SegmentedView& view, const DishSearchView& camera,
-                          const SegmentedDish& dish) {
+void Segmenter::draw_food(const std::array<SegmentedView, 2>& views, const DishSearchViews& cameras) {
+  for (std::size_t d = 0; d < result_.dish_count; ++d) {
+    const SegmentedDish& dish = result_.dishes[d];
+    if (!dish.status.ok()) continue;
+    const auto first = static_cast<std::uint8_t>(kFirstItemLabel + result_.items);
+    const int room = kLastItemLabel + 1 - first;
+    DishRaster raster;
+    ImageView<std::uint8_t> cells;
+    if (!outline_view(views[0], cameras[0], dish, raster, cells)) continue;
+    const int items = label_items(raster, params_.food, memory_.food, first, room, cells);
+    draw_cells(raster, cells, dish.label, views[0].labels);
+    if (!outline_view(views[1], cameras[1], dish, raster, cells)) continue;
+    carry_labels(raster, cameras, views[0].labels, dish, cells);
+    spread_items(raster, params_.food, memory_.food, cells);
+    draw_cells(raster, cells, dish.label, views[1].labels);
+    result_.items += keep_confirmed(views, first, items, dish.label);
+  }
+}
+
+// Food and glaze of one dish in one view, as outline_food marks them.
+bool Segmenter::outline_view(const SegmentedView& view, const DishSearchView& camera,
+                             const SegmentedDish& dish, DishRaster& raster, ImageView<std::uint8_t>& cells) {
   const DishPlace& place = dish.found.place;
-  const DishModel& model = *dish.model;
   DishProfile profile;
-  if (!profile.set(model).ok()) return;
+  if (!profile.set(*dish.model).ok()) return false;
   RimOutline outline = rim_outline(place, camera, 0.0, 0.0);
   const Vec3 middle = camera.camera_from_table * Vec3(place.centre_mm.x(), place.centre_mm.y(), 0.0);
   const double px_per_mm = camera.lens.pinhole.mean_focal_px() / middle.z();
-  DishRaster raster;
   if (!load_dish_raster(view.frame, outline, px_per_mm, params_.food.raster, memory_.food.raster, raster))
-    return;
+    return false;
   mark_zone(raster, outline, DishZone::edge);
   const double edge_mm = profile.height_at_inset_mm(0.0);
+  const double most_mm = kMostFlange * std::min(place.size_mm[0], place.size_mm[1]);
   double well_mm = params_.flange_begin_mm;
-  const double most_mm = 0.3 * std::min(place.size_mm[0], place.size_mm[1]);
   while (well_mm < most_mm && profile.height_at_inset_mm(well_mm) > edge_mm - params_.flange_depth_mm)
     well_mm += 1.0;
   const auto ring = [&](double inset_mm) {
@@ -224,10 +244,45 @@ void Segmenter::draw_food(const SegmentedView& view, const DishSearchView& camer
   };
   outline = ring(params_.flange_begin_mm);
   mark_zone(raster, outline, DishZone::flange);
-  outline = ring(std::max(well_mm, params_.flange_begin_mm + 4.0));
+  outline = ring(std::max(well_mm, params_.flange_begin_mm + params_.min_flange_mm));
   mark_zone(raster, outline, DishZone::inside);
-  const ImageView<std::uint8_t> cells{memory_.cells.data(), raster.width(), raster.height()};
-  if (outline_food(raster, params_.food, memory_.food, cells) <= 0) return;
+  cells = {memory_.cells.data(), raster.width(), raster.height()};
+  return outline_food(raster, params_.food, memory_.food, cells);
+}
+
+// Seeds for the second view: food that lies on the same item in the first view, whether it is low or high.
+void Segmenter::carry_labels(const DishRaster& raster, const DishSearchViews& cameras,
+                             ImageView<const std::uint8_t> first_labels, const SegmentedDish& dish,
+                             ImageView<std::uint8_t> cells) const {
+  const Pose table_from_second = cameras[1].camera_from_table.inverse();
+  const double bottom_mm = dish.model->bottom_height_mm;
+  for (int y = 0; y < raster.height(); ++y) {
+    for (int x = 0; x < raster.width(); ++x) {
+      std::uint8_t& cell = cells.at(x, y);
+      if (cell != kFoodSeed) continue;
+      cell = kUnlabelled;
+      Vec2 ray;
+      if ((x | y) % kSeedStep != 0 || !cameras[1].lens.undistort_pixel(raster.pixel_of(x, y), ray)) continue;
+      const Vec3 direction = table_from_second.rotation * ray.homogeneous();
+      std::uint8_t label = kBackgroundLabel;
+      for (const double height_mm : params_.food_heights_mm) {
+        const double depth = (bottom_mm + height_mm - table_from_second.translation.z()) / direction.z();
+        const Vec3 point = cameras[0].camera_from_table * (table_from_second.translation + depth * direction);
+        const Vec2 pixel = pixel_of(point.hnormalized(), cameras[0].lens);
+        const int px = static_cast<int>(std::lround(pixel.x()));
+        const int py = static_cast<int>(std::lround(pixel.y()));
+        const std::uint8_t seen = first_labels.contains(px, py) ? first_labels.at(px, py) : kBackgroundLabel;
+        const bool agrees = label == kBackgroundLabel || label == seen;
+        label = agrees && is_item(seen) ? seen : kBarred;
+      }
+      if (label != kBarred) cell = label;
+    }
+  }
+}
+
+// Over the dish's own pixels.
+void Segmenter::draw_cells(const DishRaster& raster, ImageView<const std::uint8_t> cells, std::uint8_t dish,
+                           ImageView<std::uint8_t> labels) {
   for (int y = 0; y < raster.height(); ++y) {
     for (int x = 0; x < raster.width(); ++x) {
       if (!is_item(cells.at(x, y))) continue;
@@ -235,12 +290,38 @@ void Segmenter::draw_food(const SegmentedView& view, const DishSearchView& camer
       const int top = raster.top_px + y * raster.step_px;
       for (int j = 0; j < raster.step_px; ++j) {
         for (int i = 0; i < raster.step_px; ++i) {
-          std::uint8_t& label = view.labels.at(left + i, top + j);
-          if (label == dish.label) label = cells.at(x, y);
+          std::uint8_t& label = labels.at(left + i, top + j);
+          if (label == dish) label = cells.at(x, y);
         }
       }
     }
   }
+}
+
+// What only one view takes for food is a shadow or a highlight. Labels stay in a row.
+int Segmenter::keep_confirmed(const std::array<SegmentedView, 2>& views, std::uint8_t first, int items,
+                              std::uint8_t dish) const {
+  const std::array<LabelRegions, 2> regions = {measure_regions(views[0].labels),
+                                               measure_regions(views[1].labels)};
+  std::array<std::uint8_t, 256> renamed{};
+  int kept = 0;
+  for (int i = 0; i < items; ++i) {
+    const auto label = static_cast<std::size_t>(first + i);
+    const double fewer = std::min(regions[0].pixels[label], regions[1].pixels[label]);
+    const double more = std::max(regions[0].pixels[label], regions[1].pixels[label]);
+    renamed[label] =
+        fewer > params_.min_confirmed_share * more ? static_cast<std::uint8_t>(first + kept++) : dish;
+  }
+  if (kept == items) return kept;
+  for (const SegmentedView& view : views) {
+    for (int y = 0; y < view.labels.height; ++y) {
+      for (int x = 0; x < view.labels.width; ++x) {
+        std::uint8_t& label = view.labels.at(x, y);
+        if (label >= first && label < first + items) label = renamed[label];
+      }
+    }
+  }
+  return kept;
 }
 
 }  // namespace traygauge

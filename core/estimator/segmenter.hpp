@@ -28,7 +28,12 @@ struct SegmenterParams {
   // begins.
   double flange_begin_mm = 2.5;
   double flange_depth_mm = 6.0;
-  int max_alignments = 3;  // of the card, each from the outline that the last one gave
+  double min_flange_mm = 4.0;
+  // Over the bottom of the dish, between which food is seen; what is carried to the other view counts where
+  // both lead to the same item.
+  std::array<double, 2> food_heights_mm{3.0, 22.0};
+  double min_confirmed_share = 0.2;  // of an item's pixels in one view over the other's
+  int max_alignments = 3;            // of the card, each from the outline that the last one gave
   // Of print and picture, from which the card's place is sure; a print out of focus or hidden reaches less.
   double sure_correlation = 0.9;
 };
@@ -53,6 +58,7 @@ struct Segmentation {
   std::array<CardAlignment, 2> cards;
   std::array<SegmentedDish, kMaxPlacedDishes> dishes;
   std::size_t dish_count = 0;
+  int items = 0;  // labels from kFirstItemLabel on
   double card_ms = 0.0;
   double dish_ms = 0.0;
   double food_ms = 0.0;
@@ -93,7 +99,16 @@ class Segmenter {
   Status find_card(const SegmentedView& view, const LensModel& lens, std::size_t index);
   Status find_dishes(const DishSearchViews& views);
   void draw_dishes(const std::array<SegmentedView, 2>& views, const DishSearchViews& cameras);
-  void draw_food(const SegmentedView& view, const DishSearchView& camera, const SegmentedDish& dish);
+  void draw_food(const std::array<SegmentedView, 2>& views, const DishSearchViews& cameras);
+  bool outline_view(const SegmentedView& view, const DishSearchView& camera, const SegmentedDish& dish,
+                    DishRaster& raster, ImageView<std::uint8_t>& cells);
+  void carry_labels(const DishRaster& raster, const DishSearchViews& cameras,
+                    ImageView<const std::uint8_t> first_labels, const SegmentedDish& dish,
+                    ImageView<std::uint8_t> cells) const;
+  int keep_confirmed(const std::array<SegmentedView, 2>& views, std::uint8_t first, int items,
+                     std::uint8_t dish) const;
+  static void draw_cells(const DishRaster& raster, ImageView<const std::uint8_t> cells, std::uint8_t dish,
+                         ImageView<std::uint8_t> labels);
 
   Configuration configuration_;
   SegmenterParams params_;

@@ -71,6 +71,7 @@ bool load_dish_raster(const FrameView& frame, std::span<const Vec2> outline_px, 
   const int by_size = static_cast<int>(std::lround(px_per_mm * params.cell_mm));
   const int by_memory = static_cast<int>(std::ceil(std::sqrt(area_px / params.max_cells)));
   raster.step_px = std::max({by_size, by_memory, 1});
+  raster.cell_mm = raster.step_px / px_per_mm;
   raster.left_px = box.left;
   raster.top_px = box.top;
   const int width = box.width() / raster.step_px;

@@ -38,6 +38,7 @@ struct DishRaster {
   int left_px = 0;  // of the frame
   int top_px = 0;
   int step_px = 1;
+  double cell_mm = 1.0;
   ImageView<CellColour> colours;
   ImageView<DishZone> zones;
 

@@ -8,14 +8,20 @@
 #include "core/segmentation/dish_raster.hpp"
 #include "core/segmentation/geodesic.hpp"
 #include "core/segmentation/glaze.hpp"
+#include "core/segmentation/item_split.hpp"
 
 namespace traygauge {
+
+inline constexpr std::uint8_t kUnlabelled =
+    251;  // food of which it is not known yet to which item it belongs
 
 struct FoodOutlineParams {
   DishRasterParams raster;
   GlazeParams glaze;
   GeodesicParams geodesic;
-  double smoothing_mm = 2.0;    // radius of the majority that smooths outlines
+  ItemSplitParams split;
+  double smoothing_mm = 1.6;    // radius of the majority that smooths outlines
+  double opening_mm = 2.4;      // radius of what fits into food: rings of decoration and bridges do not
   double min_item_mm2 = 250.0;  // smaller is a crumb, a drop or a highlight
   double min_hole_mm2 = 150.0;  // of glaze within food; smaller is food
 };
@@ -23,8 +29,8 @@ struct FoodOutlineParams {
 struct FoodOutlineWorkspace {
   DishRasterWorkspace raster;
   GeodesicWorkspace geodesic;
-  std::span<std::uint8_t> owners;
-  std::span<std::uint8_t> smoothed;
+  ItemSplitWorkspace split;
+  std::span<std::uint8_t> sums;
   std::span<std::int32_t> queue;
 
   template <class Allocator>
@@ -32,15 +38,25 @@ struct FoodOutlineWorkspace {
     const auto cells = static_cast<std::size_t>(params.raster.max_cells);
     raster.allocate(arena, params.raster);
     geodesic.allocate(arena, params.raster.max_cells);
-    owners = arena.template take<std::uint8_t>(cells);
-    smoothed = arena.template take<std::uint8_t>(cells);
+    split.allocate(arena, params.split);
+    sums = arena.template take<std::uint8_t>(cells);
     queue = arena.template take<std::int32_t>(cells);
   }
 };
 
-// Cells of `raster` as labels: kBackgroundLabel outside of the dish, kDishLabel on it, kFirstItemLabel and on
-// the items. Returns their number; −1 when the flange shows too little glaze.
-int outline_food(const DishRaster& raster, const FoodOutlineParams& params, FoodOutlineWorkspace& workspace,
-                 ImageView<std::uint8_t> labels);
+// Marks the cells of food as kFoodSeed, the rest of the dish as kGlazeSeed, kBarred outside. False when the
+// flange shows too little glaze.
+bool outline_food(const DishRaster& raster, const FoodOutlineParams& params, FoodOutlineWorkspace& workspace,
+                  ImageView<std::uint8_t> cells);
+
+// Gives the food items labels from `first` on, kDishLabel to the rest of the dish and kBackgroundLabel
+// outside; `cells` as outline_food left them. Returns the number of items, at most `max_items`.
+int label_items(const DishRaster& raster, const FoodOutlineParams& params, FoodOutlineWorkspace& workspace,
+                std::uint8_t first, int max_items, ImageView<std::uint8_t> cells);
+
+// The same with seeds that are known already: cells that carry an item's label, among food that is
+// kUnlabelled. Food that no seed reaches is dish.
+void spread_items(const DishRaster& raster, const FoodOutlineParams& params, FoodOutlineWorkspace& workspace,
+                  ImageView<std::uint8_t> cells);
 
 }  // namespace traygauge

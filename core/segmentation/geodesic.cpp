@@ -1,7 +1,6 @@
 #include "core/segmentation/geodesic.hpp"
 
 #include <algorithm>
-#include <cstdlib>
 #include <limits>
 
 namespace traygauge {
@@ -11,10 +10,11 @@ constexpr std::int32_t kEnd = -1;
 constexpr std::uint16_t kFar = std::numeric_limits<std::uint16_t>::max();
 
 int cost_of(const CellColour& a, const CellColour& b, const GeodesicParams& params) {
-  const int luma = std::abs(a.luma - b.luma);
-  const int colour = std::abs(a.red - b.red) + std::abs(a.green - b.green);
-  return std::min(params.step_cost + params.luma_weight * luma + params.colour_weight * colour,
-                  kMaxGeodesicStep);
+  const int luma = a.luma - b.luma;
+  const int red = a.red - b.red;
+  const int green = a.green - b.green;
+  const int squares = params.luma_weight * luma * luma + params.share_weight * (red * red + green * green);
+  return std::min(params.step_cost + squares / 16, kMaxGeodesicStep);
 }
 
 }  // namespace

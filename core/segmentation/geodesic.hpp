@@ -14,9 +14,11 @@
 namespace traygauge {
 
 struct GeodesicParams {
-  int luma_weight = 1;    // of a difference between neighbours, in the units of CellColour
-  int colour_weight = 2;  // … of each share
-  int step_cost = 2;      // for each cell, so that in one colour the nearer seed wins
+  int step_cost = 1;  // for each cell, so that in one colour the nearer seed wins
+  // Of squared differences between neighbours, in the units of CellColour, over 16: a shadow's slope is
+  // cheap.
+  int luma_weight = 1;
+  int share_weight = 4;
 };
 
 inline constexpr int kMaxGeodesicStep = 255;  // more counts as this

@@ -75,22 +75,23 @@ bool measure_glaze(const DishRaster& raster, const GlazeParams& params, GlazeCol
 }
 
 int texture_at(const DishRaster& raster, int x, int y, int radius) {
-  const int left = std::max(0, x - radius);
-  const int right = std::min(raster.width() - 1, x + radius);
-  const int top = std::max(0, y - radius);
-  const int bottom = std::min(raster.height() - 1, y + radius);
+  const int left = std::max(1, x - radius);
+  const int right = std::min(raster.width() - 2, x + radius);
+  const int top = std::max(1, y - radius);
+  const int bottom = std::min(raster.height() - 2, y + radius);
   int sum = 0;
-  int squares = 0;
+  int count = 0;
   for (int j = top; j <= bottom; ++j) {
+    const CellColour* above = raster.colours.row(j - 1);
+    const CellColour* row = raster.colours.row(j);
+    const CellColour* below = raster.colours.row(j + 1);
     for (int i = left; i <= right; ++i) {
-      const int luma = raster.colours.at(i, j).luma;
-      sum += luma;
-      squares += luma * luma;
+      sum += std::abs(2 * row[i].luma - row[i - 1].luma - row[i + 1].luma) +
+             std::abs(2 * row[i].luma - above[i].luma - below[i].luma);
+      ++count;
     }
   }
-  const double count = (right - left + 1) * (bottom - top + 1);
-  const double variance = squares / count - (sum / count) * (sum / count);
-  return static_cast<int>(2.0 * std::sqrt(std::max(0.0, variance)) + 0.5);
+  return count == 0 ? 0 : 2 * sum / count;
 }
 
 void seed_food(const DishRaster& raster, const GlazeColour& glaze, const GlazeParams& params,
@@ -113,7 +114,9 @@ void seed_food(const DishRaster& raster, const GlazeColour& glaze, const GlazePa
           std::hypot(colour.red - glaze.median.red, colour.green - glaze.median.green) / glaze.share_sigma;
       const double light = static_cast<double>(colour.luma) / std::max<int>(1, glaze.median.luma);
       const double texture = texture_at(raster, x, y, params.texture_radius) / glaze.texture;
-      if (off >= params.food_deviations || light < params.food_darkest) {
+      const bool is_textured = texture >= params.food_texture_ratio;
+      if (off >= params.food_deviations || light < params.food_darkest ||
+          (is_textured && off >= params.textured_food_deviations)) {
         seed = kFoodSeed;
       } else if (off < params.glaze_deviations && light > params.darkest && light < params.brightest &&
                  texture < params.texture_ratio) {

@@ -14,18 +14,19 @@ inline constexpr std::uint8_t kGlazeSeed = 1;
 inline constexpr std::uint8_t kFoodSeed = 2;
 
 struct GlazeParams {
-  double min_share_sigma = 3.0;  // of the colour shares, 1/255: noise and compression
+  double min_share_sigma = 4.0;  // of the colour shares, 1/255: noise and compression
   double min_luma_sigma = 5.0;
   // In those deviations from the flange's median, for a cell to be glaze for sure, and food for sure.
   double glaze_deviations = 2.0;
-  double food_deviations = 5.0;
+  double food_deviations = 8.0;
+  double textured_food_deviations = 2.5;  // with more texture than glaze has
   // Light on the glaze, over the flange's: shadows, the steep wall and highlights lie between.
   double darkest = 0.72;
   double brightest = 1.18;
   double food_darkest = 0.45;  // darker is not a shadow
   int texture_radius = 2;      // cells
   double texture_ratio = 2.2;  // of the local deviation of luma over the flange's, for sure glaze at most
-  double food_texture_ratio = 4.5;
+  double food_texture_ratio = 3.0;
   int min_flange_cells = 100;
 };
 
@@ -40,7 +41,8 @@ struct GlazeColour {
 // False with too few cells of the flange.
 bool measure_glaze(const DishRaster& raster, const GlazeParams& params, GlazeColour& glaze);
 
-// Local standard deviation of luma, doubled, over the square of the texture radius.
+// How much luma bends from cell to cell, doubled and averaged over a square: slopes, as on a shaded wall,
+// have none.
 int texture_at(const DishRaster& raster, int x, int y, int radius);
 
 // Seeds: kGlazeSeed, kFoodSeed, kNoOwner where neither is sure, kBarred outside of the dish.
