@@ -188,7 +188,7 @@ Status Segmenter::find_dishes(const DishSearchViews& views) {
     dish.status = search_dish(views, candidates, std::span(taken).first(taken_count), params_.dish,
                               memory_.dish, dish.found);
     if (!dish.status.ok()) continue;
-    dish.model = &candidates[static_cast<std::size_t>(dish.found.candidate)];
+    dish.model = candidates[static_cast<std::size_t>(dish.found.candidate)];
     taken[taken_count++] = dish.found;
   }
   return taken_count > 0 ? StatusCode::ok : StatusCode::rim_not_found;
@@ -227,7 +227,7 @@ bool Segmenter::outline_view(const SegmentedView& view, const DishSearchView& ca
                              const SegmentedDish& dish, DishRaster& raster, ImageView<std::uint8_t>& cells) {
   const DishPlace& place = dish.found.place;
   DishProfile profile;
-  if (!profile.set(*dish.model).ok()) return false;
+  if (!profile.set(dish.model).ok()) return false;
   RimOutline outline = rim_outline(place, camera, 0.0, 0.0);
   const Vec3 middle = camera.camera_from_table * Vec3(place.centre_mm.x(), place.centre_mm.y(), 0.0);
   const double px_per_mm = camera.lens.pinhole.mean_focal_px() / middle.z();
@@ -255,7 +255,7 @@ void Segmenter::carry_labels(const DishRaster& raster, const DishSearchViews& ca
                              ImageView<const std::uint8_t> first_labels, const SegmentedDish& dish,
                              ImageView<std::uint8_t> cells) const {
   const Pose table_from_second = cameras[1].camera_from_table.inverse();
-  const double bottom_mm = dish.model->bottom_height_mm;
+  const double bottom_mm = dish.model.bottom_height_mm;
   for (int y = 0; y < raster.height(); ++y) {
     for (int x = 0; x < raster.width(); ++x) {
       std::uint8_t& cell = cells.at(x, y);

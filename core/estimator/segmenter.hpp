@@ -49,7 +49,7 @@ struct SegmentedDish {
   std::uint8_t label = kDishLabel;
   Status status;
   FoundDish found;
-  const DishModel* model = nullptr;  // of the configuration, where it was found
+  DishModel model;  // as described, where it was found
 };
 
 // What a segmentation found; the labels themselves are in the caller's pictures.
@@ -62,6 +62,8 @@ struct Segmentation {
   double card_ms = 0.0;
   double dish_ms = 0.0;
   double food_ms = 0.0;
+
+  double total_ms() const { return card_ms + dish_ms + food_ms; }
 };
 
 // Not thread-safe. Nothing allocates, construction included.

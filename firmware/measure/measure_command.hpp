@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "firmware/measure/capture_session.hpp"
 #include "simulator/capture/capture.hpp"
 
 namespace traygauge {
@@ -37,8 +38,12 @@ std::array<int, 2> choose_pair(const std::string& typed, const Capture& capture)
 // Throws InputError unless both views have label pictures.
 void require_labels(const Capture& capture, const std::array<int, 2>& pair);
 
-// UsageError unless this version has the source of labels; empty: the default.
-void check_label_source(const std::string& source);
+// What `typed` names: given or auto; empty: given where both views have label pictures, else auto. UsageError
+// for anything else, InputError for labels that are to be given and are not.
+LabelSource choose_labels(const std::string& typed, const Capture& capture, const std::array<int, 2>& pair);
+
+// UsageError unless `typed` is given, auto or empty.
+void check_label_source(const std::string& typed);
 
 // A whole number from 0 to 2^64 - 1.
 std::uint64_t parse_seed(const std::string& typed);

@@ -128,7 +128,6 @@ TEST_F(MeasureCommand, WrongOptionsAreNamed) {
   for (const char* seed : {"-1", "1.5", "x", "18446744073709551616", "1 "})
     expect_wrong_use({"--seed", seed}, "--seed");
   expect_wrong_use({"--profile", "worst"}, "--profile");
-  expect_wrong_use({"--labels", "auto"}, "--labels auto");
   expect_wrong_use({"--labels", "none"}, "--labels");
   expect_wrong_use({"--unknown"}, "--unknown");
   expect_wrong_use({"second"}, "second");
