@@ -29,16 +29,6 @@ bool parse_whole(const std::string& text, Number& number) {
   return problem == std::errc() && stop == end;
 }
 
-// Whether a result could be stored at all is known before the work is done.
-void check_output(const std::string& file) {
-  if (file.empty()) return;
-  const std::filesystem::path path(file);
-  const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
-  std::error_code ignored;
-  if (std::filesystem::is_directory(path, ignored)) throw OutputError(path, "it is a folder");
-  if (!std::filesystem::is_directory(folder, ignored)) throw OutputError(path, "its folder does not exist");
-}
-
 MeasureReport compose_report(const MeasureOptions& options, const CaptureSession& session,
                              const std::array<int, 2>& pair, std::uint64_t seed,
                              const Measurement& measurement) {
@@ -133,6 +123,15 @@ std::array<int, 2> choose_pair(const std::string& typed, const Capture& capture)
   if (parsed && exists(pair[0]) && exists(pair[1])) return pair;
   throw UsageError("--pair: expected two views A,B from 0 to " + std::to_string(count - 1) + ", found " +
                    printable(typed));
+}
+
+void check_output(const std::string& file) {
+  if (file.empty()) return;
+  const std::filesystem::path path(file);
+  const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
+  std::error_code ignored;
+  if (std::filesystem::is_directory(path, ignored)) throw OutputError(path, "it is a folder");
+  if (!std::filesystem::is_directory(folder, ignored)) throw OutputError(path, "its folder does not exist");
 }
 
 std::uint64_t parse_seed(const std::string& typed) {

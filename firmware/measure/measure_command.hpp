@@ -45,6 +45,10 @@ LabelSource choose_labels(const std::string& typed, const Capture& capture, cons
 // UsageError unless `typed` is given, auto or empty.
 void check_label_source(const std::string& typed);
 
+// Whether a result could be stored at all is known before the work is done: OutputError; empty: nothing to
+// store.
+void check_output(const std::string& file);
+
 // A whole number from 0 to 2^64 - 1.
 std::uint64_t parse_seed(const std::string& typed);
 
