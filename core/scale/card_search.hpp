@@ -25,13 +25,13 @@ inline constexpr std::size_t kCardSearchScales = 6;
 
 struct CardSearchParams {
   // Of the picture searched, one after the other until the card is found: 1600 × 1200 at half size, where
-  // most cards have 80 px and more, and at 0.72.
-  std::array<int, 2> search_px{480'000, 1'000'000};
+  // most cards have 80 px and more, and at 0.68.
+  std::array<int, 2> search_px{480'000, 900'000};
   // Of the print as it is learned, px/mm in the picture searched; descriptors bear 15% more or less.
   std::array<double, kCardSearchScales> scales_px_per_mm{0.6, 0.8, 1.05, 1.4, 1.85, 2.45};
   int max_pattern_corners = 160;  // at each scale
-  int max_corners = 8000;         // of the picture
-  CornerParams corners{16, 6, 4, 4.0F, 0.02F, 0, 255};
+  int max_corners = 6000;         // of the picture
+  CornerParams corners{16, 4, 4, 4.0F, 0.02F, 0, 255};
   // Of 256 bits. The same corner, seen at a slant and between two scales, differs by 20 to 60.
   int max_distance = 68;
   int max_half_distance = 46;        // of the first 128 bits, for the others to be compared at all
@@ -93,7 +93,10 @@ struct CardSearchWorkspace {
     const auto count = static_cast<std::size_t>(params.max_corners);
     picture = arena.template take<std::uint8_t>(pixels);
     smooth = arena.template take<std::uint8_t>(pixels);
-    corner_search.allocate(arena, max_frame_width, max_frame_height, params.corners);
+    const double scale = std::min(1.0, std::sqrt(static_cast<double>(pixels) /
+                                                 (static_cast<double>(max_frame_width) * max_frame_height)));
+    corner_search.allocate(arena, static_cast<int>(scale * max_frame_width) + 1,
+                           static_cast<int>(scale * max_frame_height) + 1, params.corners);
     corners = BoundedList<Corner>(arena.template take<Corner>(count));
     matches = BoundedList<CardSearchMatch>(arena.template take<CardSearchMatch>(count));
     tracks = arena.template take<CardTrack>(count);

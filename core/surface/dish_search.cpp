@@ -25,12 +25,6 @@ Vec2 direction_of(double azimuth_rad) {
   return {std::cos(azimuth_rad), std::sin(azimuth_rad)};
 }
 
-// An edge on a level of the table frame: where, and the unit normal towards its brighter side.
-struct LevelEdge {
-  Vec2 place_mm = Vec2::Zero();
-  Vec2 brighter = Vec2::Zero();
-};
-
 class Level {
  public:
   Level(const Pose& camera_from_table, double height_mm)
@@ -45,7 +39,7 @@ class Level {
     return depth > 0.0 && place_mm.allFinite();
   }
 
-  bool meet(const RimEdge& edge, LevelEdge& at) const {
+  bool meet(const RimEdge& edge, RimLevelEdge& at) const {
     Vec2 along_mm;
     if (!meet(edge.ray, at.place_mm) || !meet(edge.along, along_mm)) return false;
     const Vec2 along = along_mm - at.place_mm;
@@ -245,22 +239,18 @@ class DishSearch {
     const int azimuths = is_round ? 1 : params_.azimuths;
     Ballot ballot(middle_mm(height_mm), params_, workspace_.votes);
     const double perimeter_mm = std::numbers::pi * (semi.x() + semi.y());
+    lay_edges(height_mm);
     for (int a = 0; a < azimuths; ++a) {
       const double azimuth_rad = std::numbers::pi * a / azimuths;
       const Vec2 axis = direction_of(azimuth_rad);
       for (const int inside_sign : {1, -1}) {
         ballot.clear();
-        for (std::size_t v = 0; v < 2; ++v) {
-          const Level level(cameras_[v], height_mm);
-          for (const RimEdge& edge : workspace_.edges[v]) {
-            LevelEdge at;
-            if (!level.meet(edge, at)) continue;
-            const Vec2 outward = -inside_sign * at.brighter;
-            const Vec2 normal(axis.dot(outward), axis.x() * outward.y() - axis.y() * outward.x());
-            const Vec2 on_axes = semi.cwiseAbs2().cwiseProduct(normal) / semi.cwiseProduct(normal).norm();
-            ballot.vote(at.place_mm - Vec2(axis.x() * on_axes.x() - axis.y() * on_axes.y(),
-                                           axis.y() * on_axes.x() + axis.x() * on_axes.y()));
-          }
+        for (const RimLevelEdge& at : workspace_.level_edges) {
+          const Vec2 outward = -inside_sign * at.brighter;
+          const Vec2 normal(axis.dot(outward), axis.x() * outward.y() - axis.y() * outward.x());
+          const Vec2 on_axes = semi.cwiseAbs2().cwiseProduct(normal) / semi.cwiseProduct(normal).norm();
+          ballot.vote(at.place_mm - Vec2(axis.x() * on_axes.x() - axis.y() * on_axes.y(),
+                                         axis.y() * on_axes.x() + axis.x() * on_axes.y()));
         }
         Peak peak{&dish, {}, inside_sign, 0.0};
         const int most =
@@ -270,6 +260,18 @@ class DishSearch {
         peak.place.size_mm = dish.outer_size_mm;
         peak.votes_per_mm = most / perimeter_mm;
         keep(peak);
+      }
+    }
+  }
+
+  // The edges of both views on one level of the table frame.
+  void lay_edges(double height_mm) {
+    workspace_.level_edges.clear();
+    for (std::size_t v = 0; v < 2; ++v) {
+      const Level level(cameras_[v], height_mm);
+      for (const RimEdge& edge : workspace_.edges[v]) {
+        RimLevelEdge at;
+        if (level.meet(edge, at)) workspace_.level_edges.push_back(at);
       }
     }
   }

@@ -61,9 +61,16 @@ struct FoundDish {
   double support = 0.0;  // share of the rim, in both views, along which there is an edge
 };
 
+// An edge on a level of the table frame: where, and the unit normal towards its brighter side.
+struct RimLevelEdge {
+  Vec2 place_mm = Vec2::Zero();
+  Vec2 brighter = Vec2::Zero();
+};
+
 struct DishSearchWorkspace {
   RimEdgeWorkspace edge_search;
   std::array<BoundedList<RimEdge>, 2> edges;
+  BoundedList<RimLevelEdge> level_edges;
   std::span<std::uint16_t> votes;
   std::span<float> steps;  // over offsets from the rim, for each angle of both views
   std::array<BoundedList<Vec2>, 2> outlines;
@@ -75,6 +82,8 @@ struct DishSearchWorkspace {
       list = BoundedList<RimEdge>(
           arena.template take<RimEdge>(static_cast<std::size_t>(params.edges.max_edges)));
     }
+    level_edges = BoundedList<RimLevelEdge>(
+        arena.template take<RimLevelEdge>(2 * static_cast<std::size_t>(params.edges.max_edges)));
     const auto side = static_cast<std::size_t>(params.cells);
     votes = arena.template take<std::uint16_t>(side * side);
     const auto points = static_cast<std::size_t>(params.outline_points);

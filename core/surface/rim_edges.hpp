@@ -15,7 +15,7 @@ namespace traygauge {
 
 struct RimEdgeParams {
   int max_px = 160'000;     // of the picture searched: print and grain of a table shrink, a rim stays an edge
-  int max_edges = 5000;     // strongest of them
+  int max_edges = 4000;     // strongest of them
   int min_difference = 10;  // of grey values over three pixels
 };
 
