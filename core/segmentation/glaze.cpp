@@ -110,8 +110,9 @@ void seed_food(const DishRaster& raster, const GlazeColour& glaze, const GlazePa
       }
       seed = kNoOwner;
       const CellColour& colour = raster.colours.at(x, y);
-      const double off =
-          std::hypot(colour.red - glaze.median.red, colour.green - glaze.median.green) / glaze.share_sigma;
+      const int red = colour.red - glaze.median.red;
+      const int green = colour.green - glaze.median.green;
+      const double off = std::sqrt(static_cast<double>(red * red + green * green)) / glaze.share_sigma;
       const double light = static_cast<double>(colour.luma) / std::max<int>(1, glaze.median.luma);
       const double texture = texture_at(raster, x, y, params.texture_radius) / glaze.texture;
       const bool is_textured = texture >= params.food_texture_ratio;

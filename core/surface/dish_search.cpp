@@ -300,7 +300,7 @@ class DishSearch {
     LevenbergMarquardtParams search;
     search.max_iterations = params_.iterations;
     double unused = 0.0;
-    trace(place, peak.inside_sign, unused);
+    trace(place, peak.inside_sign, params_.min_step, unused);
     const DishOutlines outlines = {workspace_.outlines[0].items(), workspace_.outlines[1].items()};
     if (outlines[0].size() + outlines[1].size() < static_cast<std::size_t>(params_.placement.min_points))
       return StatusCode::rim_not_found;
@@ -309,7 +309,9 @@ class DishSearch {
     minimise<kPlaceParameters>(problem, search, place);
     if (!as_vector(place).allFinite()) return StatusCode::rim_not_found;
     found.place = place;
-    found.support = trace(place, peak.inside_sign, found.rms_mm);
+    const double noise = noise_beside(place, peak.inside_sign);
+    found.support = trace(place, peak.inside_sign,
+                          std::max(params_.min_step, params_.min_step_over_noise * noise), found.rms_mm);
     return found.support >= params_.min_support ? StatusCode::ok : StatusCode::rim_not_found;
   }
 
@@ -375,9 +377,33 @@ class DishSearch {
     return sum;
   }
 
+  // Median magnitude of the steps off the rim: grain of the table, shading of the dish.
+  double noise_beside(const DishPlace& place, int inside_sign) {
+    std::array<int, 256> counts{};
+    int total = 0;
+    for (std::size_t v = 0; v < 2; ++v) {
+      const RimReader reader(views_[v], params_);
+      const int offsets = reader.offsets(params_.vote_reach_mm);
+      for (int i = 0; i < params_.outline_points; ++i) {
+        const std::span<float> steps = steps_of(v, i, offsets);
+        if (!reader.read_steps(place, angle_at(i), inside_sign, steps)) continue;
+        for (int k = 0; k < offsets; ++k) {
+          if (std::abs(reader.offset_mm(k, offsets)) < params_.edge_reach_mm + params_.band_mm) continue;
+          const float step = std::abs(steps[static_cast<std::size_t>(k)]);
+          ++counts[static_cast<std::size_t>(std::min(step, 255.0F))];
+          ++total;
+        }
+      }
+    }
+    int below = 0;
+    std::size_t median = 0;
+    while (median < counts.size() && 2 * (below + counts[median]) < total) below += counts[median++];
+    return static_cast<double>(median);
+  }
+
   // Collects where the edge lies along the rim; returns the share of the rim, within the pictures, that has
   // one, and its distance from the place.
-  double trace(const DishPlace& place, int inside_sign, double& rms_mm) {
+  double trace(const DishPlace& place, int inside_sign, double min_step, double& rms_mm) {
     int seen = 0;
     int supported = 0;
     double squares_mm = 0.0;
@@ -390,7 +416,7 @@ class DishSearch {
         if (!reader.read_steps(place, angle_at(i), inside_sign, steps)) continue;
         ++seen;
         double index = 0.0;
-        if (static_cast<double>(peak_of(steps, index)) < params_.min_step) continue;
+        if (static_cast<double>(peak_of(steps, index)) < min_step) continue;
         ++supported;
         const double beyond_mm = reader.offset_mm(index, offsets);
         squares_mm += beyond_mm * beyond_mm;

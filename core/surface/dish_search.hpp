@@ -39,8 +39,9 @@ struct DishSearchParams {
   double scale_px = 4.0;       // Geman and McClure's, for its points
   int iterations = 15;
   int outline_points = 160;
-  double min_step = 4.0;     // of grey values, across the rim
-  double min_support = 0.5;  // of the rim, along which there is such a step; less is no dish
+  double min_step = 4.0;             // of grey values, across the rim
+  double min_step_over_noise = 3.0;  // over the median magnitude of the steps beside the rim
+  double min_support = 0.5;          // of the rim, along which there is such a step; less is no dish
   // Dishes do not overlap seen from above by more than this, of the sum of their smaller half axes.
   double max_overlap = 0.12;
 };
