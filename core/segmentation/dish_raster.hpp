@@ -14,7 +14,7 @@ namespace traygauge {
 
 struct DishRasterParams {
   double cell_mm = 0.8;      // about; cells are whole pixels
-  int max_cells = 120'000;   // 300 × 250 mm at that size
+  int max_cells = 160'000;   // 360 × 280 mm at that size
   double dark_level = 12.0;  // grey value below which a colour tells little
 };
 
