@@ -92,7 +92,7 @@ void check_label_source(const std::string& typed) {
 
 LabelSource choose_labels(const std::string& typed, const Capture& capture, const std::array<int, 2>& pair) {
   check_label_source(typed);
-  const bool has_labels = std::all_of(pair.begin(), pair.end(), [&](int i) {
+  const bool has_labels = std::any_of(pair.begin(), pair.end(), [&](int i) {
     return capture.views[static_cast<std::size_t>(i)].labels.has_value();
   });
   if (typed == "auto" || (typed.empty() && !has_labels)) return LabelSource::automatic;

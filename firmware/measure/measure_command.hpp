@@ -38,8 +38,8 @@ std::array<int, 2> choose_pair(const std::string& typed, const Capture& capture)
 // Throws InputError unless both views have label pictures.
 void require_labels(const Capture& capture, const std::array<int, 2>& pair);
 
-// What `typed` names: given or auto; empty: given where both views have label pictures, else auto. UsageError
-// for anything else, InputError for labels that are to be given and are not.
+// What `typed` names: given or auto; empty: auto where neither view has a label picture, else given.
+// UsageError for anything else, InputError for labels that are to be given and are not.
 LabelSource choose_labels(const std::string& typed, const Capture& capture, const std::array<int, 2>& pair);
 
 // UsageError unless `typed` is given, auto or empty.

@@ -153,6 +153,8 @@ TEST_F(MeasureCommand, UnusableCapturesAreNamed) {
   files_.document["views"][1].erase("labels");
   files_.store();
   expect_wrong_use({}, "views[1].labels");
+  expect_wrong_use({"--labels", "given"}, "views[1].labels");
+  EXPECT_NE(measure({"--labels", "auto"}).status, 2);
   EXPECT_EQ(measure({"--pair", "0,2"}).status, 0);  // the views that are used have labels
   fake_estimator().estimates = 0;
   files_.document["views"] = Json::array({files_.document["views"][0]});
