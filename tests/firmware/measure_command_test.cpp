@@ -223,9 +223,12 @@ TEST_F(MeasureCommand, BadPicturesAreNamed) {
 }
 
 TEST_F(MeasureCommand, ConfigurationsThatTheEstimatorRefusesAreWrongUse) {
-  fake_estimator().lens_is_valid = false;
+  const Json straight = files_.document["camera"]["distortion"];
+  files_.document["camera"]["distortion"] = {-5.0, 0.0, 0.0, 0.0, 0.0};  // folds the picture over
+  files_.store();
   expect_wrong_use({}, "camera.distortion");
-  fake_estimator().lens_is_valid = true;
+  files_.document["camera"]["distortion"] = straight;
+  files_.store();
   fake_estimator().construction = StatusCode::invalid_configuration;
   expect_wrong_use({}, "capture.json");
 }
