@@ -11,6 +11,7 @@
 #include "firmware/measure/measure_command.hpp"
 #include "firmware/memory/memory_command.hpp"
 #include "firmware/record/record_command.hpp"
+#include "firmware/segment/segment_command.hpp"
 #include "firmware/station/recorded_captures.hpp"
 #include "firmware/station/station_command.hpp"
 #include "firmware/station/stop_signal.hpp"
@@ -23,6 +24,7 @@ struct Options {
   EvaluateOptions evaluate;
   EnrolOptions enrol;
   MemoryOptions memory;
+  SegmentOptions segment;
   StationCommand station;
   CheckOptions check;
   RecordOptions record;
@@ -32,6 +34,7 @@ int run_command(const CLI::App& app, const Options& options, std::ostream& out, 
   if (app.got_subcommand("measure")) return run_measure(options.measure, out, error);
   if (app.got_subcommand("evaluate")) return run_evaluate(options.evaluate, out, error);
   if (app.got_subcommand("enrol-dish")) return run_enrol(options.enrol, out);
+  if (app.got_subcommand("segment")) return run_segment(options.segment, out);
   if (app.got_subcommand("station")) {
     return run_station(options.station, open_recorded_captures, stop_on_signals(), out, error);
   }
@@ -50,6 +53,7 @@ int run_command_line(int argument_count, const char* const* arguments, std::ostr
   Options options;
   add_measure_command(app, options.measure);
   add_evaluate_command(app, options.evaluate);
+  add_segment_command(app, options.segment);
   add_enrol_command(app, options.enrol);
   add_memory_command(app, options.memory);
   add_station_command(app, options.station);

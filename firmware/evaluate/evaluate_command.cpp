@@ -53,6 +53,7 @@ void write_files(const std::filesystem::path& folder, const Evaluation& evaluati
   write_text(folder / "items.csv", compose_items_csv(evaluation));
   write_text(folder / "captures.csv", compose_captures_csv(evaluation));
   write_text(folder / "summary.json", compose_summary_json(evaluation));
+  if (!evaluation.outlines.empty()) write_text(folder / "outlines.csv", compose_outlines_csv(runs));
   write_text(folder / "signed_errors.svg", plot_signed_errors(evaluation));
   write_text(folder / "variation.svg", plot_variation(evaluation));
   write_text(folder / "error_by_angle.svg", plot_error_by_angle(evaluation));
@@ -92,7 +93,8 @@ void add_evaluate_command(CLI::App& app, EvaluateOptions& options) {
   command->add_option("--jobs", options.jobs, "Pairs measured at the same time, default 1")
       ->check(CLI::Range(1, kMaxJobs));
   command->add_option("--profile", options.profile, "best (default) or paper");
-  command->add_option("--labels", options.labels, "given (default)");
+  command->add_option("--labels", options.labels,
+                      "given (default), or auto: found in the pictures, and compared with the given ones");
   command->add_option("--out", options.out, "Folder for CSV files, plots (SVG) and summary.json");
   command->add_flag("--json", options.json, "Print summary.json instead of tables");
   command->add_flag("--stages", options.stages,
@@ -122,6 +124,9 @@ int run_evaluate(const EvaluateOptions& options, std::ostream& out, std::ostream
         "evaluate: --stages prints tables; for scripts name a folder with --out instead of --json");
   if (options.set.empty()) throw UsageError("evaluate: name a capture or a folder of captures");
   protocol.config = options.config;
+  if (options.labels == "auto") protocol.labels = LabelSource::automatic;
+  if (options.stages && protocol.labels == LabelSource::automatic)
+    throw UsageError("evaluate: --stages follows given labels; leave --labels auto out");
   if (!options.out.empty()) create_folder(options.out);
   std::vector<std::string> skipped;
   const std::vector<PairRuns> runs = run_with_progress(error, [&](const ShowProgress& progress) {

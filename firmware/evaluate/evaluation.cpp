@@ -218,6 +218,7 @@ Evaluation evaluate_runs(const std::string& set, const ProtocolOptions& options,
   evaluation.refusals = count_refusals(runs);
   evaluation.items_without_volume = count_items_without_volume(runs);
   evaluation.skipped = skipped;
+  evaluation.outlines = summarise_outlines(runs);
   return evaluation;
 }
 

@@ -77,6 +77,7 @@ struct Evaluation {
   std::map<std::string, int> refusals;            // cause, measurements
   int items_without_volume = 0;                   // true volume 0: no percentage error
   std::vector<std::string> skipped;               // captures, with the reason
+  std::vector<OutlineFigures> outlines;           // by capture, then all; where the segmentation drew them
 };
 
 // `runs` as run_protocol() gives them.

@@ -110,6 +110,18 @@ Json list_of(const List& list, Compose compose) {
   return array;
 }
 
+Json outlines_of(const OutlineFigures& figures) {
+  return {{"capture", figures.capture},
+          {"pairs", figures.pairs},
+          {"food_iou", figures.food_iou},
+          {"item_iou", figures.item_iou},
+          {"card_iou", figures.card_iou},
+          {"axes_error_percent", figures.axes_error_percent},
+          {"right_count_percent", figures.right_count_percent},
+          {"all_food_percent", figures.all_food_percent},
+          {"time_ms", figures.time_ms}};
+}
+
 }  // namespace
 
 std::string compose_summary_json(const Evaluation& evaluation) {
@@ -128,6 +140,7 @@ std::string compose_summary_json(const Evaluation& evaluation) {
   for (const auto& [cause, count] : evaluation.refusals) document["refusals"][cause] = count;
   document["skipped"] = evaluation.skipped;
   document["items_without_volume"] = evaluation.items_without_volume;
+  if (!evaluation.outlines.empty()) document["outlines"] = list_of(evaluation.outlines, outlines_of);
   return document.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

@@ -243,8 +243,8 @@ std::string compose_tables(const Evaluation& evaluation) {
                      std::to_string(evaluation.pairs) + " pairs, " + std::to_string(evaluation.seeds) +
                      " seeds each, " + std::to_string(evaluation.measurements) + " measurements\n\n";
   if (evaluation.measurements > 0) {
-    text += capture_table(evaluation) + stage_table(evaluation) + item_table(evaluation) +
-            angle_table(evaluation) + summary_table(evaluation) + notes(evaluation);
+    text += compose_outline_table(evaluation.outlines) + capture_table(evaluation) + stage_table(evaluation) +
+            item_table(evaluation) + angle_table(evaluation) + summary_table(evaluation) + notes(evaluation);
   }
   std::vector<std::string> refusals;
   refusals.reserve(evaluation.refusals.size());

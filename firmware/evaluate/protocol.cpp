@@ -4,6 +4,7 @@
 
 #include "firmware/config/dish_choice.hpp"
 #include "firmware/evaluate/true_scene.hpp"
+#include "firmware/measure/measure_command.hpp"
 
 namespace traygauge {
 namespace {
@@ -57,8 +58,10 @@ Run record_run(const Measurement& measurement, std::uint64_t seed) {
   run.total_ms = measurement.total_ms;
   run.warnings = measurement.warnings;
   run.report = measurement.report;
-  for (const ItemResult& item : measurement.items)
+  for (const ItemResult& item : measurement.items) {
     run.items.push_back({item.label, item.status, item.volume_ml, item.column_volume_ml, item.sigma_ml});
+    if (item.status == StatusCode::ok) run.all_food_ml += item.volume_ml;
+  }
   return run;
 }
 
@@ -77,10 +80,30 @@ PairRunner::PairRunner(const PairTask& task, const ProtocolOptions& options)
       truth_(read_truth(task.folder).value()),
       pair_truth_(truth_of(truth_, task)),
       dishes_(choose_dishes(capture_, options.config)),
-      session_(capture_, task.pair, dishes_, options.parameters) {}
+      session_(capture_, task.pair, dishes_, options.parameters, options.labels) {
+  if (!session_.drawn()) return;
+  require_labels(capture_, task.pair);
+  meaning_ = match_items(session_.drawn()->labels, session_.given_labels());
+}
+
+PairRuns PairRunner::start() const {
+  PairRuns runs = describe_pair(task_, truth_);
+  if (!session_.drawn()) return runs;
+  const PairLabels& drawn = *session_.drawn();
+  PairOutlines& outlines = runs.outlines.emplace();
+  outlines.status = name(drawn.segmentation.status.code());
+  outlines.time_ms = drawn.segmentation.total_ms();
+  for (std::size_t v = 0; v < 2; ++v)
+    outlines.views[v] = score_labels(drawn.labels[v], session_.given_labels()[v]);
+  return runs;
+}
 
 Run PairRunner::measure(std::uint64_t seed, StageTap* tap) {
-  return record(session_.measure(seed, tap), seed, pair_truth_, dishes_);
+  Run run = record(session_.measure(seed, tap), seed, pair_truth_, dishes_);
+  if (!session_.drawn()) return run;
+  for (ItemEstimate& item : run.items) item.label = meaning_[static_cast<std::size_t>(item.label)];
+  std::erase_if(run.items, [](const ItemEstimate& item) { return item.label == 0; });
+  return run;
 }
 
 std::vector<PairRuns> run_protocol(const std::filesystem::path& set, const ProtocolOptions& options,

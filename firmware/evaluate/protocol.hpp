@@ -10,6 +10,7 @@
 
 #include "core/estimator/configuration.hpp"
 #include "core/estimator/measurement.hpp"
+#include "firmware/evaluate/outline_figures.hpp"
 #include "firmware/evaluate/pair_tasks.hpp"
 #include "firmware/evaluate/profile_abilities.hpp"
 #include "firmware/evaluate/stage_errors.hpp"
@@ -25,6 +26,7 @@ struct ProtocolOptions {
   Configuration parameters;  // of the stages; camera, card and dish come from the captures
   ProfileAbilities profile = abilities_of(Profile::best);
   std::string config;  // folder with dishes/, for captures that name no dish; empty: the usual one
+  LabelSource labels = LabelSource::given;  // automatic: compared with those given
 };
 
 struct ItemEstimate {
@@ -42,6 +44,7 @@ struct Run {
   std::vector<ItemEstimate> items;
   double relative_angle_deg = 0.0;
   double total_ms = 0.0;
+  double all_food_ml = 0.0;  // of what was measured, whatever it was taken for
   std::array<bool, kWarningCount> warnings{};
   MeasurementReport report;
   std::optional<StageErrors> errors;  // where it came as far as volumes
@@ -60,6 +63,7 @@ struct PairRuns {
   std::array<int, 2> pair{};
   std::optional<double> true_angle_deg;  // by the poses of truth.json, where it has them
   Truth truth;
+  std::optional<PairOutlines> outlines;  // where the segmentation drew them
   std::vector<Run> runs;
 };
 
@@ -72,7 +76,7 @@ class PairRunner {
   // Throws InputError.
   PairRunner(const PairTask& task, const ProtocolOptions& options);
 
-  PairRuns start() const { return describe_pair(task_, truth_); }
+  PairRuns start() const;
   Run measure(std::uint64_t seed, StageTap* tap = nullptr);
 
   const Capture& capture() const { return capture_; }
@@ -86,6 +90,7 @@ class PairRunner {
   std::optional<PairTruth> pair_truth_;  // where the truth has poses
   std::vector<DishDescription> dishes_;
   CaptureSession session_;
+  std::array<std::uint8_t, 256> meaning_{};  // of labels that were drawn: those of the truth
 };
 
 // Measures all pairs, ordered by capture. Captures without truth, and those that the profile cannot measure,

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <utility>
 
 #include "firmware/measure/label_list.hpp"
 
@@ -30,7 +31,8 @@ bool same_lens(const LensModel& a, const LensModel& b) {
 }  // namespace
 
 CaptureSession::CaptureSession(const Capture& capture, std::array<int, 2> pair,
-                               const std::vector<DishDescription>& dishes, const Configuration& parameters)
+                               const std::vector<DishDescription>& dishes, const Configuration& parameters,
+                               LabelSource labels)
     : descriptions_{view_of(capture, pair[0]), view_of(capture, pair[1])},
       views_{load_view(*descriptions_[0]), load_view(*descriptions_[1])},
       setup_(set_up_pair(capture, pair, dishes)),
@@ -38,6 +40,15 @@ CaptureSession::CaptureSession(const Capture& capture, std::array<int, 2> pair,
       block_(required_bytes(configuration_)),
       estimator_(block_.bytes(), configuration_) {
   check_inputs(capture);
+  if (labels == LabelSource::automatic) draw_labels();
+}
+
+void CaptureSession::draw_labels() {
+  drawn_ = label_pair(configuration_, setup_, views_);
+  for (std::size_t i = 0; i < 2; ++i) {
+    given_labels_[i] = std::move(views_[i].labels);
+    views_[i].labels = drawn_->labels[i];
+  }
 }
 
 void CaptureSession::check_inputs(const Capture& capture) {
@@ -76,12 +87,22 @@ ViewInput CaptureSession::input(std::size_t i) const {
 }
 
 const Measurement& CaptureSession::measure(std::uint64_t seed, StageTap* tap) {
+  if (drawn_ && !drawn_->segmentation.status.ok()) {
+    measurement_ = {};
+    measurement_.status = drawn_->segmentation.status;
+    measurement_.total_ms = drawn_->segmentation.total_ms();
+    return measurement_;
+  }
   estimator_.reset();
   for (std::size_t i = 0; i < 2; ++i) {
     // estimate() reports the failure of a view, too.
     if (!estimator_.add_view(input(i)).ok()) break;
   }
-  return estimator_.estimate(seed, tap);
+  const Measurement& measured = estimator_.estimate(seed, tap);
+  if (!drawn_) return measured;
+  measurement_ = measured;
+  measurement_.total_ms += drawn_->segmentation.total_ms();
+  return measurement_;
 }
 
 }  // namespace traygauge

@@ -3,15 +3,23 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "core/estimator/estimator.hpp"
 #include "firmware/base/aligned_block.hpp"
 #include "firmware/measure/pair_setup.hpp"
+#include "firmware/segment/pair_labels.hpp"
 #include "simulator/capture/capture.hpp"
 
 namespace traygauge {
+
+// Where dish and food are outlined.
+enum class LabelSource : std::uint8_t {
+  given,      // by the capture's label pictures
+  automatic,  // by the segmentation
+};
 
 // Loads the pictures of the pair and builds the estimator for them; both live as long as the session. Throws
 // InputError.
@@ -20,7 +28,7 @@ class CaptureSession {
   // `dishes`: those of the tray, or candidates for its only one.
   // `parameters` carries those of the stages; its camera, card and dishes are replaced by the capture's.
   CaptureSession(const Capture& capture, std::array<int, 2> pair, const std::vector<DishDescription>& dishes,
-                 const Configuration& parameters = {});
+                 const Configuration& parameters = {}, LabelSource labels = LabelSource::given);
 
   // The views of `measurement` point into the session.
   const Measurement& measure(std::uint64_t seed, StageTap* tap = nullptr);
@@ -32,11 +40,16 @@ class CaptureSession {
   const PairSetup& setup() const { return setup_; }
   const LoadedView& view(int i) const { return views_[static_cast<std::size_t>(i)]; }
   const LensModel& lens(int i) const { return setup_.lenses[static_cast<std::size_t>(i)]; }
+  // Of the segmentation, where that drew the labels.
+  const std::optional<PairLabels>& drawn() const { return drawn_; }
+  // The capture's own labels where the segmentation drew others; else empty pictures.
+  const std::array<Picture, 2>& given_labels() const { return given_labels_; }
   // Doubts about the input that do not stop a measurement.
   const std::vector<std::string>& warnings() const { return warnings_; }
 
  private:
   void check_inputs(const Capture& capture);
+  void draw_labels();
 
   std::array<const ViewDescription*, 2> descriptions_{};
   std::array<LoadedView, 2> views_;
@@ -45,6 +58,9 @@ class CaptureSession {
   Configuration configuration_;
   AlignedBlock block_;
   Estimator estimator_;
+  std::optional<PairLabels> drawn_;
+  std::array<Picture, 2> given_labels_;
+  Measurement measurement_;  // with the segmentation before it
 };
 
 }  // namespace traygauge

@@ -49,6 +49,7 @@ Json timing_of(const MeasureReport& report) {
     const double ms = measurement.stage_ms[i];
     timing[name(static_cast<Stage>(i))] = number_or_null(ms, is_measured(measurement) || ms > 0.0);
   }
+  if (report.segmentation_ms) timing["segmentation"] = *report.segmentation_ms;
   timing["total"] = measurement.total_ms;
   timing["setup"] = report.setup_ms;
   return timing;

@@ -1,5 +1,6 @@
 #include "firmware/measure/measure_command.hpp"
 
+#include <algorithm>
 #include <charconv>
 #include <filesystem>
 #include <ostream>
@@ -28,16 +29,6 @@ bool parse_whole(const std::string& text, Number& number) {
   return problem == std::errc() && stop == end;
 }
 
-// Whether a result could be stored at all is known before the work is done.
-void check_output(const std::string& file) {
-  if (file.empty()) return;
-  const std::filesystem::path path(file);
-  const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
-  std::error_code ignored;
-  if (std::filesystem::is_directory(path, ignored)) throw OutputError(path, "it is a folder");
-  if (!std::filesystem::is_directory(folder, ignored)) throw OutputError(path, "its folder does not exist");
-}
-
 MeasureReport compose_report(const MeasureOptions& options, const CaptureSession& session,
                              const std::array<int, 2>& pair, std::uint64_t seed,
                              const Measurement& measurement) {
@@ -50,6 +41,10 @@ MeasureReport compose_report(const MeasureOptions& options, const CaptureSession
   report.measurement = &measurement;
   report.setup_ms = session.estimator().setup_ms();
   report.reserved_bytes = session.estimator().reserved_bytes();
+  if (session.drawn()) {
+    report.segmentation_ms = session.drawn()->segmentation.total_ms();
+    report.reserved_bytes += session.drawn()->reserved_bytes;
+  }
   report.used_bytes = session.estimator().used_bytes();
   report.warnings = list_warnings(measurement, session.warnings());
   return report;
@@ -75,7 +70,10 @@ void add_measure_command(CLI::App& app, MeasureOptions& options) {
   CLI::App* command = app.add_subcommand("measure", "Measure the food in two views of a capture");
   command->add_option("capture", options.capture, "Folder with capture.json")->required();
   command->add_option("--pair", options.pair, "The two views A,B; default: the first of the capture's pairs");
-  command->add_option("--labels", options.labels, "Where dish and food are outlined: given (label pictures)");
+  command->add_option(
+      "--labels", options.labels,
+      "Where dish and food are outlined: given (label pictures) or auto (found in the pictures); default: "
+      "given where the capture has label pictures");
   command->add_option("--profile", options.profile,
                       "best (default), or paper: every stage as the paper describes it");
   command->add_option("--seed", options.seed, "Seed of all randomness, default 0");
@@ -87,20 +85,26 @@ void add_measure_command(CLI::App& app, MeasureOptions& options) {
                       "Write the food surface as PLY, in mm over the bottom of the dish");
 }
 
-void check_label_source(const std::string& source) {
-  if (source.empty() || source == "given") return;
-  if (source == "auto") {
-    throw UsageError(
-        "--labels auto is not part of this version; outline the food in label pictures (labels_N.png)");
-  }
-  throw UsageError("--labels: expected given, found " + printable(source));
+void check_label_source(const std::string& typed) {
+  if (typed.empty() || typed == "given" || typed == "auto") return;
+  throw UsageError("--labels: expected given or auto, found " + printable(typed));
+}
+
+LabelSource choose_labels(const std::string& typed, const Capture& capture, const std::array<int, 2>& pair) {
+  check_label_source(typed);
+  const bool has_labels = std::any_of(pair.begin(), pair.end(), [&](int i) {
+    return capture.views[static_cast<std::size_t>(i)].labels.has_value();
+  });
+  if (typed == "auto" || (typed.empty() && !has_labels)) return LabelSource::automatic;
+  require_labels(capture, pair);
+  return LabelSource::given;
 }
 
 void require_labels(const Capture& capture, const std::array<int, 2>& pair) {
   for (const int i : pair) {
     if (capture.views[static_cast<std::size_t>(i)].labels) continue;
     throw InputError({capture.file, "views[" + std::to_string(i) + "].labels"}, "a label picture", "nothing",
-                     "outline dish and food; this version does not find them by itself");
+                     "outline dish and food, or measure with --labels auto");
   }
 }
 
@@ -121,6 +125,15 @@ std::array<int, 2> choose_pair(const std::string& typed, const Capture& capture)
                    printable(typed));
 }
 
+void check_output(const std::string& file) {
+  if (file.empty()) return;
+  const std::filesystem::path path(file);
+  const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
+  std::error_code ignored;
+  if (std::filesystem::is_directory(path, ignored)) throw OutputError(path, "it is a folder");
+  if (!std::filesystem::is_directory(folder, ignored)) throw OutputError(path, "its folder does not exist");
+}
+
 std::uint64_t parse_seed(const std::string& typed) {
   std::uint64_t seed = kDefaultSeed;
   if (typed.empty() || parse_whole(typed, seed)) return seed;
@@ -137,9 +150,9 @@ int run_measure(const MeasureOptions& options, std::ostream& out, std::ostream& 
   check_output(options.mesh);
   const Capture capture = read_capture(options.capture);
   const std::array<int, 2> pair = choose_pair(options.pair, capture);
-  require_labels(capture, pair);
+  const LabelSource labels = choose_labels(options.labels, capture, pair);
   if (parameters.profile == Profile::paper) require_one_dish(capture);
-  CaptureSession session(capture, pair, choose_dishes(capture, options.config), parameters);
+  CaptureSession session(capture, pair, choose_dishes(capture, options.config), parameters, labels);
   const Measurement& measurement = session.measure(seed);
   const MeasureReport report = compose_report(options, session, pair, seed, measurement);
   write_files(options, session, report, error);

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "firmware/measure/capture_session.hpp"
 #include "simulator/capture/capture.hpp"
 
 namespace traygauge {
@@ -37,8 +38,16 @@ std::array<int, 2> choose_pair(const std::string& typed, const Capture& capture)
 // Throws InputError unless both views have label pictures.
 void require_labels(const Capture& capture, const std::array<int, 2>& pair);
 
-// UsageError unless this version has the source of labels; empty: the default.
-void check_label_source(const std::string& source);
+// What `typed` names: given or auto; empty: auto where neither view has a label picture, else given.
+// UsageError for anything else, InputError for labels that are to be given and are not.
+LabelSource choose_labels(const std::string& typed, const Capture& capture, const std::array<int, 2>& pair);
+
+// UsageError unless `typed` is given, auto or empty.
+void check_label_source(const std::string& typed);
+
+// Whether a result could be stored at all is known before the work is done: OutputError; empty: nothing to
+// store.
+void check_output(const std::string& file);
 
 // A whole number from 0 to 2^64 - 1.
 std::uint64_t parse_seed(const std::string& typed);

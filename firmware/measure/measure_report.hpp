@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,7 @@ struct MeasureReport {
   std::string message;
   const Measurement* measurement = nullptr;  // outlives the report
   double setup_ms = 0.0;
+  std::optional<double> segmentation_ms;  // where the labels were drawn by it; part of the total
   std::size_t reserved_bytes = 0;
   std::size_t used_bytes = 0;
   std::vector<std::string> warnings;  // sentences

@@ -49,7 +49,8 @@ std::string item_rows(const Measurement& measurement) {
 std::string times(const MeasureReport& report) {
   const Measurement& measurement = *report.measurement;
   std::string text = fixed(measurement.total_ms, 1) + " ms (";
-  bool first = true;
+  bool first = !report.segmentation_ms.has_value();
+  if (report.segmentation_ms) text += "segmentation " + fixed(*report.segmentation_ms, 1);
   for (std::size_t i = 0; i < kStageCount; ++i) {
     if (measurement.stage_ms[i] <= 0.0) continue;
     text += (first ? "" : ", ") + std::string(name(static_cast<Stage>(i))) + " " +

@@ -128,7 +128,6 @@ TEST_F(MeasureCommand, WrongOptionsAreNamed) {
   for (const char* seed : {"-1", "1.5", "x", "18446744073709551616", "1 "})
     expect_wrong_use({"--seed", seed}, "--seed");
   expect_wrong_use({"--profile", "worst"}, "--profile");
-  expect_wrong_use({"--labels", "auto"}, "--labels auto");
   expect_wrong_use({"--labels", "none"}, "--labels");
   expect_wrong_use({"--unknown"}, "--unknown");
   expect_wrong_use({"second"}, "second");
@@ -154,6 +153,8 @@ TEST_F(MeasureCommand, UnusableCapturesAreNamed) {
   files_.document["views"][1].erase("labels");
   files_.store();
   expect_wrong_use({}, "views[1].labels");
+  expect_wrong_use({"--labels", "given"}, "views[1].labels");
+  EXPECT_NE(measure({"--labels", "auto"}).status, 2);
   EXPECT_EQ(measure({"--pair", "0,2"}).status, 0);  // the views that are used have labels
   fake_estimator().estimates = 0;
   files_.document["views"] = Json::array({files_.document["views"][0]});
@@ -222,9 +223,12 @@ TEST_F(MeasureCommand, BadPicturesAreNamed) {
 }
 
 TEST_F(MeasureCommand, ConfigurationsThatTheEstimatorRefusesAreWrongUse) {
-  fake_estimator().lens_is_valid = false;
+  const Json straight = files_.document["camera"]["distortion"];
+  files_.document["camera"]["distortion"] = {-5.0, 0.0, 0.0, 0.0, 0.0};  // folds the picture over
+  files_.store();
   expect_wrong_use({}, "camera.distortion");
-  fake_estimator().lens_is_valid = true;
+  files_.document["camera"]["distortion"] = straight;
+  files_.store();
   fake_estimator().construction = StatusCode::invalid_configuration;
   expect_wrong_use({}, "capture.json");
 }

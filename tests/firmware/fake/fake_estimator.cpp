@@ -38,14 +38,6 @@ TRAYGAUGE_FAKE Status validate(const Configuration&) {
   return fake_estimator().construction;
 }
 
-TRAYGAUGE_FAKE Status validate(const LensModel&) {
-  return fake_estimator().lens_is_valid ? StatusCode::ok : StatusCode::invalid_configuration;
-}
-
-TRAYGAUGE_FAKE Vec2 LensModel::distort(const Vec2& ray) const {
-  return ray;
-}
-
 TRAYGAUGE_FAKE const char* name(Stage stage) {
   constexpr std::array names = {"image",         "features", "matching", "pose",  "scale",
                                 "rectification", "stereo",   "surface",  "volume"};

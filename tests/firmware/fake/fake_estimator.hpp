@@ -12,7 +12,6 @@ struct FakeEstimator {
   // The answers.
   Status construction;
   Status second_view;  // of add_view
-  bool lens_is_valid = true;
   Measurement measurement;
 
   // What it was given.

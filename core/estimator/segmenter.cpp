@@ -1,0 +1,327 @@
+#include "core/estimator/segmenter.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "core/image/resample.hpp"
+#include "core/scale/card_hypotheses.hpp"
+#include "core/segmentation/convex_fill.hpp"
+#include "core/surface/dish_profile.hpp"
+
+namespace traygauge {
+namespace {
+
+constexpr double kMostFlange = 0.3;          // of the smaller axis
+constexpr int kSeedStep = 2;                 // cells, a power of two
+constexpr std::size_t kRimCorners = 180;     // of the polygon that an ellipse is drawn as
+constexpr std::size_t kCardSideCorners = 8;  // on each side, which a lens bends
+
+CardModelSize size_of(const ReferenceCard& card) {
+  return {card.width_mm, card.height_mm, card.thickness_mm};
+}
+
+Vec2 pixel_of(const Vec2& ray, const LensModel& lens) {
+  return lens.pinhole.pixel(lens.distort(ray));
+}
+
+// Four straight sides through the lens.
+std::array<Vec2, 4 * kCardSideCorners> outline_of(const std::array<Vec2, 4>& corners, const LensModel& lens) {
+  std::array<Vec2, 4 * kCardSideCorners> outline;
+  for (std::size_t i = 0; i < outline.size(); ++i) {
+    const std::size_t side = i / kCardSideCorners;
+    const double t = static_cast<double>(i % kCardSideCorners) / kCardSideCorners;
+    outline[i] = pixel_of((1.0 - t) * corners[side] + t * corners[(side + 1) % 4], lens);
+  }
+  return outline;
+}
+
+std::array<Vec2, 4> corners_of(const Pose& camera_from_table, const CardModelSize& size) {
+  std::array<Vec2, 4> corners = print_corners_mm(size);
+  for (Vec2& corner : corners)
+    corner = (camera_from_table * print_point_mm(corner, size.thickness_mm)).hnormalized();
+  return corners;
+}
+
+using RimOutline = std::array<Vec2, kRimCorners>;
+
+// A ring parallel to the rim, in pixels.
+RimOutline rim_outline(const DishPlace& place, const DishSearchView& camera, double beyond_mm,
+                       double above_mm) {
+  RimOutline outline;
+  for (std::size_t i = 0; i < outline.size(); ++i) {
+    const double angle = 2.0 * std::numbers::pi * static_cast<double>(i) / kRimCorners;
+    Vec3 point = rim_point_mm(place, {std::cos(angle), std::sin(angle)}, beyond_mm);
+    point.z() += above_mm;
+    outline[i] = pixel_of((camera.camera_from_table * point).hnormalized(), camera.lens);
+  }
+  return outline;
+}
+
+void clear(ImageView<std::uint8_t> labels) {
+  for (int y = 0; y < labels.height; ++y) std::fill_n(labels.row(y), labels.width, kBackgroundLabel);
+}
+
+}  // namespace
+
+template <class Allocator>
+constexpr void Segmenter::Memory::allocate(Allocator& arena, const Configuration& configuration,
+                                           const SegmenterParams& params) {
+  const EstimatorLimits& limits = configuration.limits;
+  pattern.allocate(arena, configuration.best.card.pattern);
+  print.allocate(arena, params.card);
+  dish.allocate(arena, params.dish);
+  gray = arena.template take_image<std::uint8_t>(limits.max_frame_width, limits.max_frame_height);
+  alignment.allocate(arena, configuration.best.card);
+  const std::size_t shared = arena.mark();
+  card.allocate(arena, limits.max_frame_width, limits.max_frame_height, params.card);
+  arena.rewind(shared);
+  food.allocate(arena, params.food);
+  cells = arena.template take<std::uint8_t>(static_cast<std::size_t>(params.food.raster.max_cells));
+}
+
+std::size_t segmenter_bytes(const Configuration& configuration, const SegmenterParams& params) {
+  ArenaPlan plan;
+  Segmenter::Memory memory;
+  memory.allocate(plan, configuration, params);
+  return plan.high_water_bytes();
+}
+
+Segmenter::Segmenter(std::span<std::byte> block, const Configuration& configuration,
+                     const SegmenterParams& params)
+    : configuration_(configuration), params_(params) {
+  status_ = validate(configuration);
+  if (!status_.ok()) return;
+  std::copy(configuration.dishes.begin(), configuration.dishes.end(), dishes_.begin());
+  configuration_.dishes = std::span<const DishModel>(dishes_).first(configuration.dishes.size());
+  configuration_.card.pattern = {};
+  Arena arena(block);
+  memory_.allocate(arena, configuration_, params_);
+  if (arena.exhausted()) {
+    status_ = StatusCode::out_of_memory;
+    return;
+  }
+  status_ = prepare_card_pattern(configuration.card.pattern, size_of(configuration.card),
+                                 configuration.best.card.pattern, memory_.pattern);
+  if (status_.ok()) status_ = learn_print_corners(memory_.pattern, params_.card, memory_.card, memory_.print);
+}
+
+const Segmentation& Segmenter::segment(const std::array<SegmentedView, 2>& views) {
+  result_ = {};
+  result_.status = status_;
+  StageClock clock;
+  DishSearchViews cameras;
+  clock.enter(Stage::scale);
+  for (std::size_t v = 0; v < 2 && result_.status.ok(); ++v) {
+    cameras[v].frame = views[v].frame;
+    cameras[v].lens = views[v].lens.value_or(configuration_.lens);
+    result_.status = find_card(views[v], cameras[v].lens, v);
+    cameras[v].camera_from_table = result_.cards[v].camera_from_table;
+  }
+  if (result_.status.ok()) {
+    clock.enter(Stage::surface);
+    result_.status = find_dishes(cameras);
+  }
+  if (result_.status.ok()) {
+    clock.enter(Stage::volume);
+    draw_dishes(views, cameras);
+    draw_food(views, cameras);
+    if (result_.items == 0) result_.status = StatusCode::no_food_label;
+  }
+  clock.stop();
+  result_.card_ms = clock.stage_ms()[static_cast<std::size_t>(Stage::scale)];
+  result_.dish_ms = clock.stage_ms()[static_cast<std::size_t>(Stage::surface)];
+  result_.food_ms = clock.stage_ms()[static_cast<std::size_t>(Stage::volume)];
+  return result_;
+}
+
+// The search gives the outline to a pixel or two; the alignment of the print, which a labelled card gets
+// anyway, the rest.
+Status Segmenter::find_card(const SegmentedView& view, const LensModel& lens, std::size_t index) {
+  const FrameView& frame = view.frame;
+  if (frame.width != lens.width || frame.height != lens.height || frame.width > memory_.gray.width ||
+      frame.height > memory_.gray.height || view.labels.width != frame.width ||
+      view.labels.height != frame.height) {
+    return StatusCode::frame_size_mismatch;
+  }
+  const ImageView<std::uint8_t> gray{memory_.gray.data, frame.width, frame.height};
+  convert_to_gray(frame, gray);
+  clear(view.labels);
+  collect_rim_edges(gray, lens, params_.dish.edges, memory_.dish.edge_search, memory_.dish.edges[index]);
+  const CardModelSize size = size_of(configuration_.card);
+  std::array<Vec2, 4> corners;
+  Status status = search_card(gray, lens, size, memory_.print, params_.card, configuration_.card_search,
+                              memory_.card, corners);
+  if (!status.ok()) return status;
+  // An outline that is off by some pixels may end in a print half aligned, which a second start mends.
+  CardAlignment& card = result_.cards[index];
+  for (int round = 0; round < params_.max_alignments; ++round) {
+    clear(view.labels);
+    fill_convex(view.labels, outline_of(corners, lens), kCardLabel);
+    CardAlignment aligned;
+    const Status reached = align_card(gray, view.labels, measure_regions(view.labels).card, lens,
+                                      memory_.pattern, configuration_.best.card, memory_.alignment, aligned);
+    if (!reached.ok() && round == 0) return reached;
+    if (!reached.ok() || aligned.correlation <= card.correlation) break;
+    card = aligned;
+    corners = corners_of(card.camera_from_table, size);
+    if (card.correlation >= params_.sure_correlation) break;
+  }
+  clear(view.labels);
+  fill_convex(view.labels, outline_of(corners, lens), kCardLabel);
+  return StatusCode::ok;
+}
+
+Status Segmenter::find_dishes(const DishSearchViews& views) {
+  std::array<FoundDish, kMaxPlacedDishes> taken;
+  std::size_t taken_count = 0;
+  std::span<const DishModel> rest = configuration_.dishes;
+  while (!rest.empty()) {
+    const std::uint8_t label = rest.front().label;
+    const auto end = std::find_if_not(rest.begin(), rest.end(),
+                                      [&](const DishModel& dish) { return dish.label == label; });
+    const std::span<const DishModel> candidates(rest.begin(), end);
+    rest = {end, rest.end()};
+    if (result_.dish_count == kMaxPlacedDishes) return StatusCode::too_many_dishes;
+    SegmentedDish& dish = result_.dishes[result_.dish_count++];
+    dish.label = label;
+    dish.status = search_dish(views, candidates, std::span(taken).first(taken_count), params_.dish,
+                              memory_.dish, dish.found);
+    if (!dish.status.ok()) continue;
+    dish.model = candidates[static_cast<std::size_t>(dish.found.candidate)];
+    taken[taken_count++] = dish.found;
+  }
+  return taken_count > 0 ? StatusCode::ok : StatusCode::rim_not_found;
+}
+
+void Segmenter::draw_dishes(const std::array<SegmentedView, 2>& views, const DishSearchViews& cameras) {
+  for (std::size_t d = 0; d < result_.dish_count; ++d) {
+    const SegmentedDish& dish = result_.dishes[d];
+    if (!dish.status.ok()) continue;
+    for (std::size_t v = 0; v < 2; ++v)
+      fill_convex(views[v].labels, rim_outline(dish.found.place, cameras[v], 0.0, 0.0), dish.label);
+  }
+}
+
+void Segmenter::draw_food(const std::array<SegmentedView, 2>& views, const DishSearchViews& cameras) {
+  for (std::size_t d = 0; d < result_.dish_count; ++d) {
+    const SegmentedDish& dish = result_.dishes[d];
+    if (!dish.status.ok()) continue;
+    const auto first = static_cast<std::uint8_t>(kFirstItemLabel + result_.items);
+    const int room = kLastItemLabel + 1 - first;
+    DishRaster raster;
+    ImageView<std::uint8_t> cells;
+    if (!outline_view(views[0], cameras[0], dish, raster, cells)) continue;
+    const int items = label_items(raster, params_.food, memory_.food, first, room, cells);
+    draw_cells(raster, cells, dish.label, views[0].labels);
+    if (!outline_view(views[1], cameras[1], dish, raster, cells)) continue;
+    carry_labels(raster, cameras, views[0].labels, dish, cells);
+    spread_items(raster, params_.food, memory_.food, cells);
+    draw_cells(raster, cells, dish.label, views[1].labels);
+    result_.items += keep_confirmed(views, first, items, dish.label);
+  }
+}
+
+// Food and glaze of one dish in one view, as outline_food marks them.
+bool Segmenter::outline_view(const SegmentedView& view, const DishSearchView& camera,
+                             const SegmentedDish& dish, DishRaster& raster, ImageView<std::uint8_t>& cells) {
+  const DishPlace& place = dish.found.place;
+  DishProfile profile;
+  if (!profile.set(dish.model).ok()) return false;
+  RimOutline outline = rim_outline(place, camera, 0.0, 0.0);
+  const Vec3 middle = camera.camera_from_table * Vec3(place.centre_mm.x(), place.centre_mm.y(), 0.0);
+  const double px_per_mm = camera.lens.pinhole.mean_focal_px() / middle.z();
+  if (!load_dish_raster(view.frame, outline, px_per_mm, params_.food.raster, memory_.food.raster, raster))
+    return false;
+  mark_zone(raster, outline, DishZone::edge);
+  const double edge_mm = profile.height_at_inset_mm(0.0);
+  const double most_mm = kMostFlange * std::min(place.size_mm[0], place.size_mm[1]);
+  double well_mm = params_.flange_begin_mm;
+  while (well_mm < most_mm && profile.height_at_inset_mm(well_mm) > edge_mm - params_.flange_depth_mm)
+    well_mm += 1.0;
+  const auto ring = [&](double inset_mm) {
+    return rim_outline(place, camera, -inset_mm, profile.height_at_inset_mm(inset_mm) - edge_mm);
+  };
+  outline = ring(params_.flange_begin_mm);
+  mark_zone(raster, outline, DishZone::flange);
+  outline = ring(std::max(well_mm, params_.flange_begin_mm + params_.min_flange_mm));
+  mark_zone(raster, outline, DishZone::inside);
+  cells = {memory_.cells.data(), raster.width(), raster.height()};
+  return outline_food(raster, params_.food, memory_.food, cells);
+}
+
+// Seeds for the second view: food that lies on the same item in the first view, whether it is low or high.
+void Segmenter::carry_labels(const DishRaster& raster, const DishSearchViews& cameras,
+                             ImageView<const std::uint8_t> first_labels, const SegmentedDish& dish,
+                             ImageView<std::uint8_t> cells) const {
+  const Pose table_from_second = cameras[1].camera_from_table.inverse();
+  const double bottom_mm = dish.model.bottom_height_mm;
+  for (int y = 0; y < raster.height(); ++y) {
+    for (int x = 0; x < raster.width(); ++x) {
+      std::uint8_t& cell = cells.at(x, y);
+      if (cell != kFoodSeed) continue;
+      cell = kUnlabelled;
+      Vec2 ray;
+      if ((x | y) % kSeedStep != 0 || !cameras[1].lens.undistort_pixel(raster.pixel_of(x, y), ray)) continue;
+      const Vec3 direction = table_from_second.rotation * ray.homogeneous();
+      std::uint8_t label = kBackgroundLabel;
+      for (const double height_mm : params_.food_heights_mm) {
+        const double depth = (bottom_mm + height_mm - table_from_second.translation.z()) / direction.z();
+        const Vec3 point = cameras[0].camera_from_table * (table_from_second.translation + depth * direction);
+        const Vec2 pixel = pixel_of(point.hnormalized(), cameras[0].lens);
+        const int px = static_cast<int>(std::lround(pixel.x()));
+        const int py = static_cast<int>(std::lround(pixel.y()));
+        const std::uint8_t seen = first_labels.contains(px, py) ? first_labels.at(px, py) : kBackgroundLabel;
+        const bool agrees = label == kBackgroundLabel || label == seen;
+        label = agrees && is_item(seen) ? seen : kBarred;
+      }
+      if (label != kBarred) cell = label;
+    }
+  }
+}
+
+// Over the dish's own pixels.
+void Segmenter::draw_cells(const DishRaster& raster, ImageView<const std::uint8_t> cells, std::uint8_t dish,
+                           ImageView<std::uint8_t> labels) {
+  for (int y = 0; y < raster.height(); ++y) {
+    for (int x = 0; x < raster.width(); ++x) {
+      if (!is_item(cells.at(x, y))) continue;
+      const int left = raster.left_px + x * raster.step_px;
+      const int top = raster.top_px + y * raster.step_px;
+      for (int j = 0; j < raster.step_px; ++j) {
+        for (int i = 0; i < raster.step_px; ++i) {
+          std::uint8_t& label = labels.at(left + i, top + j);
+          if (label == dish) label = cells.at(x, y);
+        }
+      }
+    }
+  }
+}
+
+// What only one view takes for food is a shadow or a highlight. Labels stay in a row.
+int Segmenter::keep_confirmed(const std::array<SegmentedView, 2>& views, std::uint8_t first, int items,
+                              std::uint8_t dish) const {
+  const std::array<LabelRegions, 2> regions = {measure_regions(views[0].labels),
+                                               measure_regions(views[1].labels)};
+  std::array<std::uint8_t, 256> renamed{};
+  int kept = 0;
+  for (int i = 0; i < items; ++i) {
+    const auto label = static_cast<std::size_t>(first + i);
+    const double fewer = std::min(regions[0].pixels[label], regions[1].pixels[label]);
+    const double more = std::max(regions[0].pixels[label], regions[1].pixels[label]);
+    renamed[label] =
+        fewer > params_.min_confirmed_share * more ? static_cast<std::uint8_t>(first + kept++) : dish;
+  }
+  if (kept == items) return kept;
+  for (const SegmentedView& view : views) {
+    for (int y = 0; y < view.labels.height; ++y) {
+      for (int x = 0; x < view.labels.width; ++x) {
+        std::uint8_t& label = view.labels.at(x, y);
+        if (label >= first && label < first + items) label = renamed[label];
+      }
+    }
+  }
+  return kept;
+}
+
+}  // namespace traygauge

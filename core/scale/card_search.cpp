@@ -1,0 +1,202 @@
+#include "core/scale/card_search.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/LU>
+
+#include "core/image/pyramid.hpp"
+#include "core/image/resample.hpp"
+#include "core/scale/card_detection.hpp"
+#include "core/scale/card_hypotheses.hpp"
+#include "core/scale/homography.hpp"
+
+namespace traygauge {
+namespace {
+
+// A turn as a complex number of length one: b's direction seen from a's.
+Vec2 turn_from(const Vec2& a, const Vec2& b) {
+  return {a.x() * b.x() + a.y() * b.y(), a.x() * b.y() - a.y() * b.x()};
+}
+
+Vec2 turned(const Vec2& v, const Vec2& turn) {
+  return {turn.x() * v.x() - turn.y() * v.y(), turn.y() * v.x() + turn.x() * v.y()};
+}
+
+// Shrinks `source` into `storage`.
+ImageView<std::uint8_t> reduced(ImageView<const std::uint8_t> source, double scale,
+                                std::span<std::uint8_t> storage) {
+  const int width = static_cast<int>(source.width * scale);
+  const int height = static_cast<int>(source.height * scale);
+  const ImageView<std::uint8_t> target{storage.data(), width, height};
+  if (2 * width == source.width && 2 * height == source.height) {
+    halve(source, target);
+  } else {
+    reduce_area(source, target);
+  }
+  return target;
+}
+
+// Finds corners in `picture` and calls take(corner, descriptor, direction) for each that has a descriptor.
+template <class Take>
+void for_each_corner(ImageView<const std::uint8_t> picture, const BinarySampling& sampling,
+                     const CardSearchParams& params, CardSearchWorkspace& workspace, Take&& take) {
+  const ImageView<std::uint8_t> smooth{workspace.smooth.data(), picture.width, picture.height};
+  box_blur(picture, smooth);
+  Random random(params.seed);
+  find_corners({picture, {}, 1, {}}, params.corners, random, workspace.corner_search, workspace.corners);
+  for (const Corner& corner : workspace.corners) {
+    BinaryDescriptor descriptor;
+    Vec2 direction;
+    if (describe_binary(smooth, corner.x, corner.y, sampling, descriptor, direction))
+      take(Vec2(corner.x, corner.y), descriptor, direction);
+  }
+}
+
+// The print's corner that differs least, and clearly less than those elsewhere on the print; nullptr when
+// there is none. `ratio` of the two distances.
+const PrintCorner* find_like(const BinaryDescriptor& descriptor, std::span<const PrintCorner> print,
+                             const CardSearchParams& params, double& ratio) {
+  const auto is_elsewhere = [&](const PrintCorner& a, const PrintCorner& b) {
+    return (a.pattern_mm - b.pattern_mm).squaredNorm() > params.same_place_mm * params.same_place_mm;
+  };
+  const PrintCorner* nearest = nullptr;
+  int least = 256;
+  int least_elsewhere = 256;
+  for (const PrintCorner& corner : print) {
+    const int half = std::popcount(descriptor[0] ^ corner.descriptor[0]) +
+                     std::popcount(descriptor[1] ^ corner.descriptor[1]);
+    if (half > params.max_half_distance) continue;
+    const int distance = half + std::popcount(descriptor[2] ^ corner.descriptor[2]) +
+                         std::popcount(descriptor[3] ^ corner.descriptor[3]);
+    if (distance < least) {
+      if (nearest != nullptr && is_elsewhere(*nearest, corner)) least_elsewhere = least;
+      least = distance;
+      nearest = &corner;
+    } else if (distance < least_elsewhere && is_elsewhere(*nearest, corner)) {
+      least_elsewhere = distance;
+    }
+  }
+  ratio = static_cast<double>(least) / std::max(1, least_elsewhere);
+  return least <= params.max_distance && ratio <= params.max_distance_ratio ? nearest : nullptr;
+}
+
+// Whether two matches may show the same card: each has its turn and scale, and lies where the other puts it.
+bool agrees(const CardSearchMatch& a, const CardSearchMatch& b, const CardSearchParams& params) {
+  const double ratio = a.px_per_mm / b.px_per_mm;
+  if (std::max(ratio, 1.0 / ratio) > params.max_scale_ratio) return false;
+  if (a.turn.dot(b.turn) < params.min_turn_cosine) return false;
+  const Vec2 away = a.px_per_mm * turned(b.pattern_mm - a.pattern_mm, a.turn);
+  const double reach_px = params.near_px + params.reach_share * away.norm();
+  return (b.pixel - a.pixel - away).squaredNorm() <= reach_px * reach_px;
+}
+
+// A strict order, so that equal ones do not depend on the search.
+bool is_clearer(const CardSearchMatch& a, const CardSearchMatch& b) {
+  if (a.clarity != b.clarity) return a.clarity > b.clarity;
+  return a.pixel.y() != b.pixel.y() ? a.pixel.y() < b.pixel.y() : a.pixel.x() < b.pixel.x();
+}
+
+// How much speaks for the card where `seed` puts it.
+double rate(const CardSearchMatch& seed, std::span<const CardSearchMatch> matches,
+            const CardSearchParams& params) {
+  double sum = 0.0;
+  for (const CardSearchMatch& match : matches) {
+    if (agrees(seed, match, params)) sum += match.clarity;
+  }
+  return sum;
+}
+
+Status search_at_scale(ImageView<const std::uint8_t> gray, double scale, const LensModel& lens,
+                       const CardModelSize& size, const PrintCorners& print, const CardSearchParams& params,
+                       const CardParams& card, CardSearchWorkspace& workspace, std::array<Vec2, 4>& corners) {
+  const ImageView<const std::uint8_t> picture = reduced(gray, scale, workspace.picture);
+  workspace.matches.clear();
+  for_each_corner(picture, print.sampling.front(), params, workspace,
+                  [&](const Vec2& pixel, const BinaryDescriptor& descriptor, const Vec2& direction) {
+                    double ratio = 1.0;
+                    const PrintCorner* like = find_like(descriptor, print.corners.items(), params, ratio);
+                    if (like == nullptr) return;
+                    workspace.matches.push_back({pixel, turn_from(like->direction, direction),
+                                                 like->px_per_mm, like->pattern_mm, 1.0 - ratio});
+                  });
+  std::span<CardSearchMatch> matches = workspace.matches.items();
+  std::sort(matches.begin(), matches.end(), is_clearer);
+  for (int tried = 0; tried < params.max_tried && !matches.empty(); ++tried) {
+    double most = -1.0;
+    CardSearchMatch seed;
+    for (const CardSearchMatch& match :
+         matches.first(std::min(matches.size(), static_cast<std::size_t>(params.max_seeds)))) {
+      const double rating = rate(match, matches, params);
+      if (rating <= most) continue;
+      most = rating;
+      seed = match;
+    }
+    // Those that agree are used, and out of the way of the next try.
+    const auto rest = std::partition(matches.begin(), matches.end(), [&](const CardSearchMatch& match) {
+      return !agrees(seed, match, params);
+    });
+    std::size_t count = 0;
+    for (auto match = rest; match != matches.end(); ++match) {
+      CardTrack track;
+      track.pattern_mm = match->pattern_mm;
+      const Vec2 stored(
+          scale_coordinate(match->pixel.x(), static_cast<double>(gray.width) / picture.width),
+          scale_coordinate(match->pixel.y(), static_cast<double>(gray.height) / picture.height));
+      if (lens.undistort_pixel(stored, track.first)) workspace.tracks[count++] = track;
+    }
+    matches = matches.first(static_cast<std::size_t>(rest - matches.begin()));
+    std::sort(matches.begin(), matches.end(), is_clearer);
+    Random random(params.seed);
+    CardFit fit;
+    if (!find_card(workspace.tracks.first(count), size, card, random, workspace.card, fit).ok()) continue;
+    const Mat3 ray_from_pattern = fit.pattern_from_first.inverse();
+    const std::array<Vec2, 4> print_mm = print_corners_mm(size);
+    for (std::size_t i = 0; i < 4; ++i)
+      corners[i] = (ray_from_pattern * print_mm[i].homogeneous()).hnormalized();
+    return StatusCode::ok;
+  }
+  return StatusCode::card_not_found;
+}
+
+}  // namespace
+
+Status learn_print_corners(const CardPattern& pattern, const CardSearchParams& params,
+                           CardSearchWorkspace& workspace, PrintCorners& print) {
+  BinarySampling& sampling = print.sampling.front();
+  sampling.draw(params.seed);
+  print.corners.clear();
+  CardSearchParams learning = params;
+  learning.corners.cell_px = std::max(8, params.corners.cell_px / 2);
+  for (const double scale : params.scales_px_per_mm) {
+    const ImageView<const std::uint8_t> finest = pattern.levels[0].gray;
+    const double reduction = std::min(1.0, scale / pattern.levels[0].px_per_axis_mm[0]);
+    const ImageView<std::uint8_t> picture = reduced(finest, reduction, workspace.picture);
+    if (std::min(picture.width, picture.height) <= 2 * kBinaryPatchRadius) continue;
+    const double px_per_mm = picture.width / pattern.size.width_mm;
+    int room = params.max_pattern_corners;
+    for_each_corner(picture, sampling, learning, workspace,
+                    [&](const Vec2& pixel, const BinaryDescriptor& descriptor, const Vec2& direction) {
+                      if (room-- <= 0) return;
+                      const Vec2 place = pattern_mm(pixel, picture.width, pattern.size);
+                      print.corners.push_back({descriptor, direction, place, px_per_mm});
+                    });
+  }
+  return print.corners.empty() ? StatusCode::invalid_configuration : StatusCode::ok;
+}
+
+Status search_card(ImageView<const std::uint8_t> gray, const LensModel& lens, const CardModelSize& size,
+                   const PrintCorners& print, const CardSearchParams& params, const CardParams& card,
+                   CardSearchWorkspace& workspace, std::array<Vec2, 4>& corners) {
+  Status status = StatusCode::card_not_found;
+  double searched = 0.0;
+  for (const int pixels : params.search_px) {
+    const double scale = std::min(1.0, std::sqrt(pixels / (static_cast<double>(gray.width) * gray.height)));
+    if (status.ok() || scale == searched) break;
+    searched = scale;
+    status = search_at_scale(gray, scale, lens, size, print, params, card, workspace, corners);
+  }
+  return status;
+}
+
+}  // namespace traygauge

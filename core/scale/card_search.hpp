@@ -1,0 +1,117 @@
+// The card in a picture without labels: corners of the picture that look like corners of the print, whatever
+// their turn and scale, and a homography that explains them.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "core/base/arena.hpp"
+#include "core/base/bounded_list.hpp"
+#include "core/base/geometry.hpp"
+#include "core/base/status.hpp"
+#include "core/features/binary_descriptor.hpp"
+#include "core/features/corners.hpp"
+#include "core/image/camera.hpp"
+#include "core/image_view/image_view.hpp"
+#include "core/scale/card.hpp"
+#include "core/scale/card_pattern.hpp"
+
+namespace traygauge {
+
+inline constexpr std::size_t kCardSearchScales = 6;
+
+struct CardSearchParams {
+  // Of the picture searched, one after the other until the card is found: 1600 × 1200 at half size, where
+  // most cards have 80 px and more, and at 0.68.
+  std::array<int, 2> search_px{480'000, 900'000};
+  // Of the print as it is learned, px/mm in the picture searched; descriptors bear 15% more or less.
+  std::array<double, kCardSearchScales> scales_px_per_mm{0.6, 0.8, 1.05, 1.4, 1.85, 2.45};
+  int max_pattern_corners = 160;  // at each scale
+  int max_corners = 6000;         // of the picture
+  CornerParams corners{16, 4, 4, 4.0F, 0.02F, 0, 255};
+  // Of 256 bits. The same corner, seen at a slant and between two scales, differs by 20 to 60.
+  int max_distance = 68;
+  int max_half_distance = 46;        // of the first 128 bits, for the others to be compared at all
+  double max_distance_ratio = 0.96;  // over the distance to the next best, elsewhere on the print
+  double same_place_mm = 3.0;        // corners of two scales that are nearer are one
+  // How far a corner may lie from where another one's turn and scale put it, and of their distance: a tilt of
+  // 35 degrees shortens by a fifth.
+  double near_px = 2.0;
+  double reach_share = 0.22;
+  double min_turn_cosine = 0.8;  // between the turns of two corners of one card
+  double max_scale_ratio = 1.4;  // … their scales
+  int max_seeds = 120;           // of the clearest matches, each of which may say where the card lies
+  int max_tried = 4;             // places that are looked at in full, those that most speaks for first
+  std::uint64_t seed = 1;        // of the homography's samples
+};
+
+// A corner of the picture and the print's that looks like it.
+struct CardSearchMatch {
+  Vec2 pixel = Vec2::Zero();  // of the picture searched
+  Vec2 turn = Vec2::UnitX();  // that leads from the print's direction to the picture's
+  double px_per_mm = 0.0;
+  Vec2 pattern_mm = Vec2::Zero();
+  double clarity = 0.0;  // 0: as near to another place of the print
+};
+
+struct PrintCorner {
+  BinaryDescriptor descriptor{};
+  Vec2 direction = Vec2::UnitX();
+  Vec2 pattern_mm = Vec2::Zero();
+  double px_per_mm = 0.0;
+};
+
+// What the print looks like; made once.
+struct PrintCorners {
+  std::span<BinarySampling> sampling;  // one
+  BoundedList<PrintCorner> corners;
+
+  template <class Allocator>
+  constexpr void allocate(Allocator& arena, const CardSearchParams& params) {
+    sampling = arena.template take<BinarySampling>(1);
+    corners = BoundedList<PrintCorner>(arena.template take<PrintCorner>(
+        kCardSearchScales * static_cast<std::size_t>(params.max_pattern_corners)));
+  }
+};
+
+struct CardSearchWorkspace {
+  std::span<std::uint8_t> picture;  // searched
+  std::span<std::uint8_t> smooth;
+  CornerWorkspace corner_search;
+  BoundedList<Corner> corners;
+  BoundedList<CardSearchMatch> matches;
+  std::span<CardTrack> tracks;
+  CardWorkspace card;
+
+  template <class Allocator>
+  constexpr void allocate(Allocator& arena, int max_frame_width, int max_frame_height,
+                          const CardSearchParams& params) {
+    const auto pixels = static_cast<std::size_t>(std::max(params.search_px[0], params.search_px[1]));
+    const auto count = static_cast<std::size_t>(params.max_corners);
+    picture = arena.template take<std::uint8_t>(pixels);
+    smooth = arena.template take<std::uint8_t>(pixels);
+    const double scale = std::min(1.0, std::sqrt(static_cast<double>(pixels) /
+                                                 (static_cast<double>(max_frame_width) * max_frame_height)));
+    corner_search.allocate(arena, static_cast<int>(scale * max_frame_width) + 1,
+                           static_cast<int>(scale * max_frame_height) + 1, params.corners);
+    corners = BoundedList<Corner>(arena.template take<Corner>(count));
+    matches = BoundedList<CardSearchMatch>(arena.template take<CardSearchMatch>(count));
+    tracks = arena.template take<CardTrack>(count);
+    card.allocate(arena, params.max_corners, 1);
+  }
+};
+
+// Uses the workspace as scratch. invalid_configuration when the print shows no corners.
+Status learn_print_corners(const CardPattern& pattern, const CardSearchParams& params,
+                           CardSearchWorkspace& workspace, PrintCorners& print);
+
+// The card's corners (rays), clockwise in the picture from the print's top left one. card_not_found where no
+// homography of the print is beyond chance.
+Status search_card(ImageView<const std::uint8_t> gray, const LensModel& lens, const CardModelSize& size,
+                   const PrintCorners& print, const CardSearchParams& params, const CardParams& card,
+                   CardSearchWorkspace& workspace, std::array<Vec2, 4>& corners);
+
+}  // namespace traygauge

@@ -1,0 +1,173 @@
+#include "core/segmentation/food_outline.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace traygauge {
+namespace {
+
+// Visits connected cells of equal value; four neighbours.
+class Components {
+ public:
+  Components(ImageView<std::uint8_t> cells, std::span<std::int32_t> queue) : cells_(cells), queue_(queue) {}
+
+  // Gives the component of `start` another value; returns its cells, in the order of the visit.
+  std::span<const std::int32_t> repaint(int start, std::uint8_t value) {
+    const std::uint8_t old = cells_.data[start];
+    const int width = cells_.width;
+    const int count = width * cells_.height;
+    std::size_t size = 0;
+    const auto take = [&](int cell) {
+      if (cells_.data[cell] != old) return;
+      cells_.data[cell] = value;
+      queue_[size++] = cell;
+    };
+    if (old == value) return {};
+    take(start);
+    for (std::size_t i = 0; i < size; ++i) {
+      const int cell = queue_[i];
+      const int x = cell % width;
+      if (x > 0) take(cell - 1);
+      if (x + 1 < width) take(cell + 1);
+      if (cell >= width) take(cell - width);
+      if (cell + width < count) take(cell + width);
+    }
+    return queue_.first(size);
+  }
+
+ private:
+  ImageView<std::uint8_t> cells_;
+  std::span<std::int32_t> queue_;
+};
+
+constexpr std::uint8_t kVisited = 250;  // no label of a dish or item
+constexpr int kMaxRadius = 7;           // a row of the square then fits into a byte many times over
+
+bool has_labelled_neighbour(ImageView<const std::uint8_t> cells, std::span<const std::int32_t> visited) {
+  const int count = cells.width * cells.height;
+  return std::any_of(visited.begin(), visited.end(), [&](std::int32_t cell) {
+    const int x = cell % cells.width;
+    return (x > 0 && is_item(cells.data[cell - 1])) ||
+           (x + 1 < cells.width && is_item(cells.data[cell + 1])) ||
+           (cell >= cells.width && is_item(cells.data[cell - cells.width])) ||
+           (cell + cells.width < count && is_item(cells.data[cell + cells.width]));
+  });
+}
+
+// Repaints components of `from` with fewer cells than `min_cells`; they become `to`.
+void drop_small(ImageView<std::uint8_t> cells, std::uint8_t from, std::uint8_t to, double min_cells,
+                std::span<std::int32_t> queue) {
+  Components components(cells, queue);
+  const int count = cells.width * cells.height;
+  for (int cell = 0; cell < count; ++cell) {
+    if (cells.data[cell] != from) continue;
+    const auto visited = components.repaint(cell, kVisited);
+    if (static_cast<double>(visited.size()) >= min_cells) continue;
+    for (const std::int32_t i : visited) cells.data[i] = to;
+  }
+  for (int cell = 0; cell < count; ++cell) {
+    if (cells.data[cell] == kVisited) cells.data[cell] = from;
+  }
+}
+
+// Food where at least `least_share` of the square about a cell is; by running sums along rows, then columns.
+void threshold_share(ImageView<std::uint8_t> cells, int radius, double least_share,
+                     std::span<std::uint8_t> sums) {
+  const int width = cells.width;
+  const int height = cells.height;
+  const auto is_food = [&](int x, int y) {
+    return cells.at(std::clamp(x, 0, width - 1), std::clamp(y, 0, height - 1)) == kFoodSeed ? 1 : 0;
+  };
+  const int side = 2 * radius + 1;
+  for (int y = 0; y < height; ++y) {
+    int sum = 0;
+    for (int x = -radius; x <= radius; ++x) sum += is_food(x, y);
+    for (int x = 0; x < width; ++x) {
+      sums[static_cast<std::size_t>(y * width + x)] = static_cast<std::uint8_t>(sum);
+      sum += is_food(x + radius + 1, y) - is_food(x - radius, y);
+    }
+  }
+  for (int x = 0; x < width; ++x) {
+    const auto row_sum = [&](int y) {
+      return static_cast<int>(sums[static_cast<std::size_t>(std::clamp(y, 0, height - 1) * width + x)]);
+    };
+    int sum = 0;
+    for (int y = -radius; y <= radius; ++y) sum += row_sum(y);
+    for (int y = 0; y < height; ++y) {
+      std::uint8_t& cell = cells.at(x, y);
+      if (cell != kBarred) cell = sum >= least_share * side * side ? kFoodSeed : kGlazeSeed;
+      sum += row_sum(y + radius + 1) - row_sum(y - radius);
+    }
+  }
+}
+
+}  // namespace
+
+bool outline_food(const DishRaster& raster, const FoodOutlineParams& params, FoodOutlineWorkspace& workspace,
+                  ImageView<std::uint8_t> cells) {
+  GlazeColour glaze;
+  if (!measure_glaze(raster, params.glaze, glaze)) return false;
+  const double cells_per_mm = 1.0 / raster.cell_mm;
+  seed_food(raster, glaze, params.glaze, cells);
+  spread_owners(raster.colours, params.geodesic, workspace.geodesic, cells);
+  const auto radius_of = [&](double radius_mm) {
+    return std::clamp(static_cast<int>(std::lround(radius_mm * cells_per_mm)), 1, kMaxRadius);
+  };
+  threshold_share(cells, radius_of(params.smoothing_mm), 0.5, workspace.sums);
+  // An opening: all of the square, then any of it.
+  const int opening = radius_of(params.opening_mm);
+  threshold_share(cells, opening, 1.0, workspace.sums);
+  threshold_share(cells, opening, 0.5 / ((2.0 * opening + 1.0) * (2.0 * opening + 1.0)), workspace.sums);
+  const double per_mm2 = cells_per_mm * cells_per_mm;
+  drop_small(cells, kFoodSeed, kGlazeSeed, params.min_item_mm2 * per_mm2, workspace.queue);
+  drop_small(cells, kGlazeSeed, kFoodSeed, params.min_hole_mm2 * per_mm2, workspace.queue);
+  return true;
+}
+
+int label_items(const DishRaster& raster, const FoodOutlineParams& params, FoodOutlineWorkspace& workspace,
+                std::uint8_t first, int max_items, ImageView<std::uint8_t> cells) {
+  // Items are drawn on cells where food has no meaning of its own.
+  const int count = raster.width() * raster.height();
+  for (int cell = 0; cell < count; ++cell) {
+    if (cells.data[cell] == kFoodSeed) cells.data[cell] = kUnlabelled;
+  }
+  int items = split_items(raster, kUnlabelled, raster.cell_mm, params.split, workspace.split, first,
+                          max_items, cells);
+  // What has no block of its own is an item as it is.
+  Components components(cells, workspace.queue);
+  for (int cell = 0; cell < count; ++cell) {
+    if (cells.data[cell] != kUnlabelled) continue;
+    const auto visited = components.repaint(cell, kVisited);
+    if (items >= max_items || has_labelled_neighbour(cells, visited)) continue;
+    for (const std::int32_t i : visited) cells.data[i] = static_cast<std::uint8_t>(first + items);
+    ++items;
+  }
+  for (int cell = 0; cell < count; ++cell) {
+    if (cells.data[cell] == kVisited) cells.data[cell] = kUnlabelled;
+  }
+  spread_items(raster, params, workspace, cells);
+  return items;
+}
+
+void spread_items(const DishRaster& raster, const FoodOutlineParams& params, FoodOutlineWorkspace& workspace,
+                  ImageView<std::uint8_t> cells) {
+  const int count = raster.width() * raster.height();
+  // The dish is barred while items spread over the food; zones tell it from what is outside.
+  for (int cell = 0; cell < count; ++cell) {
+    std::uint8_t& owner = cells.data[cell];
+    if (owner == kGlazeSeed) owner = kBarred;
+    if (owner == kUnlabelled) owner = kNoOwner;
+  }
+  spread_owners(raster.colours, params.geodesic, workspace.geodesic, cells);
+  for (int cell = 0; cell < count; ++cell) {
+    std::uint8_t& owner = cells.data[cell];
+    if (raster.zones.data[cell] == DishZone::outside) {
+      owner = kBackgroundLabel;
+    } else if (!is_item(owner)) {
+      owner = kDishLabel;
+    }
+  }
+}
+
+}  // namespace traygauge

@@ -1,0 +1,62 @@
+// The food on one dish in one view: cells that are not its glaze, in items.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "core/base/arena.hpp"
+#include "core/segmentation/dish_raster.hpp"
+#include "core/segmentation/geodesic.hpp"
+#include "core/segmentation/glaze.hpp"
+#include "core/segmentation/item_split.hpp"
+
+namespace traygauge {
+
+inline constexpr std::uint8_t kUnlabelled =
+    251;  // food of which it is not known yet to which item it belongs
+
+struct FoodOutlineParams {
+  DishRasterParams raster;
+  GlazeParams glaze;
+  GeodesicParams geodesic;
+  ItemSplitParams split;
+  double smoothing_mm = 1.6;    // radius of the majority that smooths outlines
+  double opening_mm = 2.4;      // radius of what fits into food: rings of decoration and bridges do not
+  double min_item_mm2 = 250.0;  // smaller is a crumb, a drop or a highlight
+  double min_hole_mm2 = 150.0;  // of glaze within food; smaller is food
+};
+
+struct FoodOutlineWorkspace {
+  DishRasterWorkspace raster;
+  GeodesicWorkspace geodesic;
+  ItemSplitWorkspace split;
+  std::span<std::uint8_t> sums;
+  std::span<std::int32_t> queue;
+
+  template <class Allocator>
+  constexpr void allocate(Allocator& arena, const FoodOutlineParams& params) {
+    const auto cells = static_cast<std::size_t>(params.raster.max_cells);
+    raster.allocate(arena, params.raster);
+    geodesic.allocate(arena, params.raster.max_cells);
+    split.allocate(arena, params.split);
+    sums = arena.template take<std::uint8_t>(cells);
+    queue = arena.template take<std::int32_t>(cells);
+  }
+};
+
+// Marks the cells of food as kFoodSeed, the rest of the dish as kGlazeSeed, kBarred outside. False when the
+// flange shows too little glaze.
+bool outline_food(const DishRaster& raster, const FoodOutlineParams& params, FoodOutlineWorkspace& workspace,
+                  ImageView<std::uint8_t> cells);
+
+// Gives the food items labels from `first` on, kDishLabel to the rest of the dish and kBackgroundLabel
+// outside; `cells` as outline_food left them. Returns the number of items, at most `max_items`.
+int label_items(const DishRaster& raster, const FoodOutlineParams& params, FoodOutlineWorkspace& workspace,
+                std::uint8_t first, int max_items, ImageView<std::uint8_t> cells);
+
+// The same with seeds that are known already: cells that carry an item's label, among food that is
+// kUnlabelled. Food that no seed reaches is dish.
+void spread_items(const DishRaster& raster, const FoodOutlineParams& params, FoodOutlineWorkspace& workspace,
+                  ImageView<std::uint8_t> cells);
+
+}  // namespace traygauge

@@ -1,0 +1,47 @@
+// Which seed every cell belongs to: the one from which the way there crosses least colour (geodesic distance,
+// as in X. Bai, G. Sapiro, A geodesic framework for fast interactive image and video segmentation, ICCV
+// 2007).
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+
+#include "core/base/arena.hpp"
+#include "core/image_view/image_view.hpp"
+#include "core/segmentation/dish_raster.hpp"
+
+namespace traygauge {
+
+struct GeodesicParams {
+  int step_cost = 1;  // for each cell, so that in one colour the nearer seed wins
+  // Of squared differences between neighbours, in the units of CellColour, over 16: a shadow's slope is
+  // cheap.
+  int luma_weight = 1;
+  int share_weight = 4;
+};
+
+inline constexpr int kMaxGeodesicStep = 255;  // more counts as this
+
+// `owners`: labels of the seeds, kNoOwner elsewhere, kBarred where none may go. Dial's buckets.
+inline constexpr std::uint8_t kNoOwner = 0;
+inline constexpr std::uint8_t kBarred = 255;
+
+struct GeodesicWorkspace {
+  std::span<std::uint16_t> distance;
+  std::span<std::int32_t> next;  // in the bucket's list
+  std::array<std::int32_t, kMaxGeodesicStep + 1> heads{};
+
+  template <class Allocator>
+  constexpr void allocate(Allocator& arena, int max_cells) {
+    const auto cells = static_cast<std::size_t>(max_cells);
+    distance = arena.template take<std::uint16_t>(cells);
+    next = arena.template take<std::int32_t>(5 * cells);
+  }
+};
+
+// Gives every cell that can be reached the label of its seed. O(cells).
+void spread_owners(ImageView<const CellColour> colours, const GeodesicParams& params,
+                   GeodesicWorkspace& workspace, ImageView<std::uint8_t> owners);
+
+}  // namespace traygauge

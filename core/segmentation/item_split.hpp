@@ -1,0 +1,50 @@
+// Splits food into items by colour: blocks of some millimetres are merged with the neighbour that resembles
+// them most, until what is left differs by more than food differs from itself.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "core/base/arena.hpp"
+#include "core/image_view/image_view.hpp"
+#include "core/segmentation/dish_raster.hpp"
+
+namespace traygauge {
+
+struct ItemSplitParams {
+  double block_mm = 7.0;
+  int max_blocks = 4096;
+  double luma_weight = 0.5;      // of a difference, beside those of the colour shares
+  double max_difference = 26.0;  // of two parts of one item, where both are of one colour
+  // Deviation of a food's blocks from its mean that doubles what may be merged: mixed vegetables differ from
+  // place to place.
+  double mixed_deviation = 25.0;
+  int min_item_blocks = 6;  // smaller is never an item of its own
+};
+
+// Blocks of equal food, summed.
+struct FoodBlock {
+  std::int32_t parent = -1;  // −1: no food
+  std::int32_t size = 0;     // blocks
+  float luma = 0.0F;         // sums over the blocks
+  float red = 0.0F;
+  float green = 0.0F;
+  float squares = 0.0F;  // of all three, weighted
+};
+
+struct ItemSplitWorkspace {
+  std::span<FoodBlock> blocks;
+
+  template <class Allocator>
+  constexpr void allocate(Allocator& arena, const ItemSplitParams& params) {
+    blocks = arena.template take<FoodBlock>(static_cast<std::size_t>(params.max_blocks));
+  }
+};
+
+// `owners`: every cell that is `food` in a block wholly of food gets a label from `first` on, by item; the
+// other cells stay. Returns how many labels there are, at most `max_items`.
+int split_items(const DishRaster& raster, std::uint8_t food, double cell_mm, const ItemSplitParams& params,
+                ItemSplitWorkspace& workspace, std::uint8_t first, int max_items,
+                ImageView<std::uint8_t> owners);
+
+}  // namespace traygauge

@@ -1,0 +1,106 @@
+// Dishes of known size in pictures without labels. The card gives the table, so that a rim is an ellipse of
+// known axes on a plane of known height: the edges of both views vote for its centre and azimuth (Hough's
+// transform generalised to known shapes, Ballard 1981), and the best places are confirmed and refined by the
+// rim's own edge in the full pictures.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "core/base/arena.hpp"
+#include "core/base/bounded_list.hpp"
+#include "core/base/geometry.hpp"
+#include "core/base/status.hpp"
+#include "core/base/table_frame.hpp"
+#include "core/image/camera.hpp"
+#include "core/image_view/image_view.hpp"
+#include "core/surface/dish_placement.hpp"
+#include "core/surface/rim_edges.hpp"
+
+namespace traygauge {
+
+struct DishSearchParams {
+  RimEdgeParams edges;
+  DishPlacementParams placement;
+  double cell_mm = 4.0;  // of the votes for the centre
+  int cells = 256;       // to a side: 1 m of table
+  int azimuths = 24;     // of an oval's axis over half a turn
+  int max_peaks = 6;     // places that are looked at in the full pictures
+  // Along the rim the picture is compared over this width on either side.
+  double band_mm = 1.5;
+  double sample_mm = 0.3;
+  double vote_reach_mm = 10.0;  // of the search for the place at which most of the rim shows an edge
+  double shift_step_mm = 1.0;
+  int azimuth_steps = 7;       // between two azimuths that were voted for
+  double sure_step = 20.0;     // of grey values: what is stronger counts no more
+  double edge_reach_mm = 2.5;  // of the search for the edge itself, about that place
+  double scale_px = 4.0;       // Geman and McClure's, for its points
+  int iterations = 15;
+  int outline_points = 160;
+  double min_step = 4.0;             // of grey values, across the rim
+  double min_step_over_noise = 3.0;  // over the median magnitude of the steps beside the rim
+  double min_support = 0.5;          // of the rim, along which there is such a step; less is no dish
+  // Dishes do not overlap seen from above by more than this, of the sum of their smaller half axes.
+  double max_overlap = 0.12;
+};
+
+inline constexpr std::size_t kMaxRimOffsets = 96;  // along a profile across the rim
+
+struct DishSearchView {
+  FrameView frame;
+  LensModel lens;
+  Pose camera_from_table;
+};
+using DishSearchViews = std::array<DishSearchView, 2>;
+
+struct FoundDish {
+  int candidate = -1;
+  DishPlace place;
+  double rms_mm = 0.0;   // of the rim's edge about the place
+  double support = 0.0;  // share of the rim, in both views, along which there is an edge
+};
+
+// An edge on a level of the table frame: where, and the unit normal towards its brighter side.
+struct RimLevelEdge {
+  Vec2 place_mm = Vec2::Zero();
+  Vec2 brighter = Vec2::Zero();
+};
+
+struct DishSearchWorkspace {
+  RimEdgeWorkspace edge_search;
+  std::array<BoundedList<RimEdge>, 2> edges;
+  BoundedList<RimLevelEdge> level_edges;
+  std::span<std::uint16_t> votes;
+  std::span<float> steps;  // over offsets from the rim, for each angle of both views
+  std::array<BoundedList<Vec2>, 2> outlines;
+
+  template <class Allocator>
+  constexpr void allocate(Allocator& arena, const DishSearchParams& params) {
+    edge_search.allocate(arena, params.edges);
+    for (BoundedList<RimEdge>& list : edges) {
+      list = BoundedList<RimEdge>(
+          arena.template take<RimEdge>(static_cast<std::size_t>(params.edges.max_edges)));
+    }
+    level_edges = BoundedList<RimLevelEdge>(
+        arena.template take<RimLevelEdge>(2 * static_cast<std::size_t>(params.edges.max_edges)));
+    const auto side = static_cast<std::size_t>(params.cells);
+    votes = arena.template take<std::uint16_t>(side * side);
+    const auto points = static_cast<std::size_t>(params.outline_points);
+    steps = arena.template take<float>(2 * points * kMaxRimOffsets);
+    for (BoundedList<Vec2>& list : outlines) list = BoundedList<Vec2>(arena.template take<Vec2>(points));
+  }
+};
+
+// The best place for one of the candidates, apart from `taken`, by `workspace.edges` of both views.
+// rim_not_found where none has enough edge along its rim.
+Status search_dish(const DishSearchViews& views, std::span<const DishModel> candidates,
+                   std::span<const FoundDish> taken, const DishSearchParams& params,
+                   DishSearchWorkspace& workspace, FoundDish& found);
+
+// A point of the dish's outer edge in the table frame, at this angle from the first axis (of the ellipse's
+// parameter), `beyond_mm` outward along the normal.
+Vec3 rim_point_mm(const DishPlace& place, const Vec2& cosine_sine, double beyond_mm);
+
+}  // namespace traygauge

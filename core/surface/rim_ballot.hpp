@@ -1,0 +1,61 @@
+// Where on the table the edges of both views want a dish to stand.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "core/surface/dish_search.hpp"
+
+namespace traygauge {
+
+// Votes for the centre of an ellipse of known axes.
+class Ballot {
+ public:
+  Ballot(const Vec2& middle_mm, const DishSearchParams& params, std::span<std::uint16_t> votes)
+      : cells_(params.cells), cell_mm_(params.cell_mm), votes_(votes) {
+    corner_mm_ = middle_mm - Vec2::Constant(0.5 * cells_ * cell_mm_);
+  }
+
+  void clear() { std::fill(votes_.begin(), votes_.end(), std::uint16_t{0}); }
+
+  void vote(const Vec2& centre_mm) {
+    const Vec2 cell = (centre_mm - corner_mm_) / cell_mm_;
+    if (!(cell.minCoeff() >= 0.0) || !(cell.maxCoeff() < cells_)) return;
+    ++votes_[index(static_cast<int>(cell.x()), static_cast<int>(cell.y()))];
+  }
+
+  // The cell whose neighbourhood of 3 × 3 has most votes, among those that `may_stand` admits.
+  template <class MayStand>
+  int most(MayStand&& may_stand, Vec2& centre_mm) const {
+    int most = 0;
+    for (int y = 1; y + 1 < cells_; ++y) {
+      for (int x = 1; x + 1 < cells_; ++x) {
+        int sum = 0;
+        for (int dy = -1; dy <= 1; ++dy) {
+          const std::uint16_t* row = &votes_[index(x - 1, y + dy)];
+          sum += row[0] + row[1] + row[2];
+        }
+        if (sum <= most) continue;
+        const Vec2 place = corner_mm_ + cell_mm_ * Vec2(x + 0.5, y + 0.5);
+        if (!may_stand(place)) continue;
+        most = sum;
+        centre_mm = place;
+      }
+    }
+    return most;
+  }
+
+ private:
+  std::size_t index(int x, int y) const {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(cells_) + static_cast<std::size_t>(x);
+  }
+
+  Vec2 corner_mm_;
+  int cells_;
+  double cell_mm_;
+  std::span<std::uint16_t> votes_;
+};
+
+}  // namespace traygauge

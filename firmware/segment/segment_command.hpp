@@ -1,0 +1,26 @@
+// `traygauge segment`.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <iosfwd>
+#include <string>
+
+namespace traygauge {
+
+// As typed; empty where not given.
+struct SegmentOptions {
+  std::string capture;
+  std::string pair;
+  std::string config;
+  std::string picture;
+  std::string out;
+  bool json = false;
+};
+
+void add_segment_command(CLI::App& app, SegmentOptions& options);
+
+// Returns the exit status: 0 where food was found in both views, 1 where not. Throws UsageError, InputError,
+// OutputError before anything is printed to `out`.
+int run_segment(const SegmentOptions& options, std::ostream& out);
+
+}  // namespace traygauge
