@@ -18,7 +18,7 @@ struct SurfaceRefinementParams {
   int window_radius = 2;     // 1 to kMaxRefinementRadius
   double max_step_px = 1.0;  // of an iteration: the linearisation reaches about a pixel
   // grey², against the mean squared gradient of a window: some times the noise of 2 to 4 grey levels.
-  double stiffness = 10.0;
+  double stiffness = 16.0;
   int smoothings = 2;           // of the membrane before an iteration
   double smoothing_hold = 0.5;  // of a sample's own disparity, against each neighbour's, while smoothing
   int relaxations = 4;          // of the membrane, per iteration
