@@ -13,7 +13,7 @@ struct ConsistencyParams {
   double max_difference_px = 1.5;  // between a disparity and its partner's: whole pixels and half a step
   // Of its last known height that an item's flank has where its outline ends: on the side that this view sees
   // and the other does not, most reach down to the dish; on the other side the outline is often a limb.
-  double own_border_share = 0.0;
+  double own_border_share = 0.15;
   double far_border_share = 0.65;
   double same_surface_px = 3.0;  // ends of a gap that differ by less are one surface seen through it; by
                                  // more, the gap is what the nearer one hides from the other view

@@ -180,8 +180,8 @@ TEST(FillGaps, HiddenFlanksFallTowardsTheOutline) {
       << "another item is an outline too";
   EXPECT_EQ(fill({2, 2, 2, 2, 2}, {px(20), kNone, kNone, kNone, kNone}, params)[4], px(12))
       << "and so is the picture's edge";
-  EXPECT_EQ(fill({2, 2, 2, 2, 2, 1}, {px(20), kNone, kNone, kNone, kNone, px(3)})[4], px(20) - px(20) * 4 / 5)
-      << "to the dish";
+  EXPECT_EQ(fill({2, 2, 2, 2, 2, 1}, {px(20), kNone, kNone, kNone, kNone, px(3)})[4], px(20) - px(20) * 85 / 100 * 4 / 5)
+      << "to 0.15 of its height";
 }
 
 // The first view alone sees the flanks towards the larger columns, the second those towards the smaller.
