@@ -180,7 +180,8 @@ TEST(FillGaps, HiddenFlanksFallTowardsTheOutline) {
       << "another item is an outline too";
   EXPECT_EQ(fill({2, 2, 2, 2, 2}, {px(20), kNone, kNone, kNone, kNone}, params)[4], px(12))
       << "and so is the picture's edge";
-  EXPECT_EQ(fill({2, 2, 2, 2, 2, 1}, {px(20), kNone, kNone, kNone, kNone, px(3)})[4], px(20) - px(20) * 85 / 100 * 4 / 5)
+  EXPECT_EQ(fill({2, 2, 2, 2, 2, 1}, {px(20), kNone, kNone, kNone, kNone, px(3)})[4],
+            px(20) - px(20) * 85 / 100 * 4 / 5)
       << "to 0.15 of its height";
 }
 
