@@ -63,7 +63,7 @@ struct HeightMapParams {
   double prior_flank_mm2 = 5.0;
   // Hidden flanks fall so many times as fast as those that were matched, which blunts them; 1 with true
   // depth.
-  double hidden_steepness = 1.5;
+  double hidden_steepness = 2.0;
   // A hole that no line of sight crosses is filled so far from its edge.
   double max_hole_mm = 6.0;
 };

@@ -166,8 +166,15 @@ void filter_level(TwoViewSurfaceWorkspace& workspace, std::size_t level, int rad
   }
 }
 
+// Where view `v`'s camera stands over a row of a level.
+RowSight sight_of(const PlaneRectification& grid, std::size_t v, std::size_t level, int row) {
+  const double per_mm = 1.0 / (grid.column_step_mm() * static_cast<double>(1 << level));
+  const int full_row = std::min(row << level, grid.rows() - 1);
+  return {grid.row(full_row).foot_mm[v] * per_mm, grid.camera_height_mm(static_cast<int>(v)) * per_mm};
+}
+
 // Disparities that both views agree on, gaps filled, as real numbers for the refinement.
-void prepare_surfaces(TwoViewSurfaceWorkspace& workspace, std::size_t level,
+void prepare_surfaces(TwoViewSurfaceWorkspace& workspace, const PlaneRectification& grid, std::size_t level,
                       const TwoViewSurfaceParams& params) {
   std::array<View, 2>& views = workspace.views;
   const ImageView<const std::uint8_t> like = views[0].gray[level];
@@ -185,7 +192,11 @@ void prepare_surfaces(TwoViewSurfaceWorkspace& workspace, std::size_t level,
         trusted.at(x, y) = filtered.at(x >> level, y >> level) == kNoDisparity ? 0 : 1;
       }
     }
-    fill_gaps(views[v].labels[level], v == 0 ? 1 : -1, params.consistency, filtered);
+    for (int y = 0; y < filtered.height; ++y) {
+      const auto width = static_cast<std::size_t>(filtered.width);
+      fill_gaps({views[v].labels[level].row(y), width}, sight_of(grid, v, level, y), params.consistency,
+                {filtered.row(y), width});
+    }
     extend_known(filtered);
     const ImageView<float> surface = as_picture(views[v].surface, full);
     const double scale = static_cast<double>(1 << level) / kDisparityScale;
@@ -272,7 +283,7 @@ Status reconstruct_surface(const std::array<StoredView, 2>& views, const LabelTa
     match_level(workspace, static_cast<std::size_t>(level), range, level == levels - 1, params);
     if (level > finest) filter_level(workspace, static_cast<std::size_t>(level), params.median_radius);
   }
-  prepare_surfaces(workspace, static_cast<std::size_t>(finest), params);
+  prepare_surfaces(workspace, grid, static_cast<std::size_t>(finest), params);
   refine_surfaces(workspace, params);
   for (std::size_t v = 0; v < 2; ++v) {
     rate_evidence(workspace.views, v, params.confirmed_px, report.confirmed[v]);

@@ -49,8 +49,10 @@ void visit_matching_parameters(Params& best, Visit&& visit) {
   visit("best.surface.semi_global.label_penalty", matching.label_penalty, Range{0, kMaxLabelPenalty});
   visit("best.surface.semi_global.diagonal_paths", matching.diagonal_paths);
   visit("best.surface.consistency.max_difference_px", consistency.max_difference_px, Range{0, 1000});
-  visit("best.surface.consistency.own_border_share", consistency.own_border_share, Range{0, 1});
-  visit("best.surface.consistency.far_border_share", consistency.far_border_share, Range{0, 1});
+  visit("best.surface.consistency.contact_share", consistency.contact_share, Range{0, 1});
+  visit("best.surface.consistency.limb_share", consistency.limb_share, Range{0, 1});
+  visit("best.surface.consistency.flank_run", consistency.flank_run, Range{-10, 10});
+  visit("best.surface.consistency.flank_run_spread", consistency.flank_run_spread, Range{1e-3, 10});
   visit("best.surface.consistency.chord_share", consistency.chord_share, Range{0, 1});
   visit("best.surface.consistency.same_surface_px", consistency.same_surface_px, Range{0, 1000});
   visit("best.surface.refinement.iterations", refinement.iterations, Range{0, 50});

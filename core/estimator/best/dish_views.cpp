@@ -16,19 +16,15 @@ PixelBox box_of(const LabelRegions& regions, const LabelSet& labels) {
   return box;
 }
 
-}  // namespace
-
-bool is_cut_off(const BestView& view, const LabelSet& labels) {
-  return view.regions.touches_edge(box_of(view.regions, labels));
-}
-
-namespace {
-
 ImageView<std::uint8_t> matte_of(const BestView& view) {
   return {view.matte_storage.data, view.frame.width, view.frame.height};
 }
 
 }  // namespace
+
+bool is_cut_off(const BestView& view, const LabelSet& labels) {
+  return view.regions.touches_edge(box_of(view.regions, labels));
+}
 
 void make_matte(const ViewPair& views, const MatteParams& params) {
   for (const BestView* view : views) convert_to_matte(view->frame, params, matte_of(*view));

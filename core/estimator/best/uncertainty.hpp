@@ -8,17 +8,17 @@ namespace traygauge {
 
 // Standard deviations of what the covariance of the cameras does not know.
 struct UncertaintyParams {
-  double disparity_bias_px = 0.05;  // of an item's mean disparity: smooth skin, gloss, slanted windows
-  double hidden_share = 0.5;        // of the volume that no view sees
-  double outline_px = 0.3;          // of an item's outline, all along it
+  double disparity_bias_px = 0.03;  // of an item's mean disparity: smooth skin, gloss, slanted windows
+  double hidden_share = 0.25;       // of the volume that no view sees
+  double outline_px = 0.2;          // of an item's outline, all along it
   // Of the volume: matching errors that follow the food, shine and roughness; and per mean height over the
   // square root of the area, because steep sides are matched worse than flat tops. These and the next
   // from the spread of the rendered captures' errors.
-  double surface_share = 0.01;
-  double steepness_share = 0.02;
+  double surface_share = 0.015;
+  double steepness_share = 0.015;
   // Of the volume, times the squared share that was filled instead of matched: the wider a gap, the less its
   // rims say about it.
-  double filled_share = 0.7;
+  double filled_share = 0.5;
   // Of the volume of a round body, instead: its height and width are those of its outlines. From fruit
   // rendered for this, and from how closed and column volume of scanned fruit differ.
   double round_share = 0.05;

@@ -26,9 +26,10 @@ Row keep(const Row& own, const Row& other, int sign, const ConsistencyParams& pa
   return kept;
 }
 
-Row fill(const Labels& labels, Row row, const ConsistencyParams& params = {}, int sign = 1) {
-  const auto width = static_cast<int>(row.size());
-  fill_gaps({labels.data(), width, 1}, sign, params, {row.data(), width, 1});
+// Seen from straight above unless told.
+Row fill(const Labels& labels, Row row, const ConsistencyParams& params = {},
+         const RowSight& sight = {2.0, 100.0}) {
+  fill_gaps(labels, sight, params, row);
   return row;
 }
 
@@ -162,7 +163,8 @@ TEST(FillGaps, OneSurfaceOrTwoIsDecidedByTheirDifference) {
   ConsistencyParams params;
   params.same_surface_px = 4.0;
   EXPECT_EQ(fill(labels, {px(10), kNone, px(14)}, params)[1], px(12));
-  EXPECT_EQ(fill(labels, {px(10), kNone, px(14.125)}, params)[1], px(11) + 0);
+  EXPECT_EQ(fill(labels, {px(10), kNone, px(14.125)}, params)[1],
+            px(11) + 0);
   const Labels dish{1, 1, 1};
   EXPECT_EQ(fill(dish, {px(10), kNone, px(14)}, params)[1], px(12));
   EXPECT_EQ(fill(dish, {px(10), kNone, px(14.125)}, params)[1], px(10));
@@ -171,7 +173,7 @@ TEST(FillGaps, OneSurfaceOrTwoIsDecidedByTheirDifference) {
 // Known up to column 0 or 5, the outline at column 5 or 0.
 TEST(FillGaps, HiddenFlanksFallTowardsTheOutline) {
   ConsistencyParams params;
-  params.own_border_share = params.far_border_share = 0.5;
+  params.contact_share = params.limb_share = 0.5;
   const Row right{px(20), px(18), px(16), px(14), px(12), px(3)};
   EXPECT_EQ(fill({2, 2, 2, 2, 2, 1}, {px(20), kNone, kNone, kNone, kNone, px(3)}, params), right);
   EXPECT_EQ(fill({1, 2, 2, 2, 2, 2}, {px(3), kNone, kNone, kNone, kNone, px(20)}, params),
@@ -185,21 +187,32 @@ TEST(FillGaps, HiddenFlanksFallTowardsTheOutline) {
       << "to 0.15 of its height";
 }
 
-// The first view alone sees the flanks towards the larger columns, the second those towards the smaller.
-TEST(FillGaps, FlanksOnTheFarSideFallLess) {
+// A camera 100 columns up. Flanks have a run of 0.2 ± 0.1: it sees their foot while it stands less than 10
+// columns on the other side of the outline, and a limb from 30 on; in between, something of both.
+TEST(FillGaps, FlanksEndOnTheDishWhereTheViewSeesTheirFoot) {
   ConsistencyParams params;
-  params.own_border_share = 0.0;
-  params.far_border_share = 1.0;
-  const Row own{px(20), px(15), px(10), px(5), px(3)};
-  const Row far{px(20), px(20), px(20), px(20), px(3)};
-  const Labels on_right{2, 2, 2, 2, 1};
-  const Labels on_left{1, 2, 2, 2, 2};
-  const Row known_left{px(20), kNone, kNone, kNone, px(3)};
-  const Row known_right{px(3), kNone, kNone, kNone, px(20)};
-  EXPECT_EQ(fill(on_right, known_left, params, 1), own);
-  EXPECT_EQ(fill(on_right, known_left, params, -1), far);
-  EXPECT_EQ(fill(on_left, known_right, params, -1), Row(own.rbegin(), own.rend()));
-  EXPECT_EQ(fill(on_left, known_right, params, 1), Row(far.rbegin(), far.rend()));
+  params.contact_share = 0.0;
+  params.limb_share = 1.0;
+  params.flank_run = 0.2;
+  params.flank_run_spread = 0.1;
+  const auto last_of = [&](double foot_column, bool on_right) {
+    const RowSight sight{foot_column, 100.0};
+    return on_right ? fill({2, 2, 2, 2, 1}, {px(20), kNone, kNone, kNone, px(3)}, params, sight)[3]
+                    : fill({1, 2, 2, 2, 2}, {px(3), kNone, kNone, kNone, px(20)}, params, sight)[1];
+  };
+  for (const double foot_column : {1000.0, 4.0, -5.0}) {
+    EXPECT_EQ(last_of(foot_column, true), px(5))
+        << "the outline lies at 4, the foot of the camera at " << foot_column;
+    EXPECT_EQ(last_of(4.0 - foot_column, false), px(5)) << "mirrored";
+  }
+  for (const double foot_column : {-27.0, -1000.0}) {
+    EXPECT_EQ(last_of(foot_column, true), px(20)) << foot_column;
+    EXPECT_EQ(last_of(4.0 - foot_column, false), px(20)) << "mirrored";
+  }
+  EXPECT_EQ(last_of(-16.0, true), px(12.5)) << "half of both";
+  for (double foot_column = -30.0; foot_column < 10.0; foot_column += 1.0) {
+    EXPECT_GE(last_of(foot_column, true), last_of(foot_column + 1.0, true)) << foot_column;
+  }
 }
 
 // Below the plane of disparity 0 there is nothing to fall to.

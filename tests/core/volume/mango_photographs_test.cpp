@@ -175,7 +175,7 @@ class Mango : public ::testing::Test {
                 mean(column_ml), 100.0 * (mean(column_ml) / kHullColumnMl - 1.0),
                 100.0 * deviation(column_ml) / mean(column_ml));
     EXPECT_NEAR(mean(column_ml), kHullColumnMl, 0.06 * kHullColumnMl);
-    for (const double ml : column_ml) EXPECT_NEAR(ml, kHullColumnMl, 0.2 * kHullColumnMl);
+    for (const double ml : column_ml) EXPECT_NEAR(ml, kHullColumnMl, 0.15 * kHullColumnMl);
   }
 
   std::filesystem::path folder_;
