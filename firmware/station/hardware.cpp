@@ -27,12 +27,12 @@ std::unique_ptr<Arm> make_arm(const ArmConfig& config, Clock& clock) {
 }  // namespace
 
 Hardware::Hardware(const StationFile& station)
-    : camera_(std::make_unique<SystemVideoDevice>(), clock_, station.camera),
+    : camera_(make_system_video_device(), clock_, station.camera),
       trigger_(make_gpio_line(station.button.line), clock_, station.button),
       lamp_(make_lamps(station.lamp), station.lamp.table),
       arm_(station.arm ? make_arm(*station.arm, clock_) : nullptr) {
   if (station.second_camera) {
-    second_camera_.emplace(std::make_unique<SystemVideoDevice>(), clock_, *station.second_camera);
+    second_camera_.emplace(make_system_video_device(), clock_, *station.second_camera);
   }
 }
 
