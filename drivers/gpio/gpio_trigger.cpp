@@ -78,6 +78,22 @@ DeviceStatus GpioTrigger::do_wait_for_press(Nanoseconds timeout, Press& press) {
   }
 }
 
+DeviceStatus GpioTrigger::do_wait_for_release(Nanoseconds timeout) {
+  const Instant deadline = clock_.now() + timeout;
+  while (true) {
+    if (const DeviceStatus status = take_waiting_edges(); !status.ok()) return status;
+    const Nanoseconds unsettled = last_edge_at_ + params_.debounce - clock_.now();
+    if (!is_active_ && unsettled <= Nanoseconds::zero()) return DeviceCode::ok;
+    const Nanoseconds left = deadline - clock_.now();
+    if (left <= Nanoseconds::zero()) return DeviceCode::timed_out;
+    GpioEdge edge;
+    const Nanoseconds wait = is_active_ ? std::min(left, kLongestWait) : std::min(left, unsettled);
+    const DeviceStatus status = line_->wait_for_edge(wait, edge);
+    if (status.ok()) take(edge);
+    if (!status.ok() && status.code() != DeviceCode::timed_out) return status;
+  }
+}
+
 int GpioTrigger::do_pending() {
   static_cast<void>(take_waiting_edges());  // what fails is told by the next wait
   return static_cast<int>(presses_.size());
