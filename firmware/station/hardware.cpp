@@ -1,5 +1,6 @@
 #include "firmware/station/hardware.hpp"
 
+#include <cmath>
 #include <utility>
 
 namespace traygauge {
@@ -39,6 +40,11 @@ Hardware::Hardware(const StationFile& station)
 StationParams hardware_params(const StationFile& station) {
   StationParams params;
   params.last_retry = std::chrono::seconds(1);
+  if (station.long_press) params.long_press = *station.long_press;
+  if (station.arm_geometry) {
+    params.seen_per_commanded =
+        station.arm_geometry->angle_deg() / std::abs(station.arm_geometry->commanded_deg);
+  }
   if (station.arm) params.second_view_deg = station.arm->second_view_deg;
   return params;
 }

@@ -187,16 +187,6 @@ TEST(Station, PressesDuringAScanDoNotStartAnother) {
   EXPECT_EQ(station.run().scans, 2U);
 }
 
-TEST(StationByHand, TakesTheSecondViewAtTheSecondPress) {
-  StationRig rig(2, false);
-  EXPECT_TRUE(rig.run().all_worked());
-  EXPECT_EQ(rig.sink.lines, (Lines{measured(1, 0), measured(2, 1)}));
-  EXPECT_EQ(rig.measurer.views[1].arm_angle_deg, std::nullopt);
-  const Signals twice{ready, hold_still, ready, hold_still, busy, done,
-                      ready, hold_still, ready, hold_still, busy, done};
-  EXPECT_EQ(rig.signals(), twice);
-}
-
 // A second camera that looks at the other view.
 struct TwoCameraRig : StationRig {
   explicit TwoCameraRig(std::size_t trays)
