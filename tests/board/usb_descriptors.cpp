@@ -13,14 +13,14 @@ void add(UsbBytes& bytes, std::uint32_t value, int count) {
 
 namespace {
 
-void add(UsbBytes& bytes, const UsbBytes& more) {
+void append(UsbBytes& bytes, const UsbBytes& more) {
   for (const std::uint8_t byte : more) bytes.push_back(byte);
 }
 
 // A descriptor: its length comes first.
 void add_descriptor(UsbBytes& all, const UsbBytes& body) {
   all.push_back(static_cast<std::uint8_t>(body.size() + 1));
-  add(all, body);
+  append(all, body);
 }
 
 // Camera terminal 1 (exposure), processing unit 2 (gain), output terminal 3.
@@ -32,10 +32,10 @@ UsbBytes describe_units() {
   UsbBytes header = {0x24, 1, 0x00, 0x01};
   add(header, static_cast<std::uint32_t>(13 + units.size()), 2);
   add(header, 48'000'000, 4);
-  add(header, UsbBytes{1, 1});
+  append(header, UsbBytes{1, 1});
   UsbBytes all;
   add_descriptor(all, header);
-  add(all, units);
+  append(all, units);
   return all;
 }
 
@@ -61,7 +61,7 @@ UsbBytes describe_configuration(int width, int height, double frame_s) {
   add_descriptor(interfaces, {11, 0, 2, 14, 3, 0, 2});
   add_descriptor(interfaces, {4, 0, 0, 0, 14, 1, 0, 2});
   const UsbBytes units = describe_units();
-  add(interfaces, units);
+  append(interfaces, units);
   add_descriptor(interfaces, {4, 1, 0, 1, 14, 2, 0, 0});
   const auto interval = static_cast<std::uint32_t>(std::lround(frame_s * 1e7));
   const auto frame_bytes = static_cast<std::uint32_t>(2 * width * height);
@@ -79,17 +79,17 @@ UsbBytes describe_configuration(int width, int height, double frame_s) {
   add_descriptor(stream, {0x24, 13, 1, 1, 4});
   UsbBytes header = {0x24, 1, 1};
   add(header, static_cast<std::uint32_t>(14 + stream.size()), 2);
-  add(header, UsbBytes{0x81, 0, 3, 0, 0, 0, 1, 0});
+  append(header, UsbBytes{0x81, 0, 3, 0, 0, 0, 1, 0});
   add_descriptor(interfaces, header);
-  add(interfaces, stream);
+  append(interfaces, stream);
   add_descriptor(interfaces, {5, 0x81, 2, 0x00, 0x02, 0});
 
   UsbBytes head = {2};
   add(head, static_cast<std::uint32_t>(9 + interfaces.size()), 2);
-  add(head, UsbBytes{2, 1, 0, 0x80, 250});
+  append(head, UsbBytes{2, 1, 0, 0x80, 250});
   UsbBytes all;
   add_descriptor(all, head);
-  add(all, interfaces);
+  append(all, interfaces);
   return all;
 }
 
