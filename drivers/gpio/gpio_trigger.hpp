@@ -47,6 +47,7 @@ class GpioTrigger final : public Trigger {
   std::uint64_t sequence_ = 0;
   bool is_active_ = false;  // after the last edge
   Instant last_edge_at_;
+  std::optional<Instant> differs_since_;  // the line from is_active_
 };
 
 }  // namespace traygauge
