@@ -5,16 +5,14 @@
 #include <algorithm>
 #include <numbers>
 
+#include "firmware/card/card_finder.hpp"
+
 namespace traygauge {
 namespace {
 
 constexpr double kDegrees = 180.0 / std::numbers::pi;
 
 }  // namespace
-
-double angle_between_deg(const Mat3& first, const Mat3& second) {
-  return kDegrees * std::abs(Eigen::AngleAxisd(Mat3(first.transpose() * second)).angle());
-}
 
 // A point c of the axis moves along it only: c = R c + t − (a · t) a, solved for the c nearest to the origin.
 ScrewMotion screw_of(const Pose& second_from_first) {
@@ -48,7 +46,7 @@ bool calibrate_arm(const std::vector<SeenMove>& moves, const ArmCalibrationParam
   for (const SeenMove& move : moves) {
     commanded_spread_deg = std::max(commanded_spread_deg, std::abs(move.commanded_deg - commanded_deg));
     calibration.angle_spread_deg = std::max(
-        calibration.angle_spread_deg, angle_between_deg(mean.rotation, move.second_from_first.rotation));
+        calibration.angle_spread_deg, turn_deg(mean.rotation.transpose() * move.second_from_first.rotation));
     calibration.shift_spread_mm =
         std::max(calibration.shift_spread_mm, (move.second_from_first.translation - mean.translation).norm());
   }

@@ -45,7 +45,4 @@ struct ArmCalibration {
 bool calibrate_arm(const std::vector<SeenMove>& moves, const ArmCalibrationParams& params,
                    ArmCalibration& calibration);
 
-// Between two rotations.
-double angle_between_deg(const Mat3& first, const Mat3& second);
-
 }  // namespace traygauge

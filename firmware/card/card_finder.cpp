@@ -7,6 +7,11 @@
 #include "core/image/resample.hpp"
 
 namespace traygauge {
+namespace {
+
+constexpr double kDegrees = 180.0 / std::numbers::pi;
+
+}  // namespace
 
 template <class Allocator>
 void CardFinder::Memory::allocate(Allocator& arena, int width, int height, const CardLocationParams& params) {
@@ -46,7 +51,11 @@ Status CardFinder::find(const FrameView& frame, const LensModel& lens, CardAlign
 double angle_of_sight_deg(const Pose& first, const Pose& second, const Vec3& point_mm) {
   const Vec3 to_first = (camera_centre_mm(first) - point_mm).normalized();
   const Vec3 to_second = (camera_centre_mm(second) - point_mm).normalized();
-  return std::acos(std::clamp(to_first.dot(to_second), -1.0, 1.0)) * 180.0 / std::numbers::pi;
+  return kDegrees * std::acos(std::clamp(to_first.dot(to_second), -1.0, 1.0));
+}
+
+double turn_deg(const Mat3& rotation) {
+  return kDegrees * std::abs(Eigen::AngleAxisd(rotation).angle());
 }
 
 }  // namespace traygauge

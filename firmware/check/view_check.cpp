@@ -9,11 +9,7 @@
 namespace traygauge {
 namespace {
 
-constexpr double kDegrees = 180.0 / std::numbers::pi;
-
-double turn_deg(const Mat3& rotation) {
-  return kDegrees * std::abs(Eigen::AngleAxisd(rotation).angle());
-}
+constexpr double kRadians = std::numbers::pi / 180.0;
 
 }  // namespace
 
@@ -56,9 +52,9 @@ CheckResult check_move(const Pose& second_from_first, double commanded_deg,
     }
     return result;
   }
-  Vec3 turn(geometry->turn_deg[0], geometry->turn_deg[1], geometry->turn_deg[2]);
-  Vec3 shift(geometry->shift_mm[0], geometry->shift_mm[1], geometry->shift_mm[2]);
-  const double off_deg = turn_deg(rotation_about(turn / kDegrees).transpose() * second_from_first.rotation);
+  const Vec3 turn(geometry->turn_deg[0], geometry->turn_deg[1], geometry->turn_deg[2]);
+  const Vec3 shift(geometry->shift_mm[0], geometry->shift_mm[1], geometry->shift_mm[2]);
+  const double off_deg = turn_deg(rotation_about(kRadians * turn).transpose() * second_from_first.rotation);
   const double off_mm = (shift - second_from_first.translation).norm();
   result.text += "; " + fixed(off_deg, 2) + " degrees and " + fixed(off_mm, 1) +
                  " mm from where it was when the arm was calibrated";

@@ -49,6 +49,19 @@ TEST_F(ButtonOnKernel, BouncingPressesCountOnce) {
   EXPECT_LT(press_seen.at - begun_at, 100ms);
 }
 
+TEST_F(ButtonOnKernel, ALongPressIsToldFromAShortOne) {
+  ASSERT_TRUE(trigger_->start().ok());
+  Press press_seen;
+  press(100ms, 3);
+  ASSERT_TRUE(trigger_->wait_for_press(1s, press_seen).ok());
+  EXPECT_TRUE(trigger_->wait_for_release(500ms).ok());
+  bench_->set_input("TRIGGER", true);
+  ASSERT_TRUE(trigger_->wait_for_press(1s, press_seen).ok());
+  EXPECT_EQ(trigger_->wait_for_release(500ms).code(), DeviceCode::timed_out);
+  bench_->set_input("TRIGGER", false);
+  EXPECT_TRUE(trigger_->wait_for_release(500ms).ok());
+}
+
 TEST_F(ButtonOnKernel, AStuckButtonIsToldUntilItIsReleased) {
   ASSERT_TRUE(trigger_->start().ok());
   bench_->set_input("TRIGGER", true);
