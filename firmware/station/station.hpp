@@ -31,7 +31,8 @@ struct StationDevices {
 
 // What the lamp says while a hand moves the camera or the tray to the second view.
 struct HandGuideParams {
-  // Between the lines of sight: outside of 15 to 25 degrees error and time rise (paper, Table V and its text).
+  // Between the lines of sight: outside of 15 to 25 degrees error and time rise (paper, Table V and its
+  // text).
   double enough_from_deg = 15.0;
   double enough_to_deg = 25.0;
   Nanoseconds interval = std::chrono::milliseconds(100);  // between two looks; a hand is no faster

@@ -14,8 +14,8 @@ StationState Station::start_devices() {
   return StationState::waiting;
 }
 
-// What somebody who holds the button expects of it: that everything begins anew. The button's own line is left
-// alone: while it is pressed it could not be opened.
+// What somebody who holds the button expects of it: that everything begins anew. The button's own line is
+// left alone: while it is pressed it could not be opened.
 StationState Station::restart_devices() {
   sink_.report_restart();
   show(Signal::busy);
