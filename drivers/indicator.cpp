@@ -7,7 +7,8 @@ namespace traygauge {
 
 const char* name(Signal signal) {
   static constexpr auto kNames =
-      std::to_array<const char*>({"off", "ready", "hold_still", "busy", "done", "try_again", "fault"});
+      std::to_array<const char*>({"off", "ready", "hold_still", "busy", "done", "try_again", "move_on",
+                                  "far_enough", "too_far", "fault"});
   static_assert(kNames.size() == static_cast<std::size_t>(Signal::fault) + 1);
   return kNames[static_cast<std::size_t>(signal)];
 }

@@ -14,8 +14,11 @@ enum class Signal : std::uint8_t {
   hold_still,  // pictures are being taken
   busy,        // the tray may be moved, the result is being computed
   done,
-  try_again,  // this scan failed, the next may work
-  fault,      // the station needs somebody
+  try_again,   // this scan failed, the next may work
+  move_on,     // the camera or the tray has not been moved far enough for the second view
+  far_enough,  // it has: hold still and press
+  too_far,     // it has been moved too far: back a little
+  fault,       // the station needs somebody
 };
 
 // As logs spell it, e.g. "hold_still".

@@ -21,6 +21,12 @@ DeviceStatus Trigger::wait_for_press(Nanoseconds timeout, Press& press) {
   return do_wait_for_press(timeout, press);
 }
 
+DeviceStatus Trigger::wait_for_release(Nanoseconds timeout) {
+  if (!started_) return DeviceCode::not_started;
+  if (timeout <= Nanoseconds::zero()) return DeviceCode::invalid_argument;
+  return do_wait_for_release(timeout);
+}
+
 void Trigger::discard_pending() {
   if (started_) do_discard_pending();
 }

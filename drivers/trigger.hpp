@@ -24,6 +24,8 @@ class Trigger : public Device {
   // Blocks until a press, at most `timeout` (> 0): ok, timed_out, or ended when no press will ever come.
   // Presses that came meanwhile wait in a queue and are delivered first, in order. One call, one press.
   DeviceStatus wait_for_press(Nanoseconds timeout, Press& press);
+  // Blocks until the button is open, at most `timeout` (> 0): ok, or timed_out while it stays pressed.
+  DeviceStatus wait_for_release(Nanoseconds timeout);
   // Presses that wait; does not block.
   int pending() { return started_ ? do_pending() : 0; }
   // Forgets the presses that wait, e.g. those during a scan.
@@ -36,6 +38,7 @@ class Trigger : public Device {
   virtual DeviceStatus do_start() = 0;
   virtual void do_stop() = 0;
   virtual DeviceStatus do_wait_for_press(Nanoseconds timeout, Press& press) = 0;
+  virtual DeviceStatus do_wait_for_release(Nanoseconds timeout) = 0;
   virtual int do_pending() = 0;
   virtual void do_discard_pending() = 0;
 

@@ -17,6 +17,7 @@ GpioTrigger::GpioTrigger(std::unique_ptr<GpioLine> line, Clock& clock, const Gpi
 DeviceStatus GpioTrigger::do_start() {
   set_detail({});
   presses_.clear();
+  differs_since_.reset();
   sequence_ = 0;
   DeviceStatus status = line_->open_edges();
   if (!status.ok()) set_detail(line_->problem());
@@ -34,6 +35,7 @@ void GpioTrigger::take(const GpioEdge& edge) {
   if (edge.to_active && was_open) presses_.push_back(edge.at);
   is_active_ = edge.to_active;
   last_edge_at_ = edge.at;
+  differs_since_.reset();
 }
 
 DeviceStatus GpioTrigger::take_waiting_edges() {
@@ -44,13 +46,19 @@ DeviceStatus GpioTrigger::take_waiting_edges() {
     if (!status.ok()) return status;
     take(edge);
   }
-  // Where the last edge was lost, the line itself tells.
+  // Where the last edge was lost, the line itself tells, but only after a while: the line changes before its
+  // edge can be read, and a press whose edge finds the button pressed would not count.
   bool is_active = is_active_;
   const DeviceStatus status = line_->read(is_active);
-  const bool has_settled = clock_.now() - last_edge_at_ >= params_.debounce;
-  if (status.ok() && is_active != is_active_ && has_settled) {
+  const Instant now = clock_.now();
+  if (!status.ok() || is_active == is_active_) {
+    differs_since_.reset();
+  } else if (!differs_since_) {
+    differs_since_ = now;
+  } else if (now - *differs_since_ >= params_.debounce && now - last_edge_at_ >= params_.debounce) {
     is_active_ = is_active;
-    last_edge_at_ = clock_.now();
+    last_edge_at_ = now;
+    differs_since_.reset();
   }
   return status;
 }
@@ -73,6 +81,22 @@ DeviceStatus GpioTrigger::do_wait_for_press(Nanoseconds timeout, Press& press) {
     if (left <= Nanoseconds::zero()) return DeviceCode::timed_out;
     GpioEdge edge;
     const DeviceStatus status = line_->wait_for_edge(std::min(left, kLongestWait), edge);
+    if (status.ok()) take(edge);
+    if (!status.ok() && status.code() != DeviceCode::timed_out) return status;
+  }
+}
+
+DeviceStatus GpioTrigger::do_wait_for_release(Nanoseconds timeout) {
+  const Instant deadline = clock_.now() + timeout;
+  while (true) {
+    if (const DeviceStatus status = take_waiting_edges(); !status.ok()) return status;
+    const Nanoseconds unsettled = last_edge_at_ + params_.debounce - clock_.now();
+    if (!is_active_ && unsettled <= Nanoseconds::zero()) return DeviceCode::ok;
+    const Nanoseconds left = deadline - clock_.now();
+    if (left <= Nanoseconds::zero()) return DeviceCode::timed_out;
+    GpioEdge edge;
+    const Nanoseconds wait = is_active_ ? std::min(left, kLongestWait) : std::min(left, unsettled);
+    const DeviceStatus status = line_->wait_for_edge(wait, edge);
     if (status.ok()) take(edge);
     if (!status.ok() && status.code() != DeviceCode::timed_out) return status;
   }

@@ -19,8 +19,9 @@ struct GpioTriggerParams {
 };
 
 // A press counts at its first edge, by the kernel's time, when the contact was open for `debounce` before.
-// What bounces afterwards, at the release too, is none. While the button stays pressed beyond `stuck_after`,
-// waiting ends with `stuck`, as does start().
+// What bounces afterwards, at the release too, is none. It is released when the contact was open for
+// `debounce`. While the button stays pressed beyond `stuck_after`, waiting ends with `stuck`, as does
+// start().
 class GpioTrigger final : public Trigger {
  public:
   // `clock` is the one that stamps edges: SystemClock. It outlives the trigger.
@@ -31,6 +32,7 @@ class GpioTrigger final : public Trigger {
   DeviceStatus do_start() override;
   void do_stop() override { line_->close(); }
   DeviceStatus do_wait_for_press(Nanoseconds timeout, Press& press) override;
+  DeviceStatus do_wait_for_release(Nanoseconds timeout) override;
   int do_pending() override;
   void do_discard_pending() override;
 
@@ -45,6 +47,7 @@ class GpioTrigger final : public Trigger {
   std::uint64_t sequence_ = 0;
   bool is_active_ = false;  // after the last edge
   Instant last_edge_at_;
+  std::optional<Instant> differs_since_;  // the line from is_active_
 };
 
 }  // namespace traygauge

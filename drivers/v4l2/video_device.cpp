@@ -11,46 +11,60 @@
 #include <ctime>
 
 namespace traygauge {
+namespace {
 
-int SystemVideoDevice::open(const std::string& path) {
-  descriptor_ = ::open(path.c_str(), O_RDWR | O_NONBLOCK | O_CLOEXEC);
-  return descriptor_ < 0 ? errno : 0;
-}
+class SystemVideoDevice final : public VideoDevice {
+ public:
+  SystemVideoDevice() = default;
+  ~SystemVideoDevice() override { SystemVideoDevice::close(); }
 
-void SystemVideoDevice::close() {
-  if (descriptor_ >= 0) ::close(descriptor_);
-  descriptor_ = -1;
-}
+  int open(const std::string& path) override {
+    descriptor_ = ::open(path.c_str(), O_RDWR | O_NONBLOCK | O_CLOEXEC);
+    return descriptor_ < 0 ? errno : 0;
+  }
 
-int SystemVideoDevice::request(unsigned long code, void* argument) {
-  int result = 0;
-  do {
-    result = ::ioctl(descriptor_, code, argument);
-  } while (result < 0 && errno == EINTR);
-  return result < 0 ? errno : 0;
-}
+  void close() override {
+    if (descriptor_ >= 0) ::close(descriptor_);
+    descriptor_ = -1;
+  }
 
-std::span<std::uint8_t> SystemVideoDevice::map(std::size_t length, std::uint32_t offset) {
-  void* const memory = ::mmap(nullptr, length, PROT_READ | PROT_WRITE, MAP_SHARED, descriptor_, offset);
-  if (memory == MAP_FAILED) return {};
-  return {static_cast<std::uint8_t*>(memory), length};
-}
+  int request(unsigned long code, void* argument) override {
+    int result = 0;
+    do {
+      result = ::ioctl(descriptor_, code, argument);
+    } while (result < 0 && errno == EINTR);
+    return result < 0 ? errno : 0;
+  }
 
-void SystemVideoDevice::unmap(std::span<std::uint8_t> buffer) {
-  ::munmap(buffer.data(), buffer.size());
-}
+  std::span<std::uint8_t> map(std::size_t length, std::uint32_t offset) override {
+    void* const memory = ::mmap(nullptr, length, PROT_READ | PROT_WRITE, MAP_SHARED, descriptor_, offset);
+    if (memory == MAP_FAILED) return {};
+    return {static_cast<std::uint8_t*>(memory), length};
+  }
 
-// A signal ends the wait early, as if nothing had come: the caller looks at the time.
-int SystemVideoDevice::wait(Nanoseconds timeout, bool& has_news) {
-  pollfd watched{descriptor_, POLLIN, 0};
-  const auto seconds = std::chrono::floor<std::chrono::seconds>(std::max(timeout, Nanoseconds::zero()));
-  timespec time{};
-  time.tv_sec = static_cast<time_t>(seconds.count());
-  time.tv_nsec =
-      static_cast<decltype(time.tv_nsec)>((std::max(timeout, Nanoseconds::zero()) - seconds).count());
-  const int count = ::ppoll(&watched, 1, &time, nullptr);
-  has_news = count > 0;
-  return count < 0 && errno != EINTR ? errno : 0;
+  void unmap(std::span<std::uint8_t> buffer) override { ::munmap(buffer.data(), buffer.size()); }
+
+  // A signal ends the wait early, as if nothing had come: the caller looks at the time.
+  int wait(Nanoseconds timeout, bool& has_news) override {
+    pollfd watched{descriptor_, POLLIN, 0};
+    const auto seconds = std::chrono::floor<std::chrono::seconds>(std::max(timeout, Nanoseconds::zero()));
+    timespec time{};
+    time.tv_sec = static_cast<time_t>(seconds.count());
+    time.tv_nsec =
+        static_cast<decltype(time.tv_nsec)>((std::max(timeout, Nanoseconds::zero()) - seconds).count());
+    const int count = ::ppoll(&watched, 1, &time, nullptr);
+    has_news = count > 0;
+    return count < 0 && errno != EINTR ? errno : 0;
+  }
+
+ private:
+  int descriptor_ = -1;
+};
+
+}  // namespace
+
+std::unique_ptr<VideoDevice> make_system_video_device() {
+  return std::make_unique<SystemVideoDevice>();
 }
 
 }  // namespace traygauge

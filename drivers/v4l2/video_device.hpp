@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <string>
 
@@ -30,20 +31,7 @@ class VideoDevice {
   virtual int wait(Nanoseconds timeout, bool& has_news) = 0;
 };
 
-class SystemVideoDevice final : public VideoDevice {
- public:
-  SystemVideoDevice() = default;
-  ~SystemVideoDevice() override { SystemVideoDevice::close(); }
-
-  int open(const std::string& path) override;
-  void close() override;
-  int request(unsigned long code, void* argument) override;
-  std::span<std::uint8_t> map(std::size_t length, std::uint32_t offset) override;
-  void unmap(std::span<std::uint8_t> buffer) override;
-  int wait(Nanoseconds timeout, bool& has_news) override;
-
- private:
-  int descriptor_ = -1;
-};
+// The kernel itself.
+std::unique_ptr<VideoDevice> make_system_video_device();
 
 }  // namespace traygauge

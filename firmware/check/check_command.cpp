@@ -5,6 +5,8 @@
 #include "firmware/base/exit_status.hpp"
 #include "firmware/base/text.hpp"
 #include "firmware/check/device_check.hpp"
+#include "firmware/check/view_check.hpp"
+#include "firmware/measure/pair_setup.hpp"
 #include "firmware/station/hardware.hpp"
 #include "simulator/capture/picture_file.hpp"
 
@@ -20,21 +22,23 @@ CheckResult good(const Device& device, const std::string& text) {
   return {std::string(device.description()), true, text};
 }
 
-CheckResult try_camera(V4l2Camera& camera, const std::optional<LensConfig>& lens) {
-  CheckResult result = check_camera(camera);
+CheckResult try_camera(V4l2Camera& camera, TakenPicture& picture) {
+  CheckResult result = check_camera(camera, picture);
   if (result.is_good) {
     const CameraCounters& counters = camera.counters();
     result.text = camera.describe_setup() + "; " + result.text + "; " + std::to_string(counters.damaged) +
                   " damaged, " + std::to_string(counters.missed) + " missed";
   }
-  const auto focus = camera.held(CameraControl::focus);
-  if (result.is_good && lens && lens->focus && focus && *focus != *lens->focus) {
-    result.is_good = false;
-    result.text = "The lens was calibrated at focus " + std::to_string(*lens->focus) + " and stands at " +
-                  std::to_string(*focus) + "; set camera.focus to the former, or calibrate again.";
-  }
-  camera.stop();
   return result;
+}
+
+CheckResult try_lens(const LensConfig& lens, const V4l2CameraParams& params, const V4l2Camera& camera,
+                     const std::string& name) {
+  const std::string change = find_lens_change(lens, params, camera.held(CameraControl::focus));
+  if (!change.empty()) return {name, false, change};
+  return {name, true,
+          lens.calibrated_on.empty() ? "described"
+                                     : "calibrated on " + lens.calibrated_on + ", nothing has changed since"};
 }
 
 CheckResult try_button(GpioTrigger& trigger, const CheckOptions& options, std::ostream& out) {
@@ -66,29 +70,95 @@ CheckResult try_lamp(GpioIndicator& lamp, Clock& clock) {
   return status.ok() ? good(lamp, "showed every signal") : describe_failure(lamp, status);
 }
 
-CheckResult try_arm(Arm& arm, double second_view_deg) {
+CheckResult try_homing(Arm& arm) {
   DeviceStatus status = arm.start();
   if (status.ok()) status = arm.home(kArmTimeout);
-  if (status.ok()) status = arm.move_to(second_view_deg, kArmTimeout);
-  if (status.ok()) status = arm.move_to(0.0, kArmTimeout);
-  const CheckResult result = status.ok()
-                                 ? good(arm, "home, at " + fixed(second_view_deg, 1) + " degrees and back")
-                                 : describe_failure(arm, status);
-  arm.stop();
-  return result;
+  return status.ok() ? good(arm, "at home") : describe_failure(arm, status);
 }
 
-CheckResult try_geometry(const StationFile& station) {
+CheckResult try_move(Arm& arm, double angle_deg) {
+  const DeviceStatus status = arm.move_to(angle_deg, kArmTimeout);
+  return status.ok() ? good(arm, "at " + fixed(angle_deg, 1) + " degrees") : describe_failure(arm, status);
+}
+
+CheckResult try_geometry(const StationFile& station, Picture& pattern) {
   CheckResult result{"lens and card", true, "described"};
   try {
     require_geometry(station);
-    load_pattern(*station.card);
+    pattern = load_pattern(*station.card);
   } catch (const InputError& error) {
     result.is_good = false;
     result.text = error.what();
   }
   return result;
 }
+
+class StationCheck {
+ public:
+  StationCheck(const CheckOptions& options, std::ostream& out)
+      : options_(options), out_(out), station_(read_station_file(options.station)), hardware_(station_) {}
+
+  bool run() {
+    knows_geometry_ = tell(try_geometry(station_, pattern_));
+    const bool arm_works = !station_.arm || tell(try_homing(*hardware_.arm()));
+    const auto first = look(hardware_.camera(), station_.camera, station_.lens, "lens");
+    if (station_.second_camera) {
+      look(*hardware_.second_camera(), *station_.second_camera, station_.second_lens, "second lens");
+    }
+    tell(try_button(hardware_.trigger(), options_, out_));
+    if (!station_.lamp.lines.empty()) tell(try_lamp(hardware_.lamp(), hardware_.clock()));
+    if (station_.arm && arm_works) move_arm(first);
+    hardware_.camera().stop();
+    return all_good_;
+  }
+
+ private:
+  bool tell(const CheckResult& result) {
+    out_ << (result.is_good ? "ok    " : "FAIL  ") << printable(result.device) << ": "
+         << printable(result.text) << std::endl;
+    all_good_ = all_good_ && result.is_good;
+    return result.is_good;
+  }
+  std::optional<Pose> find_card(const LensConfig& lens) {
+    std::optional<Pose> camera_from_table;
+    tell(check_card(
+        picture_.frame.view, lens_of(lens.camera),
+        {station_.card->width_mm, station_.card->height_mm, station_.card->thickness_mm, pattern_.gray()},
+        camera_from_table));
+    return camera_from_table;
+  }
+  // The camera, its lens, and the card in its picture.
+  std::optional<Pose> look(V4l2Camera& camera, const V4l2CameraParams& params,
+                           const std::optional<LensConfig>& lens, const std::string& name) {
+    const bool sees = tell(try_camera(camera, picture_));
+    std::optional<Pose> camera_from_table;
+    if (lens) tell(try_lens(*lens, params, camera, name));
+    if (sees && knows_geometry_) camera_from_table = find_card(*lens);
+    if (&camera != &hardware_.camera()) camera.stop();
+    return camera_from_table;
+  }
+  void move_arm(const std::optional<Pose>& first) {
+    Arm& arm = *hardware_.arm();
+    const double second_deg = station_.arm->second_view_deg;
+    if (tell(try_move(arm, second_deg))) {
+      if (first && take_pictures(hardware_.camera(), 1, picture_).ok()) {
+        if (const auto second = find_card(*station_.lens))
+          tell(check_move(*second * first->inverse(), second_deg, station_.arm_geometry));
+      }
+      tell(try_move(arm, 0.0));
+    }
+    arm.stop();
+  }
+
+  const CheckOptions& options_;
+  std::ostream& out_;
+  StationFile station_;
+  Hardware hardware_;
+  Picture pattern_;
+  TakenPicture picture_;
+  bool knows_geometry_ = false;
+  bool all_good_ = true;
+};
 
 }  // namespace
 
@@ -101,21 +171,7 @@ void add_check_command(CLI::App& app, CheckOptions& options) {
 }
 
 int run_check(const CheckOptions& options, std::ostream& out) {
-  const StationFile station = read_station_file(options.station);
-  Hardware hardware(station);
-  bool all_good = true;
-  const auto tell = [&](const CheckResult& result) {
-    out << (result.is_good ? "ok    " : "FAIL  ") << printable(result.device) << ": "
-        << printable(result.text) << std::endl;
-    all_good = all_good && result.is_good;
-  };
-  tell(try_camera(hardware.camera(), station.lens));
-  if (station.second_camera) tell(try_camera(*hardware.second_camera(), station.second_lens));
-  tell(try_button(hardware.trigger(), options, out));
-  if (!station.lamp.lines.empty()) tell(try_lamp(hardware.lamp(), hardware.clock()));
-  if (station.arm) tell(try_arm(*hardware.arm(), station.arm->second_view_deg));
-  tell(try_geometry(station));
-  return all_good ? kExitMeasured : kExitNotMeasurable;
+  return StationCheck(options, out).run() ? kExitMeasured : kExitNotMeasurable;
 }
 
 }  // namespace traygauge

@@ -5,6 +5,11 @@
 #include "firmware/base/text.hpp"
 
 namespace traygauge {
+namespace {
+
+constexpr Nanoseconds kPictureTimeout = std::chrono::seconds(2);
+
+}  // namespace
 
 CheckResult describe_failure(const Device& device, DeviceStatus status) {
   std::string text = sentence(status.code());
@@ -25,16 +30,19 @@ double mean_grey(const FrameView& frame) {
   return sum / (static_cast<double>(row_bytes) * frame.height);
 }
 
-CheckResult check_camera(Camera& camera, const PictureCheckParams& params) {
+DeviceStatus take_pictures(Camera& camera, int count, TakenPicture& picture) {
+  picture.pixels.resize(camera.format().frame_bytes());
+  DeviceStatus status;
+  for (int i = 0; i < count && status.ok(); ++i)
+    status = camera.capture(picture.pixels, kPictureTimeout, picture.frame);
+  return status;
+}
+
+CheckResult check_camera(Camera& camera, TakenPicture& picture, const PictureCheckParams& params) {
   DeviceStatus status = camera.start();
+  if (status.ok()) status = take_pictures(camera, params.pictures, picture);
   if (!status.ok()) return describe_failure(camera, status);
-  std::vector<std::uint8_t> buffer(camera.format().frame_bytes());
-  CapturedFrame frame;
-  for (int i = 0; i < params.pictures; ++i) {
-    status = camera.capture(buffer, std::chrono::seconds(2), frame);
-    if (!status.ok()) return describe_failure(camera, status);
-  }
-  const double mean = mean_grey(frame.view);
+  const double mean = mean_grey(picture.frame.view);
   const std::string brightness = "mean brightness " + fixed(mean, 0) + " of 255";
   const std::string name(camera.description());
   if (mean < params.darkest_mean) {

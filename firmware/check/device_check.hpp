@@ -28,8 +28,18 @@ struct PictureCheckParams {
   double brightest_mean = 225.0;  // above, white dishes are clipped
 };
 
-// Starts the camera, takes pictures, looks at their brightness, and stops it.
-CheckResult check_camera(Camera& camera, const PictureCheckParams& params = {});
+// A picture with its pixels.
+struct TakenPicture {
+  std::vector<std::uint8_t> pixels;
+  CapturedFrame frame;
+};
+
+// Takes so many pictures with a camera that is started; the last one stays.
+DeviceStatus take_pictures(Camera& camera, int count, TakenPicture& picture);
+
+// Starts the camera, takes pictures and looks at their brightness; it stays started. The last picture stays
+// in `picture`.
+CheckResult check_camera(Camera& camera, TakenPicture& picture, const PictureCheckParams& params = {});
 
 // The mean grey of a picture.
 double mean_grey(const FrameView& frame);

@@ -6,6 +6,7 @@
 
 #include "firmware/check/check_command.hpp"
 #include "firmware/command/program.hpp"
+#include "firmware/command/sibling_program.hpp"
 #include "firmware/enrol/enrol_command.hpp"
 #include "firmware/evaluate/evaluate_command.hpp"
 #include "firmware/measure/measure_command.hpp"
@@ -30,6 +31,14 @@ struct Options {
   RecordOptions record;
 };
 
+// What follows belongs to a program of its own.
+void add_calibrate_command(CLI::App& app) {
+  CLI::App* command = app.add_subcommand(
+      "calibrate", "The lens from pictures of a chessboard, the arm from captures of the card");
+  command->set_help_flag();
+  command->prefix_command();
+}
+
 int run_command(const CLI::App& app, const Options& options, std::ostream& out, std::ostream& error) {
   if (app.got_subcommand("measure")) return run_measure(options.measure, out, error);
   if (app.got_subcommand("evaluate")) return run_evaluate(options.evaluate, out, error);
@@ -39,6 +48,9 @@ int run_command(const CLI::App& app, const Options& options, std::ostream& out, 
     return run_station(options.station, open_recorded_captures, stop_on_signals(), out, error);
   }
   if (app.got_subcommand("check")) return run_check(options.check, out);
+  if (app.got_subcommand("calibrate")) {
+    return run_sibling_program("traygauge-calibrate", app.get_subcommand("calibrate")->remaining());
+  }
   if (app.got_subcommand("record")) return run_record(options.record, stop_on_signals(), out, error);
   return run_memory(options.memory, out);
 }
@@ -59,6 +71,7 @@ int run_command_line(int argument_count, const char* const* arguments, std::ostr
   add_station_command(app, options.station);
   add_check_command(app, options.check);
   add_record_command(app, options.record);
+  add_calibrate_command(app);
   const auto run = [&] {
     try {
       return run_command(app, options, out, error);

@@ -2,46 +2,21 @@
 
 #include <array>
 #include <cerrno>
-#include <charconv>
 #include <fstream>
 #include <sstream>
 #include <string>
 #include <system_error>
 
+#include "firmware/base/toml_text.hpp"
 #include "simulator/capture/png_writer.hpp"
 
 namespace traygauge {
 namespace {
 
-// The shortest decimal that reads back as the same number, with a point: TOML keeps integers apart.
-std::string number(double value) {
-  std::array<char, 64> digits{};
-  const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr;
-  std::string text(digits.data(), end);
-  if (text.find_first_of(".e") == std::string::npos) text += ".0";
-  return text;
-}
-
 std::string pair(double first, double second) {
   std::ostringstream text;
-  text << '[' << number(first) << ", " << number(second) << ']';
+  text << '[' << toml_number(first) << ", " << toml_number(second) << ']';
   return text.str();
-}
-
-// A basic string of TOML, whatever the text holds.
-std::string quoted(const std::string& text) {
-  constexpr const char* kHex = "0123456789abcdef";
-  std::string basic = "\"";
-  for (const char character : text) {
-    const auto code = static_cast<unsigned char>(character);
-    if (code < 0x20 || code == 0x7f) {
-      basic += std::string("\\u00") + kHex[code / 16] + kHex[code % 16];
-    } else {
-      if (character == '"' || character == '\\') basic += '\\';
-      basic += character;
-    }
-  }
-  return basic + "\"";
 }
 
 }  // namespace
@@ -49,10 +24,10 @@ std::string quoted(const std::string& text) {
 std::string compose_dish_file(const DishDescription& dish) {
   std::ostringstream text;
   text << "# Lengths in mm, heights above the table.\n";
-  if (!dish.style.empty()) text << "style = " << quoted(dish.style) << '\n';
+  if (!dish.style.empty()) text << "style = " << toml_text(dish.style) << '\n';
   text << "outer_size_mm = " << pair(dish.outer_size_mm[0], dish.outer_size_mm[1]) << '\n';
-  text << "rim_height_mm = " << number(dish.rim_height_mm) << '\n';
-  text << "bottom_height_mm = " << number(dish.bottom_height_mm) << '\n';
+  text << "rim_height_mm = " << toml_number(dish.rim_height_mm) << '\n';
+  text << "bottom_height_mm = " << toml_number(dish.bottom_height_mm) << '\n';
   if (dish.profile.empty()) return text.str();
   text << "# The inner surface: [inset from the outer edge, height], from the edge inward down to the flat "
           "bottom.\nprofile = ";

@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "drivers/v4l2/device_finder.hpp"
+#include "firmware/base/text.hpp"
 #include "simulator/capture/json_node.hpp"
 #include "simulator/capture/toml_file.hpp"
 
@@ -18,6 +19,7 @@ constexpr std::size_t kMaxFileBytes = std::size_t{1} << 16U;
 constexpr std::size_t kMaxLamps = 32;
 constexpr int kMaxControl = 10'000'000;
 constexpr double kMaxFocalPx = 1e6;
+constexpr double kLeastTurnDeg = 1.0;  // less is no second view
 
 template <std::size_t N>
 void expect(const JsonNode& table, const std::string_view (&keys)[N]) {
@@ -68,9 +70,19 @@ ControlWish read_control(const JsonNode& node) {
   node.fail("a whole number, \"hold\" or \"leave\"", "correct the value");
 }
 
+// A day, as TOML's dates are written, but in quotes.
+std::string read_day(const JsonNode& node) {
+  const std::string day = node.text();
+  bool is_day = day.size() == 10 && day[4] == '-' && day[7] == '-';
+  for (std::size_t i = 0; is_day && i < day.size(); ++i)
+    is_day = i == 4 || i == 7 || (day[i] >= '0' && day[i] <= '9');
+  if (!is_day) node.fail("a day such as \"2025-01-31\"", "correct the value");
+  return day;
+}
+
 V4l2CameraParams read_camera(const JsonNode& table) {
   expect(table, {"device", "width", "height", "format", "frames_per_s", "exposure_us", "gain",
-                 "white_balance_k", "focus", "settle_frames", "burst", "may_repeat"});
+                 "white_balance_k", "focus", "settle_frames", "burst", "may_repeat", "lens_changed_on"});
   V4l2CameraParams camera;
   const JsonNode device = table.member("device");
   camera.device = device.text();
@@ -93,7 +105,7 @@ V4l2CameraParams read_camera(const JsonNode& table) {
 }
 
 GpioTriggerParams read_button(const JsonNode& table) {
-  expect(table, {"line", "active_low", "bias", "debounce_ms", "stuck_after_s"});
+  expect(table, {"line", "active_low", "bias", "debounce_ms", "stuck_after_s", "long_press_s"});
   GpioTriggerParams button;
   button.line.line = read_line_name(table.member("line"));
   take(table, "active_low", button.line.is_active_low);
@@ -104,6 +116,12 @@ GpioTriggerParams read_button(const JsonNode& table) {
         std::chrono::round<Nanoseconds>(std::chrono::duration<double>(node->number({1.0, 3600.0})));
   }
   return button;
+}
+
+Nanoseconds read_long_press(const JsonNode& node) {
+  const double seconds = node.number({0.0, 10.0});
+  if (seconds > 0.0 && seconds < 0.5) node.fail("0, or 0.5 to 10", "a shorter press is an ordinary one");
+  return std::chrono::round<Nanoseconds>(std::chrono::duration<double>(seconds));
 }
 
 std::uint32_t read_lit(const JsonNode& node, const std::vector<GpioLineParams>& lines) {
@@ -119,15 +137,28 @@ std::uint32_t read_lit(const JsonNode& node, const std::vector<GpioLineParams>& 
 }
 
 LampConfig read_lamp(const JsonNode& table) {
-  expect(table, {"lines", "active_low", "ready", "hold_still", "busy", "done", "try_again", "fault"});
+  expect(table, {"lines", "active_low", "ready", "hold_still", "busy", "done", "try_again", "move_on",
+                 "far_enough", "too_far", "fault"});
   LampConfig lamp;
   bool is_active_low = false;
   take(table, "active_low", is_active_low);
   for (const JsonNode& node : table.member("lines").elements(1, kMaxLamps)) {
     lamp.lines.push_back({read_line_name(node), is_active_low});
   }
-  for (std::size_t i = 1; i < kSignalCount; ++i) {
-    lamp.table[i] = read_lit(table.member(name(static_cast<Signal>(i))), lamp.lines);
+  const auto lit = [&lamp](Signal signal) -> std::uint32_t& {
+    return lamp.table[static_cast<std::size_t>(signal)];
+  };
+  for (const Signal signal :
+       {Signal::ready, Signal::hold_still, Signal::busy, Signal::done, Signal::try_again, Signal::fault}) {
+    lit(signal) = read_lit(table.member(name(signal)), lamp.lines);
+  }
+  // Where a hand moves the camera; where nothing is said, what tells a person about the same.
+  constexpr std::array<std::array<Signal, 2>, 3> kGuidance = {{{Signal::move_on, Signal::hold_still},
+                                                               {Signal::far_enough, Signal::ready},
+                                                               {Signal::too_far, Signal::try_again}}};
+  for (const auto& [signal, otherwise] : kGuidance) {
+    const auto node = table.find(name(signal));
+    lit(signal) = node ? read_lit(*node, lamp.lines) : lit(otherwise);
   }
   return lamp;
 }
@@ -190,18 +221,41 @@ ArmConfig read_arm(const JsonNode& table) {
   return arm;
 }
 
-LensConfig read_lens(const JsonNode& table, const V4l2CameraParams& camera) {
-  expect(table, {"fx", "fy", "cx", "cy", "distortion", "focus"});
+// `camera`: the table of the camera that has the lens.
+LensConfig read_lens(const JsonNode& table, const JsonNode& camera_table, const V4l2CameraParams& camera) {
+  expect(table,
+         {"width", "height", "fx", "fy", "cx", "cy", "distortion", "focus", "camera", "calibrated_on"});
   LensConfig lens;
   lens.camera.size = {camera.mode.width, camera.mode.height};
+  take(table, "width", kMinPictureSide, kMaxPictureSide, lens.camera.size.width);
+  take(table, "height", kMinPictureSide, kMaxPictureSide, lens.camera.size.height);
   lens.camera.fx_px = table.member("fx").positive_number(kMaxFocalPx);
   lens.camera.fy_px = table.member("fy").positive_number(kMaxFocalPx);
-  lens.camera.cx_px = table.member("cx").number({0.0, camera.mode.width - 1.0});
-  lens.camera.cy_px = table.member("cy").number({0.0, camera.mode.height - 1.0});
+  lens.camera.cx_px = table.member("cx").number({0.0, lens.camera.size.width - 1.0});
+  lens.camera.cy_px = table.member("cy").number({0.0, lens.camera.size.height - 1.0});
   const auto distortion = table.member("distortion").numbers(5, {-1e3, 1e3});
   std::copy(distortion.begin(), distortion.end(), lens.camera.distortion.begin());
   if (const auto focus = table.find("focus")) lens.focus = focus->integer(-kMaxControl, kMaxControl);
+  if (const auto name = table.find("camera")) lens.calibrated_camera = name->text();
+  if (const auto day = table.find("calibrated_on")) lens.calibrated_on = read_day(*day);
+  if (const auto day = camera_table.find("lens_changed_on")) lens.changed_on = read_day(*day);
   return lens;
+}
+
+ArmGeometry read_arm_geometry(const JsonNode& table) {
+  expect(table, {"commanded_deg", "turn_deg", "shift_mm"});
+  ArmGeometry geometry;
+  geometry.commanded_deg = table.member("commanded_deg").number({-90.0, 90.0});
+  const auto turn = table.member("turn_deg").numbers(3, {-180.0, 180.0});
+  const auto shift = table.member("shift_mm").numbers(3, {-5000.0, 5000.0});
+  std::copy(turn.begin(), turn.end(), geometry.turn_deg.begin());
+  std::copy(shift.begin(), shift.end(), geometry.shift_mm.begin());
+  if (geometry.angle_deg() < kLeastTurnDeg) {
+    table.member("turn_deg")
+        .fail("a turn of " + fixed(kLeastTurnDeg, 0) + " degrees at least",
+              "run traygauge calibrate arm again");
+  }
+  return geometry;
 }
 
 CardDescription read_card(const JsonNode& table, const fs::path& folder) {
@@ -227,15 +281,20 @@ std::array<InputFile, 2> read_labels(const JsonNode& table, const fs::path& fold
 StationFile read_station_file(const fs::path& file) {
   const nlohmann::json document = read_toml(file, kMaxFileBytes, "a station in TOML");
   const JsonNode root(document, file);
-  expect(root, {"camera", "second_camera", "button", "lamp", "arm", "lens", "second_lens", "card", "trays"});
+  expect(root, {"camera", "second_camera", "button", "lamp", "arm", "arm_geometry", "lens", "second_lens",
+                "card", "trays"});
   const fs::path folder = file.parent_path();
   StationFile station;
   station.file = file;
   station.camera = read_camera(root.member("camera"));
   station.button = read_button(root.member("button"));
+  if (const auto node = root.member("button").find("long_press_s"))
+    station.long_press = read_long_press(*node);
   if (const auto lamp = root.find("lamp")) station.lamp = read_lamp(*lamp);
   if (const auto arm = root.find("arm")) station.arm = read_arm(*arm);
-  if (const auto lens = root.find("lens")) station.lens = read_lens(*lens, station.camera);
+  if (const auto geometry = root.find("arm_geometry")) station.arm_geometry = read_arm_geometry(*geometry);
+  if (const auto lens = root.find("lens"))
+    station.lens = read_lens(*lens, root.member("camera"), station.camera);
   if (const auto second = root.find("second_camera")) {
     station.second_camera = read_camera(*second);
     if (station.arm) second->fail("either an arm or a second camera", "remove one of the two");
@@ -243,25 +302,11 @@ StationFile read_station_file(const fs::path& file) {
       second->member("device").fail("another camera than the first", "correct one of the two");
     }
     if (const auto lens = root.find("second_lens"))
-      station.second_lens = read_lens(*lens, *station.second_camera);
+      station.second_lens = read_lens(*lens, *second, *station.second_camera);
   }
   if (const auto card = root.find("card")) station.card = read_card(*card, folder);
   if (const auto trays = root.find("trays")) station.labels = read_labels(*trays, folder);
   return station;
-}
-
-void require_geometry(const StationFile& station) {
-  const auto require = [&station](const std::optional<LensConfig>& lens, const char* key) {
-    if (lens) return;
-    throw InputError({station.file, key}, "fx, fy, cx, cy and distortion of the lens", "nothing",
-                     "calibrate the lens and write them there");
-  };
-  require(station.lens, "lens");
-  if (station.second_camera) require(station.second_lens, "second_lens");
-  if (!station.card) {
-    throw InputError({station.file, "card"}, "pattern, width_mm, height_mm and thickness_mm of the card",
-                     "nothing", "describe the reference card there");
-  }
 }
 
 }  // namespace traygauge

@@ -35,17 +35,32 @@ struct ArmConfig {
   double second_view_deg = 18.0;
 };
 
+// What the arm's move to the second view does to the camera, as it was seen: second_from_first.
+struct ArmGeometry {
+  double commanded_deg = 0.0;
+  std::array<double, 3> turn_deg{};  // axis times angle, in the first view's axes
+  std::array<double, 3> shift_mm{};
+
+  double angle_deg() const;
+};
+
+// A lens as it was calibrated. The camera may have changed since.
 struct LensConfig {
   CameraDescription camera;
-  std::optional<int> focus;  // the camera's, when the lens was calibrated
+  std::optional<int> focus;       // the camera's
+  std::string calibrated_camera;  // its name; empty: not known
+  std::string calibrated_on;      // YYYY-MM-DD; empty: not known
+  std::string changed_on;         // the day on which somebody touched the lens; empty: never
 };
 
 struct StationFile {
   std::filesystem::path file;
   V4l2CameraParams camera;
   GpioTriggerParams button;
+  std::optional<Nanoseconds> long_press;  // zero: presses are never long; none: the station's default
   LampConfig lamp;
-  std::optional<ArmConfig> arm;                   // none: a hand moves the camera or the tray
+  std::optional<ArmConfig> arm;  // none: a hand moves the camera or the tray
+  std::optional<ArmGeometry> arm_geometry;
   std::optional<V4l2CameraParams> second_camera;  // takes the second view; excludes the arm
   std::optional<LensConfig> lens;
   std::optional<LensConfig> second_lens;  // of the second camera
@@ -57,7 +72,13 @@ struct StationFile {
 // Unknown keys are errors: they are typing mistakes. Paths in the file are relative to it. Throws InputError.
 StationFile read_station_file(const std::filesystem::path& file);
 
-// Throws InputError unless the file has the lenses and the card, without which nothing is measured.
+// What has changed since a lens was calibrated, and what to do; empty when nothing is known to have. `focus`:
+// the camera's now, where it says.
+std::string find_lens_change(const LensConfig& lens, const V4l2CameraParams& camera,
+                             std::optional<int> focus);
+
+// Throws InputError unless the file has the lenses and the card, without which nothing is measured, and the
+// lenses are of pictures of the camera's size.
 void require_geometry(const StationFile& station);
 
 }  // namespace traygauge

@@ -7,6 +7,8 @@
 #include <system_error>
 #include <utility>
 
+#include "firmware/measure/pair_setup.hpp"
+#include "firmware/record/recorded_files.hpp"
 #include "simulator/capture/capture_document.hpp"
 #include "simulator/capture/png_writer.hpp"
 
@@ -17,41 +19,20 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t kViews = 2;
 
-// PNG has red first.
-Picture as_rgb(const FrameView& frame) {
-  const PixelFormat format = frame.format == PixelFormat::gray8 ? PixelFormat::gray8 : PixelFormat::rgb8;
-  Picture picture({frame.width, frame.height}, format);
-  const auto row_bytes = static_cast<std::size_t>(picture.stride_bytes());
-  for (int y = 0; y < frame.height; ++y) {
-    std::uint8_t* const row = picture.pixels.data() + static_cast<std::size_t>(y) * row_bytes;
-    std::memcpy(row, frame.data + y * frame.stride_bytes, row_bytes);
-    if (frame.format != PixelFormat::bgr8) continue;
-    for (std::size_t x = 0; x < row_bytes; x += 3) std::swap(row[x], row[x + 2]);
-  }
-  return picture;
-}
-
-std::string numbered(int number) {
-  std::array<char, 16> text{};
-  std::snprintf(text.data(), text.size(), "%04d", number);
-  return text.data();
-}
-
 }  // namespace
 
 CaptureRecorder::CaptureRecorder(fs::path out, const std::array<CameraDescription, 2>& cameras,
                                  const CardDescription& card)
     : out_(std::move(out)), cameras_(cameras), card_(card), pattern_(load_pattern(card)) {
-  std::error_code error;
-  fs::create_directories(out_, error);
-  if (!fs::is_directory(out_)) throw OutputError(out_, error ? error.message() : "it is no folder");
+  make_output_folder(out_);
 }
 
 void CaptureRecorder::begin_scan() {
   views_.clear();
+  guide_knows_view_ = false;
   std::error_code ignored;
   do {
-    folder_name_ = numbered(++number_);
+    folder_name_ = four_digits(++number_);
   } while (fs::exists(out_ / folder_name_, ignored));
 }
 
@@ -60,6 +41,16 @@ Status CaptureRecorder::add_view(const StationView& view) {
   views_.push_back({view.frame, view.arm_angle_deg});
   const bool has_size = view.frame.width == size.width && view.frame.height == size.height;
   return has_size ? StatusCode::ok : StatusCode::frame_size_mismatch;
+}
+
+std::optional<double> CaptureRecorder::turned_deg(const FrameView& live) {
+  if (views_.empty()) return std::nullopt;
+  if (!guide_knows_view_) {
+    guide_.begin({card_.width_mm, card_.height_mm, card_.thickness_mm, pattern_.gray()}, lens_of(cameras_[0]),
+                 views_[0].frame);
+  }
+  guide_knows_view_ = true;
+  return guide_.turned_deg(live);
 }
 
 const Measurement& CaptureRecorder::measure() {

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "firmware/card/card_guide.hpp"
 #include "firmware/station/measurer.hpp"
 #include "simulator/capture/capture.hpp"
 
@@ -26,6 +27,8 @@ class CaptureRecorder final : public Measurer {
   Status add_view(const StationView& view) override;
   // ok when the capture is on disk. Else problem() says why not.
   const Measurement& measure() override;
+  bool can_guide() const override { return true; }
+  std::optional<double> turned_deg(const FrameView& live) override;
   // The capture's folder.
   std::string_view tray_name() const override { return folder_name_; }
   const std::string& problem() const { return problem_; }
@@ -44,6 +47,8 @@ class CaptureRecorder final : public Measurer {
   int number_ = 0;
   std::string folder_name_;
   std::vector<View> views_;
+  CardGuide guide_;
+  bool guide_knows_view_ = false;
   Measurement measurement_;
   std::string problem_;
 };

@@ -4,6 +4,7 @@
 
 #include "firmware/base/exit_status.hpp"
 #include "firmware/record/capture_recorder.hpp"
+#include "firmware/record/picture_recorder.hpp"
 #include "firmware/station/hardware.hpp"
 #include "firmware/station/scan_printer.hpp"
 
@@ -32,6 +33,7 @@ class RecordPrinter final : public ResultSink {
     return printer_.deliver(result);
   }
   void report_fault(const DeviceFailure& failure) override { printer_.report_fault(failure); }
+  void report_restart() override { printer_.report_restart(); }
   void report_recovery(std::string_view what) override { printer_.report_recovery(what); }
 
  private:
@@ -47,12 +49,22 @@ void add_record_command(CLI::App& app, RecordOptions& options) {
   CLI::App* command = app.add_subcommand("record", "Save captures: press the button for each tray");
   command->add_option("STATION", options.station, "The station file, see config/station.toml")->required();
   command->add_option("--out", options.out, "Folder for the captures")->required();
+  command->add_flag(
+      "--pictures", options.pictures,
+      "Single pictures, such as of a chessboard for traygauge calibrate; neither lens nor card need "
+      "be known");
   command->add_option("--count", options.count, "End after so many")->check(CLI::PositiveNumber);
 }
 
 int run_record(const RecordOptions& options, const std::atomic<bool>& stop, std::ostream& out,
                std::ostream& log) {
   const StationFile station_file = read_station_file(options.station);
+  if (options.pictures) {
+    Hardware hardware(station_file);
+    const bool ended = record_pictures(hardware.camera(), hardware.trigger(), hardware.lamp(),
+                                       {options.out, options.count}, stop, out, log);
+    return ended ? kExitMeasured : kExitNotMeasurable;
+  }
   require_geometry(station_file);
   const LensConfig& second = station_file.second_lens ? *station_file.second_lens : *station_file.lens;
   CaptureRecorder recorder(options.out, {station_file.lens->camera, second.camera}, *station_file.card);
@@ -60,6 +72,7 @@ int run_record(const RecordOptions& options, const std::atomic<bool>& stop, std:
   Hardware hardware(station_file);
   StationParams params = hardware_params(station_file);
   params.max_scans = options.count;
+  params.seen_per_commanded = 1.0;  // captures have the commanded angle
   Station station(hardware.devices(), recorder, printer, stop, params);
   return station.run().all_worked() ? kExitMeasured : kExitNotMeasurable;
 }

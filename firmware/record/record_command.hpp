@@ -12,6 +12,7 @@ namespace traygauge {
 struct RecordOptions {
   std::string station;  // a station file
   std::string out;
+  bool pictures = false;    // single ones, for calibrating
   std::uint64_t count = 0;  // 0: until it is stopped
 };
 

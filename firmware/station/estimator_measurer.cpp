@@ -21,6 +21,7 @@ void EstimatorMeasurer::begin_scan() {
     estimator_->reset();
   }
   configured_with_ = configuration;
+  first_view_.reset();
 }
 
 void EstimatorMeasurer::configure(const Configuration& configuration) {
@@ -33,7 +34,20 @@ void EstimatorMeasurer::configure(const Configuration& configuration) {
 Status EstimatorMeasurer::add_view(const StationView& view) {
   if (!estimator_) return StatusCode::invalid_configuration;
   if (!estimator_->status().ok()) return estimator_->status();
-  return estimator_->add_view(scene_.describe(view));
+  const ViewInput input = scene_.describe(view);
+  if (!first_view_) first_view_ = input;
+  return estimator_->add_view(input);
+}
+
+// Looks for the card of the first view only here: who has an arm does not need it.
+std::optional<double> EstimatorMeasurer::turned_deg(const FrameView& live) {
+  if (configured_with_ == nullptr || !first_view_) return std::nullopt;
+  if (!first_view_->frame.empty()) {
+    guide_.begin(configured_with_->card, first_view_->lens.value_or(configured_with_->lens),
+                 first_view_->frame);
+    first_view_->frame = {};
+  }
+  return guide_.turned_deg(live);
 }
 
 const Measurement& EstimatorMeasurer::measure() {

@@ -7,6 +7,7 @@
 
 #include "core/estimator/estimator.hpp"
 #include "firmware/base/aligned_block.hpp"
+#include "firmware/card/card_guide.hpp"
 #include "firmware/station/measurer.hpp"
 
 namespace traygauge {
@@ -35,6 +36,8 @@ class EstimatorMeasurer final : public Measurer {
   void begin_scan() override;
   Status add_view(const StationView& view) override;
   const Measurement& measure() override;
+  bool can_guide() const override { return true; }
+  std::optional<double> turned_deg(const FrameView& live) override;
   std::string_view tray_name() const override { return scene_.tray_name(); }
   std::size_t reserved_bytes() const { return block_.bytes().size(); }
 
@@ -49,6 +52,8 @@ class EstimatorMeasurer final : public Measurer {
   const Configuration* configured_with_ = nullptr;
   std::optional<Estimator> estimator_;
   Measurement unmeasured_;  // where there is no estimator to ask
+  CardGuide guide_;
+  std::optional<ViewInput> first_view_;  // until guide_ knows it
 };
 
 }  // namespace traygauge

@@ -1,5 +1,6 @@
 #include "firmware/station/hardware.hpp"
 
+#include <cmath>
 #include <utility>
 
 namespace traygauge {
@@ -27,18 +28,23 @@ std::unique_ptr<Arm> make_arm(const ArmConfig& config, Clock& clock) {
 }  // namespace
 
 Hardware::Hardware(const StationFile& station)
-    : camera_(std::make_unique<SystemVideoDevice>(), clock_, station.camera),
+    : camera_(make_system_video_device(), clock_, station.camera),
       trigger_(make_gpio_line(station.button.line), clock_, station.button),
       lamp_(make_lamps(station.lamp), station.lamp.table),
       arm_(station.arm ? make_arm(*station.arm, clock_) : nullptr) {
   if (station.second_camera) {
-    second_camera_.emplace(std::make_unique<SystemVideoDevice>(), clock_, *station.second_camera);
+    second_camera_.emplace(make_system_video_device(), clock_, *station.second_camera);
   }
 }
 
 StationParams hardware_params(const StationFile& station) {
   StationParams params;
   params.last_retry = std::chrono::seconds(1);
+  if (station.long_press) params.long_press = *station.long_press;
+  if (station.arm_geometry) {
+    params.seen_per_commanded =
+        station.arm_geometry->angle_deg() / std::abs(station.arm_geometry->commanded_deg);
+  }
   if (station.arm) params.second_view_deg = station.arm->second_view_deg;
   return params;
 }

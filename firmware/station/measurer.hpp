@@ -33,6 +33,11 @@ class Measurer {
   virtual Status add_view(const StationView& view) = 0;
   // Valid until the next call of any function.
   virtual const Measurement& measure() = 0;
+  // Whether turned_deg() is of use; else a hand that moves the camera gets no guidance.
+  virtual bool can_guide() const { return false; }
+  // After the first view: by how many degrees the line of sight to the tray has turned since, in a picture
+  // taken on the way; none where that is not seen. The picture is not kept.
+  virtual std::optional<double> turned_deg(const FrameView& /*live*/) { return std::nullopt; }
   // What is known to lie there, for people; empty when nothing is.
   virtual std::string_view tray_name() const = 0;
 };

@@ -30,7 +30,8 @@ std::string failure_text(const DeviceFailure& failure) {
 std::string message(const ScanResult& result) {
   switch (result.outcome) {
     case ScanOutcome::cancelled:
-      return "The button was not pressed a second time.";
+      return result.was_held ? "The button was held, which cancels the scan."
+                             : "The button was not pressed a second time.";
     case ScanOutcome::device_failed:
       return failure_text(result.failure);
     case ScanOutcome::measured:
@@ -122,6 +123,10 @@ bool ScanPrinter::deliver(const ScanResult& result) {
 
 void ScanPrinter::report_fault(const DeviceFailure& failure) {
   log_ << failure_text(failure) << std::endl;
+}
+
+void ScanPrinter::report_restart() {
+  log_ << "The button was held: all devices are opened anew, the arm goes home." << std::endl;
 }
 
 void ScanPrinter::report_recovery(std::string_view what) {

@@ -21,6 +21,7 @@ class ScanPrinter final : public ResultSink {
 
   bool deliver(const ScanResult& result) override;
   void report_fault(const DeviceFailure& failure) override;
+  void report_restart() override;
   void report_recovery(std::string_view what) override;
 
  private:

@@ -14,7 +14,7 @@ enum class ScanOutcome : std::uint8_t {
   measured,        // all items, or some of them
   not_measurable,  // the measurement's status says why
   device_failed,   // a device's status says why
-  cancelled,       // the second press did not come
+  cancelled,       // the second press did not come, or the button was held
 };
 
 // A device that did not do what it was asked for. The texts are valid during the call they are passed to.
@@ -30,6 +30,7 @@ struct ScanResult {
   ScanOutcome outcome = ScanOutcome::measured;
   const Measurement* measurement = nullptr;  // set when measured or not_measurable
   DeviceFailure failure;                     // set when device_failed
+  bool was_held = false;                     // the button, which cancelled the scan
   Nanoseconds duration{0};                   // from the press to this result, by the station's clock
 };
 
@@ -45,6 +46,8 @@ class ResultSink {
   [[nodiscard]] virtual bool deliver(const ScanResult& result) = 0;
   // A device failed outside a scan; told once, until it works again.
   virtual void report_fault(const DeviceFailure& failure) = 0;
+  // The button was held: the devices are opened anew.
+  virtual void report_restart() = 0;
   // `what` failed and works again.
   virtual void report_recovery(std::string_view what) = 0;
 };

@@ -16,6 +16,11 @@ bool spoils_one_scan(DeviceCode code) {
   return code == DeviceCode::torn_frame || code == DeviceCode::unsteady || code == DeviceCode::unreadable;
 }
 
+Signal signal_for(std::optional<double> turned_deg, const HandGuideParams& params) {
+  if (!turned_deg || *turned_deg < params.enough_from_deg) return Signal::move_on;
+  return *turned_deg <= params.enough_to_deg ? Signal::far_enough : Signal::too_far;
+}
+
 bool contradicts_arm(const Measurement& measurement) {
   return measurement.warnings[static_cast<std::size_t>(Warning::arm_angle_disagrees)];
 }
@@ -87,6 +92,10 @@ StationState Station::wait_for_press() {
   confirm_recovery();
   if (!status.ok())
     return status.code() == DeviceCode::ended ? StationState::finished : StationState::waiting;
+  bool was_held = false;
+  const DeviceStatus released = wait_for_release(was_held);
+  if (!released.ok()) return enter_fault(devices_.trigger, released);
+  if (was_held) return restart_devices();
   ++totals_.scans;
   pressed_at_ = press.at;
   is_repeated_ = false;
@@ -116,20 +125,53 @@ StationState Station::await_second_view() {
 }
 
 StationState Station::await_second_press() {
-  show(Signal::ready);
+  const bool guides = measurer_.can_guide();
+  if (!guides) show(Signal::ready);
   devices_.trigger.discard_pending();
+  means_[0].clear();
+  guidance_ = Signal::move_on;
   const Instant deadline = devices_.clock.now() + params_.second_press_timeout;
   while (!stop_ && devices_.clock.now() < deadline) {
+    if (guides) {
+      if (const DeviceStatus status = guide_hand(); !status.ok()) return fail_scan(devices_.camera, status);
+    }
     Press press;
-    const Nanoseconds wait = std::min(deadline - devices_.clock.now(), params_.press_wait);
-    const DeviceStatus status = wait_for_press(wait, press);
-    if (status.ok()) return StationState::taking_second_view;
+    const Nanoseconds wait =
+        std::min(deadline - devices_.clock.now(), guides ? params_.guide.interval : params_.press_wait);
+    DeviceStatus status = wait_for_press(std::max(wait, Nanoseconds(1)), press);
+    bool was_held = false;
+    if (status.ok()) {
+      status = wait_for_release(was_held);
+      if (status.ok()) return was_held ? cancel_scan(true) : StationState::taking_second_view;
+    }
     if (status.code() == DeviceCode::ended) break;
     if (status.code() != DeviceCode::timed_out) return fail_scan(devices_.trigger, status);
   }
+  return cancel_scan(false);
+}
+
+// Looks where the camera is, and lets the lamp say where to. A picture that shows the same as the last one
+// says the same. Damaged ones are left out.
+DeviceStatus Station::guide_hand() {
+  const DeviceStatus status = devices_.camera.capture(second_.pixels, params_.capture_timeout, second_.frame);
+  if (!status.ok())
+    return spoils_one_scan(status.code()) || status.code() == DeviceCode::stale_frame ? DeviceCode::ok
+                                                                                      : status;
+  auto& [last, current] = means_;
+  current.compute(second_.frame.view);
+  if (!current.agrees_with(last, params_.steadiness)) {
+    std::swap(last, current);
+    guidance_ = signal_for(measurer_.turned_deg(second_.frame.view), params_.guide);
+  }
+  show(guidance_);
+  return DeviceCode::ok;
+}
+
+StationState Station::cancel_scan(bool was_held) {
   ScanResult result;
   result.outcome = ScanOutcome::cancelled;
-  return end_scan(result, Signal::try_again, StationState::waiting);
+  result.was_held = was_held;
+  return end_scan(result, was_held ? Signal::ready : Signal::try_again, StationState::waiting);
 }
 
 StationState Station::take_second_view() {
@@ -138,6 +180,7 @@ StationState Station::take_second_view() {
   if (devices_.arm != nullptr) {
     const DeviceStatus status = devices_.arm->read_position(angle_deg.emplace());
     if (!status.ok()) return fail_scan(*devices_.arm, status);
+    *angle_deg *= params_.seen_per_commanded;
   }
   const DeviceStatus status = capture(second_camera(), second_);
   if (!status.ok()) return fail_scan(second_camera(), status);
@@ -185,6 +228,15 @@ DeviceStatus Station::wait_for_press(Nanoseconds timeout, Press& press) {
   const bool bounces = last_edge_at_ && press.at - *last_edge_at_ < params_.bounce_time;
   last_edge_at_ = press.at;
   return bounces ? DeviceCode::timed_out : DeviceCode::ok;
+}
+
+// Where long presses mean nothing, a press does not wait for its end.
+DeviceStatus Station::wait_for_release(bool& was_held) {
+  was_held = false;
+  if (params_.long_press <= Nanoseconds::zero()) return DeviceCode::ok;
+  const DeviceStatus status = devices_.trigger.wait_for_release(params_.long_press);
+  was_held = status.code() == DeviceCode::timed_out;
+  return was_held ? DeviceCode::ok : status;
 }
 
 // A picture that the one before it confirms: damage that the camera does not notice, such as rows of an older

@@ -29,8 +29,18 @@ struct StationDevices {
   Camera* second_camera = nullptr;  // takes the second view; then there is no arm, and one press suffices
 };
 
+// What the lamp says while a hand moves the camera or the tray to the second view.
+struct HandGuideParams {
+  // Between the lines of sight: outside of 15 to 25 degrees error and time rise (paper, Table V and its
+  // text).
+  double enough_from_deg = 15.0;
+  double enough_to_deg = 25.0;
+  Nanoseconds interval = std::chrono::milliseconds(100);  // between two looks; a hand is no faster
+};
+
 struct StationParams {
-  double second_view_deg = 18.0;  // paper, Table V: error and time are least at 15 to 20
+  double second_view_deg = 18.0;    // paper, Table V: error and time are least at 15 to 20
+  double seen_per_commanded = 1.0;  // of the arm's angles, as calibrated
   Nanoseconds capture_timeout = std::chrono::seconds(2);  // longer than any exposure; shorter hides no hang
   int capture_attempts = 6;  // 2 to 20: more than a camera queues old frames; two are needed
   SteadinessParams steadiness;
@@ -38,6 +48,10 @@ struct StationParams {
   Nanoseconds second_press_timeout = std::chrono::seconds(60);
   // A worn contact bounces for up to 100 ms, when it is released too; nobody presses twice so fast.
   Nanoseconds bounce_time = std::chrono::milliseconds(300);
+  // A press counts once the button is open again: what is held for so long cancels the scan that waits for
+  // its second view, or opens all devices anew and sends the arm home. Zero: nothing does.
+  Nanoseconds long_press = std::chrono::seconds(2);
+  HandGuideParams guide;
   Nanoseconds result_shown = std::chrono::seconds(3);        // then the lamp says ready again
   Nanoseconds press_wait = std::chrono::milliseconds(500);   // between two looks at the wish to stop
   Nanoseconds first_retry = std::chrono::milliseconds(100);  // of a failed device; doubles up to last_retry
@@ -95,7 +109,11 @@ class Station {
   StationState take_first_view();
   StationState await_second_view();
   StationState await_second_press();
+  DeviceStatus guide_hand();
+  StationState cancel_scan(bool was_held);
   DeviceStatus wait_for_press(Nanoseconds timeout, Press& press);
+  DeviceStatus wait_for_release(bool& was_held);
+  StationState restart_devices();
   StationState take_second_view();
   StationState measure();
   StationState repeat_scan(DeviceStatus returning);
@@ -118,6 +136,7 @@ class Station {
   void confirm_recovery();
   void close(const Device& device);
   void close_all();
+  void close_views();
   void show(Signal signal);
 
   StationDevices devices_;
@@ -131,6 +150,7 @@ class Station {
   View first_;
   View second_;
   std::array<BlockMeans, 2> means_;  // of the last two pictures
+  Signal guidance_ = Signal::off;    // for the picture that means_[0] is of
   Instant pressed_at_;
   bool is_repeated_ = false;             // this scan, because the arm stood elsewhere than it said
   std::optional<Instant> last_edge_at_;  // of the button

@@ -14,6 +14,15 @@ StationState Station::start_devices() {
   return StationState::waiting;
 }
 
+// What somebody who holds the button expects of it: that everything begins anew. The button's own line is
+// left alone: while it is pressed it could not be opened.
+StationState Station::restart_devices() {
+  sink_.report_restart();
+  show(Signal::busy);
+  close_views();
+  return StationState::starting;
+}
+
 Station::Opening Station::open_all() {
   if (const DeviceStatus status = devices_.trigger.start(); !status.ok()) return {&devices_.trigger, status};
   if (const DeviceStatus status = open_camera(devices_.camera); !status.ok())
@@ -76,11 +85,15 @@ void Station::close(const Device& device) {
 }
 
 void Station::close_all() {
+  close_views();
+  devices_.trigger.stop();
+  devices_.lamp.stop();
+}
+
+void Station::close_views() {
   devices_.camera.stop();
   second_camera().stop();
-  devices_.trigger.stop();
   if (devices_.arm != nullptr) devices_.arm->stop();
-  devices_.lamp.stop();
 }
 
 // A dead lamp does not stop the scans; it is told once, and opened again for the next signal.

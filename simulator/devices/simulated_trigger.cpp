@@ -39,8 +39,16 @@ DeviceStatus SimulatedTrigger::do_wait_for_press(Nanoseconds timeout, Press& pre
   edges_.pop_front();
   clock_.sleep_until(edge.seen_at);
   press = {edge.at, ++sequence_};
+  released_at_ = edge.at;
+  if (edge.is_press && edge.at >= held_.after) released_at_ += std::exchange(held_, {}).held;
   if (edge.is_press && before_press_) before_press_();
   return DeviceCode::ok;
+}
+
+DeviceStatus SimulatedTrigger::do_wait_for_release(Nanoseconds timeout) {
+  const Instant deadline = clock_.now() + timeout;
+  clock_.sleep_until(std::min(released_at_, deadline));
+  return released_at_ <= deadline ? DeviceCode::ok : DeviceCode::timed_out;
 }
 
 int SimulatedTrigger::do_pending() {
@@ -64,7 +72,8 @@ void SimulatedTrigger::do_discard_pending() {
 Instant SimulatedTrigger::next_press() const {
   if (lamp_ == nullptr) return schedule_[pressed_];
   const ShownSignal seen = lamp_->seen();
-  const bool is_called = seen.signal == Signal::ready && seen.since + person_.delay > last_try_;
+  const bool is_asked = seen.signal == Signal::ready || seen.signal == Signal::far_enough;
+  const bool is_called = is_asked && seen.since + person_.delay > last_try_;
   return std::max(clock_.now(), is_called ? seen.since + person_.delay : last_try_ + person_.patience);
 }
 

@@ -31,6 +31,8 @@ class SimulatedTrigger final : public Trigger {
 
   // One more press at a time of its own; only for a schedule.
   void add_press(Instant at);
+  // The press that is delivered next after `at` is held for so long; others for no time.
+  void hold_press(Instant at, Nanoseconds held) { held_ = {at, held}; }
   // What a person does before pressing, such as putting the next tray there; called for each press that
   // wait_for_press delivers, not for those that a bouncing contact adds.
   void before_press(std::function<void()> action) { before_press_ = std::move(action); }
@@ -48,6 +50,7 @@ class SimulatedTrigger final : public Trigger {
   DeviceStatus do_start() override { return faults_.next_start(clock_.now()); }
   void do_stop() override {}
   DeviceStatus do_wait_for_press(Nanoseconds timeout, Press& press) override;
+  DeviceStatus do_wait_for_release(Nanoseconds timeout) override;
   int do_pending() override;
   void do_discard_pending() override;
 
@@ -64,6 +67,12 @@ class SimulatedTrigger final : public Trigger {
   std::uint64_t sequence_ = 0;
   int tries_ = 0;  // in vain
   Instant last_try_;
+  struct Hold {
+    Instant after;
+    Nanoseconds held{0};
+  };
+  Hold held_;
+  Instant released_at_;     // of the last press delivered
   std::deque<Edge> edges_;  // in the order in which they are seen
   std::function<void()> before_press_;
   FaultScript faults_;

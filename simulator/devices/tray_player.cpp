@@ -11,10 +11,12 @@ constexpr double kHomeTolerance_deg = 0.05;
 }  // namespace
 
 void TrayPlayer::handle_press() {
-  if (mover_ == CameraMover::hand && has_tray_ && !at_second_view_ && !scan_has_ended_) {
+  if (second_press_is_due_ && has_tray_ && !scan_has_ended_) {
+    second_press_is_due_ = false;
     at_second_view_ = true;
     return;
   }
+  second_press_is_due_ = mover_ == CameraMover::hand;
   scan_has_ended_ = false;
   at_second_view_ = false;
   last_played_ = {};
@@ -26,6 +28,7 @@ void TrayPlayer::handle_press() {
 void TrayPlayer::handle_signal(Signal signal) {
   if (signal == Signal::done || signal == Signal::try_again || signal == Signal::fault)
     scan_has_ended_ = true;
+  if (signal == Signal::move_on && second_press_is_due_) at_second_view_ = true;
 }
 
 std::optional<double> TrayPlayer::second_view_angle_deg() const {

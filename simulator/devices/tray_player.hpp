@@ -33,7 +33,7 @@ class TrayPlayer {
   // moved the camera.
   void handle_press();
   // The person sees the lamp: done, try_again and fault end the scan, so that the next press comes with the
-  // next tray although the second view was not taken.
+  // next tray although the second view was not taken. At move_on the hand moves the camera there.
   void handle_signal(Signal signal);
 
   // Whether a tray lies there and its pictures could be read; problem() says why not.
@@ -65,6 +65,7 @@ class TrayPlayer {
   std::size_t next_capture_ = 0;
   std::size_t capture_index_ = 0;
   bool has_tray_ = false;
+  bool second_press_is_due_ = false;
   bool at_second_view_ = false;
   bool scan_has_ended_ = false;
   std::array<PlayedFrame, 2> last_played_;  // newest first

@@ -5,23 +5,14 @@ set -euo pipefail
 
 folder=$1
 [ -e "$folder/done" ] && exit 0
-mkdir -p "$folder/apt/lists/partial" "$folder/apt/cache/archives/partial"
+mkdir -p "$folder"
 folder=$(realpath "$folder")
-apt=$folder/apt
-: >"$apt/status"
-mirror=$(apt-get indextargets --format '$(REPO_URI)' "Created-By: Packages" | grep -v security | sed -n 1p)
-echo "deb [signed-by=/usr/share/keyrings/debian-archive-keyring.gpg] ${mirror:-http://deb.debian.org/debian} bookworm-backports main" \
-  >"$apt/sources.list"
-cat >"$apt/apt.conf" <<END
-APT::Sandbox::User "root";
-Dir::State "$apt";
-Dir::State::status "$apt/status";
-Dir::Cache "$apt/cache";
-Dir::Etc::sourcelist "$apt/sources.list";
-Dir::Etc::sourceparts "/dev/null";
-Debug::NoLocking "true";
-END
-export APT_CONFIG=$apt/apt.conf LC_ALL=C
+# Debian's archive as this machine knows it; its backports lie beside it.
+archive=$(apt-get indextargets --format '$(REPO_URI) $(RELEASE) $(CODENAME)' "Created-By: Packages" |
+  awk '($2 == "bookworm" || $3 == "bookworm") && !seen++ { print $1 }')
+[ -n "$archive" ] || { echo "make_gpiod_2.sh: apt's sources name no archive of Debian 12 (bookworm); add one" >&2; exit 1; }
+. "$(dirname "$0")/own_apt.sh" "$folder" "Dir::Etc::sourcelist \"$folder/apt/sources.list\"; Dir::Etc::sourceparts \"/dev/null\";"
+echo "deb [signed-by=/usr/share/keyrings/debian-archive-keyring.gpg] $archive bookworm-backports main" >"$apt/sources.list"
 apt-get -qq update
 (cd "$folder" && apt-get -qq download libgpiod-dev libgpiod3)
 for package in "$folder"/*.deb; do dpkg-deb -x "$package" "$folder"; done

@@ -13,25 +13,12 @@ case $arch in
   arm64) triplet=aarch64-linux-gnu ;;
   *) echo "make_guest.sh: expected amd64 or arm64, found $arch" >&2; exit 2 ;;
 esac
-mkdir -p "$folder"
+mkdir -p "$folder/debs"
 folder=$(realpath "$folder")
 host=$(dpkg --print-architecture)
 say() { echo "guest $arch: $*" >&2; }
 
-# Package lists of our own, so that the machine's stay as they are.
-apt=$folder/apt
-mkdir -p "$apt/lists/partial" "$apt/cache/archives/partial" "$folder/debs"
-: >"$apt/status"
-cat >"$apt/apt.conf" <<END
-APT::Architecture "$arch";
-APT::Architectures { "$arch"; "$host"; };
-APT::Sandbox::User "root";
-Dir::State "$apt";
-Dir::State::status "$apt/status";
-Dir::Cache "$apt/cache";
-Debug::NoLocking "true";
-END
-export APT_CONFIG=$apt/apt.conf LC_ALL=C
+. "$(dirname "$0")/own_apt.sh" "$folder" "APT::Architecture \"$arch\"; APT::Architectures { \"$arch\"; \"$host\"; };"
 say "package lists"
 apt-get -qq update
 

@@ -10,20 +10,8 @@ mkdir -p "$folder/usr/lib" "$folder/usr/bin" "$folder/usr/sbin"
 folder=$(realpath "$folder")
 for name in lib bin sbin; do ln -s "usr/$name" "$folder/$name"; done
 
-apt=$folder/apt
-mkdir -p "$apt/lists/partial" "$apt/cache/archives/partial"
-: >"$apt/status"
-cat >"$apt/apt.conf" <<END
-APT::Architecture "arm64";
-APT::Architectures { "arm64"; };
-APT::Install-Recommends "false";
-APT::Sandbox::User "root";
-Dir::State "$apt";
-Dir::State::status "$apt/status";
-Dir::Cache "$apt/cache";
-Debug::NoLocking "true";
-END
-export APT_CONFIG=$apt/apt.conf LC_ALL=C
+. "$(dirname "$0")/own_apt.sh" "$folder" \
+  'APT::Architecture "arm64"; APT::Architectures { "arm64"; }; APT::Install-Recommends "false";'
 echo "sysroot: package lists and packages" >&2
 apt-get -qq update
 # The libraries of config/packages.txt; the compiler and the tools are this machine's.

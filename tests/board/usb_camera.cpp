@@ -14,11 +14,12 @@
 #include <random>
 
 #include "drivers/clock.hpp"
+#include "tests/board/usb_descriptors.hpp"
 
 namespace traygauge {
 namespace {
 
-using Bytes = std::vector<std::uint8_t>;
+using Bytes = UsbBytes;
 
 // USB/IP: every packet has a header of twelve words, high byte first.
 constexpr std::size_t kHeaderWords = 12;
@@ -41,20 +42,6 @@ constexpr std::uint8_t kGetInfo = 0x86;
 constexpr std::size_t kPayloadBytes = 16384;
 constexpr std::size_t kPayloadHeader = 2;
 
-void add(Bytes& bytes, std::uint32_t value, int count) {
-  for (int i = 0; i < count; ++i) bytes.push_back(static_cast<std::uint8_t>(value >> (8 * i)));
-}
-
-void add(Bytes& bytes, const Bytes& more) {
-  for (const std::uint8_t byte : more) bytes.push_back(byte);
-}
-
-// A descriptor: its length comes first.
-void add_descriptor(Bytes& all, const Bytes& body) {
-  all.push_back(static_cast<std::uint8_t>(body.size() + 1));
-  add(all, body);
-}
-
 std::uint16_t word(const std::uint8_t* bytes) {
   return static_cast<std::uint16_t>(bytes[0] | bytes[1] << 8);
 }
@@ -63,74 +50,14 @@ double now_s() {
   return std::chrono::duration<double>(SystemClock().now().time_since_epoch()).count();
 }
 
-Bytes describe_device() {
-  Bytes bytes;
-  add_descriptor(bytes, {1, 0x00, 0x02, 0xEF, 2, 1, 64, 0x6B, 0x1D, 0x02, 0x01, 0x00, 0x01, 1, 2, 3, 1});
-  return bytes;
-}
-
-Bytes describe_text(int index) {
-  if (index == 0) return {4, 3, 0x09, 0x04};
-  const std::array<const char*, 3> texts = {"Traygauge tests", "Test camera", "T0001"};
-  const std::string text = texts.at(static_cast<std::size_t>(std::min(index, 3) - 1));
-  Bytes bytes = {static_cast<std::uint8_t>(2 + 2 * text.size()), 3};
-  for (const char letter : text) add(bytes, static_cast<std::uint8_t>(letter), 2);
-  return bytes;
-}
-
-// Camera terminal 1 (exposure), processing unit 2 (gain), output terminal 3.
-Bytes describe_units() {
-  Bytes units;
-  add_descriptor(units, {0x24, 2, 1, 0x01, 0x02, 0, 0, 0, 0, 0, 0, 0, 0, 3, 0x0A, 0, 0});
-  add_descriptor(units, {0x24, 5, 2, 1, 0, 0, 2, 0x00, 0x02, 0});
-  add_descriptor(units, {0x24, 3, 3, 0x01, 0x01, 0, 2, 0});
-  Bytes header = {0x24, 1, 0x00, 0x01};
-  add(header, static_cast<std::uint32_t>(13 + units.size()), 2);
-  add(header, 48'000'000, 4);
-  add(header, Bytes{1, 1});
-  Bytes all;
-  add_descriptor(all, header);
-  add(all, units);
-  return all;
-}
-
 }  // namespace
 
 UsbCamera::UsbCamera(int width, int height, double frames_per_s, std::function<Picture()> picture)
-    : width_(width), height_(height), frame_s_(1.0 / frames_per_s), picture_(std::move(picture)) {
-  Bytes interfaces;
-  add_descriptor(interfaces, {11, 0, 2, 14, 3, 0, 2});
-  add_descriptor(interfaces, {4, 0, 0, 0, 14, 1, 0, 2});
-  const Bytes units = describe_units();
-  add(interfaces, units);
-  add_descriptor(interfaces, {4, 1, 0, 1, 14, 2, 0, 0});
-  const auto interval = static_cast<std::uint32_t>(std::lround(frame_s_ * 1e7));
-  const auto frame_bytes = static_cast<std::uint32_t>(2 * width * height);
-  Bytes stream;
-  add_descriptor(stream, {0x24, 6, 1, 1, 1, 1, 0, 0, 0, 0});  // Motion JPEG, one size
-  Bytes frame = {0x24, 7, 1, 0};
-  add(frame, static_cast<std::uint32_t>(width), 2);
-  add(frame, static_cast<std::uint32_t>(height), 2);
-  for (int i = 0; i < 2; ++i) add(frame, frame_bytes * 8, 4);
-  add(frame, frame_bytes, 4);
-  add(frame, interval, 4);
-  frame.push_back(1);
-  add(frame, interval, 4);
-  add_descriptor(stream, frame);
-  add_descriptor(stream, {0x24, 13, 1, 1, 4});
-  Bytes header = {0x24, 1, 1};
-  add(header, static_cast<std::uint32_t>(14 + stream.size()), 2);
-  add(header, Bytes{0x81, 0, 3, 0, 0, 0, 1, 0});
-  add_descriptor(interfaces, header);
-  add(interfaces, stream);
-  add_descriptor(interfaces, {5, 0x81, 2, 0x00, 0x02, 0});
-
-  Bytes head = {2};
-  add(head, static_cast<std::uint32_t>(9 + interfaces.size()), 2);
-  add(head, Bytes{2, 1, 0, 0x80, 250});
-  add_descriptor(configuration_, head);
-  add(configuration_, interfaces);
-}
+    : width_(width),
+      height_(height),
+      frame_s_(1.0 / frames_per_s),
+      picture_(std::move(picture)),
+      configuration_(describe_configuration(width_, height_, frame_s_)) {}
 
 bool UsbCamera::plug_in() {
   std::array<int, 2> ends{};

@@ -27,7 +27,7 @@ class Rig {
 
 class TriggerRig : public Rig<Trigger> {
  public:
-  virtual void press_after(Nanoseconds delay) = 0;  // from now; once
+  virtual void press_after(Nanoseconds delay, Nanoseconds held) = 0;  // from now; once
 };
 
 template <class RigType>

@@ -23,12 +23,12 @@ class GpioTriggerRig final : public TriggerRig {
   }
   Trigger& device() override { return trigger_; }
   Clock& clock() override { return clock_; }
-  void press_after(Nanoseconds delay) override {
+  void press_after(Nanoseconds delay, Nanoseconds held) override {
     const Instant at = clock_.now() + delay;
-    fingers_.emplace_back([this, at] {
+    fingers_.emplace_back([this, at, held] {
       clock_.sleep_until(at);
       bench_->set_input("TRIGGER", true);
-      clock_.sleep_for(40ms);
+      clock_.sleep_for(held);
       bench_->set_input("TRIGGER", false);
     });
   }
@@ -47,7 +47,7 @@ class GpioIndicatorRig final : public Rig<Indicator> {
   Clock& clock() override { return clock_; }
 
  private:
-  static LampTable table() { return {0, 1, 2, 3, 4, 5, 6}; }
+  static LampTable table() { return {0, 1, 2, 3, 4, 5, 6, 7, 1, 2}; }
   std::vector<std::unique_ptr<GpioLine>> make_lamps() {
     std::vector<std::unique_ptr<GpioLine>> lamps;
     for (const char* name : {"GREEN", "YELLOW", "RED"}) lamps.push_back(bench_->make_line(name));

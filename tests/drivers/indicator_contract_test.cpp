@@ -14,8 +14,9 @@ TEST_P(IndicatorContract, ShowsNothingBeforeItIsStarted) {
 
 TEST_P(IndicatorContract, ShowsEverySignal) {
   ASSERT_TRUE(device().start().ok());
-  for (const Signal signal : {Signal::ready, Signal::hold_still, Signal::busy, Signal::done,
-                              Signal::try_again, Signal::fault, Signal::off}) {
+  for (const Signal signal :
+       {Signal::ready, Signal::hold_still, Signal::busy, Signal::done, Signal::try_again, Signal::move_on,
+        Signal::far_enough, Signal::too_far, Signal::fault, Signal::off}) {
     ASSERT_TRUE(device().show(signal).ok()) << name(signal);
     ASSERT_TRUE(device().show(signal).ok()) << name(signal);
     EXPECT_EQ(device().shown(), signal);

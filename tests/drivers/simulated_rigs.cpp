@@ -47,7 +47,10 @@ class SimulatedTriggerRig final : public TriggerRig {
  public:
   Trigger& device() override { return trigger_; }
   Clock& clock() override { return clock_; }
-  void press_after(Nanoseconds delay) override { trigger_.add_press(clock_.now() + delay); }
+  void press_after(Nanoseconds delay, Nanoseconds held) override {
+    trigger_.add_press(clock_.now() + delay);
+    trigger_.hold_press(clock_.now() + delay, held);
+  }
 
  private:
   SimulatedClock clock_;

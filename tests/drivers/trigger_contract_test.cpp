@@ -21,7 +21,7 @@ TEST_P(TriggerContract, ReportsNothingBeforeItIsStarted) {
 TEST_P(TriggerContract, WaitsForThePress) {
   ASSERT_TRUE(device().start().ok());
   const Instant begun_at = clock().now();
-  rig().press_after(200ms);
+  rig().press_after(200ms, 40ms);
   ASSERT_EQ(wait(5s), DeviceCode::ok);
   EXPECT_EQ(press_.sequence, 1U);
   EXPECT_GE(press_.at, begun_at + 200ms);
@@ -38,8 +38,8 @@ TEST_P(TriggerContract, SaysThatNobodyPressed) {
 
 TEST_P(TriggerContract, DeliversEachPressOnceAndInOrder) {
   ASSERT_TRUE(device().start().ok());
-  rig().press_after(100ms);
-  rig().press_after(300ms);
+  rig().press_after(100ms, 40ms);
+  rig().press_after(300ms, 40ms);
   clock().sleep_for(500ms);
   EXPECT_EQ(device().pending(), 2);
   ASSERT_EQ(wait(1s), DeviceCode::ok);
@@ -50,9 +50,23 @@ TEST_P(TriggerContract, DeliversEachPressOnceAndInOrder) {
   EXPECT_EQ(wait(100ms), DeviceCode::timed_out);
 }
 
+TEST_P(TriggerContract, TellsHowLongAPressLasts) {
+  EXPECT_EQ(device().wait_for_release(1s).code(), DeviceCode::not_started);
+  ASSERT_TRUE(device().start().ok());
+  EXPECT_EQ(device().wait_for_release(0s).code(), DeviceCode::invalid_argument);
+  EXPECT_TRUE(device().wait_for_release(1s).ok());
+  rig().press_after(100ms, 600ms);
+  ASSERT_EQ(wait(5s), DeviceCode::ok);
+  EXPECT_EQ(device().wait_for_release(200ms).code(), DeviceCode::timed_out);
+  ASSERT_TRUE(device().wait_for_release(5s).ok());
+  EXPECT_GE(clock().now() - press_.at, 600ms);
+  EXPECT_LT(clock().now() - press_.at, 2s);
+  EXPECT_EQ(device().pending(), 0);
+}
+
 TEST_P(TriggerContract, ForgetsPressesOnRequest) {
   ASSERT_TRUE(device().start().ok());
-  rig().press_after(100ms);
+  rig().press_after(100ms, 40ms);
   clock().sleep_for(200ms);
   device().discard_pending();
   EXPECT_EQ(device().pending(), 0);

@@ -22,13 +22,13 @@ class ModelCameraRig final : public Rig<Camera> {
   }
   SimulatedClock clock_;
   FakeCamera kernel_{clock_};
-  V4l2Camera camera_{std::make_unique<FakeVideoDevice>(kernel_), clock_, params(kernel_)};
+  V4l2Camera camera_{make_fake_video_device(kernel_), clock_, params(kernel_)};
 };
 
 class KernelCameraRig final : public Rig<Camera> {
  public:
   explicit KernelCameraRig(const V4l2CameraParams& params)
-      : camera_(std::make_unique<SystemVideoDevice>(), clock_, params) {}
+      : camera_(make_system_video_device(), clock_, params) {}
   Camera& device() override { return camera_; }
   Clock& clock() override { return clock_; }
 

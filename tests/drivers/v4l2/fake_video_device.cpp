@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <deque>
 #include <random>
+#include <set>
 
 namespace traygauge {
 namespace {
@@ -17,12 +19,49 @@ T& as(void* argument) {
   return *static_cast<T*>(argument);
 }
 
-}  // namespace
+class FakeVideoDevice final : public VideoDevice {
+ public:
+  explicit FakeVideoDevice(FakeCamera& camera) : camera_(camera) {}
+  ~FakeVideoDevice() override { FakeVideoDevice::close(); }
 
-std::size_t fake_frame_bytes(const FakeMode& mode) {
-  const std::size_t pixels = std::size_t{mode.width} * mode.height;
-  return mode.fourcc == V4L2_PIX_FMT_GREY ? pixels : 2 * pixels;
-}
+  int open(const std::string& path) override;
+  void close() override;
+  int request(unsigned long code, void* argument) override;
+  std::span<std::uint8_t> map(std::size_t length, std::uint32_t offset) override;
+  void unmap(std::span<std::uint8_t> buffer) override;
+  int wait(Nanoseconds timeout, bool& has_news) override;
+
+ private:
+  struct Filled {
+    std::uint32_t index;
+    std::size_t length;
+    std::uint32_t sequence;
+    std::uint32_t flags;
+    Instant stamped_at;
+  };
+
+  int enumerate_format(v4l2_fmtdesc& entry) const;
+  int enumerate_size(v4l2_frmsizeenum& entry) const;
+  int enumerate_rate(v4l2_frmivalenum& entry) const;
+  int set_format(v4l2_format& format);
+  int request_buffers(v4l2_requestbuffers& request);
+  int query_control(v4l2_queryctrl& query) const;
+  int write_control(const v4l2_control& control);
+  int queue(const v4l2_buffer& buffer);
+  int dequeue(v4l2_buffer& buffer);
+  void produce_until(Instant instant);
+  void fill(int number, Instant begun_at);
+
+  FakeCamera& camera_;
+  bool is_open_ = false;
+  bool is_streaming_ = false;
+  FakeMode mode_;
+  std::vector<std::vector<std::uint8_t>> buffers_;
+  std::deque<std::uint32_t> queued_;
+  std::deque<Filled> filled_;
+  std::set<const std::uint8_t*> mapped_;
+  Instant next_frame_at_;
+};
 
 int FakeVideoDevice::open(const std::string& path) {
   EXPECT_FALSE(is_open_) << "opened twice";
@@ -256,6 +295,17 @@ void FakeVideoDevice::fill(int number, Instant begun_at) {
   const bool is_start = (camera_.stamp_flags & V4L2_BUF_FLAG_TSTAMP_SRC_SOE) != 0;
   filled_.push_back({index, length, static_cast<std::uint32_t>(number), frame.flags | camera_.stamp_flags,
                      (is_start ? begun_at : begun_at + kTransferTime) + camera_.stamp_offset});
+}
+
+}  // namespace
+
+std::size_t fake_frame_bytes(const FakeMode& mode) {
+  const std::size_t pixels = std::size_t{mode.width} * mode.height;
+  return mode.fourcc == V4L2_PIX_FMT_GREY ? pixels : 2 * pixels;
+}
+
+std::unique_ptr<VideoDevice> make_fake_video_device(FakeCamera& camera) {
+  return std::make_unique<FakeVideoDevice>(camera);
 }
 
 }  // namespace traygauge

@@ -4,9 +4,8 @@
 
 #include <linux/videodev2.h>
 
-#include <deque>
 #include <map>
-#include <set>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -62,49 +61,7 @@ struct FakeCamera {
   std::vector<std::string> set_controls;  // "id=value"
 };
 
-class FakeVideoDevice final : public VideoDevice {
- public:
-  explicit FakeVideoDevice(FakeCamera& camera) : camera_(camera) {}
-  ~FakeVideoDevice() override { FakeVideoDevice::close(); }
-
-  int open(const std::string& path) override;
-  void close() override;
-  int request(unsigned long code, void* argument) override;
-  std::span<std::uint8_t> map(std::size_t length, std::uint32_t offset) override;
-  void unmap(std::span<std::uint8_t> buffer) override;
-  int wait(Nanoseconds timeout, bool& has_news) override;
-
- private:
-  struct Filled {
-    std::uint32_t index;
-    std::size_t length;
-    std::uint32_t sequence;
-    std::uint32_t flags;
-    Instant stamped_at;
-  };
-
-  int enumerate_format(v4l2_fmtdesc& entry) const;
-  int enumerate_size(v4l2_frmsizeenum& entry) const;
-  int enumerate_rate(v4l2_frmivalenum& entry) const;
-  int set_format(v4l2_format& format);
-  int request_buffers(v4l2_requestbuffers& request);
-  int query_control(v4l2_queryctrl& query) const;
-  int write_control(const v4l2_control& control);
-  int queue(const v4l2_buffer& buffer);
-  int dequeue(v4l2_buffer& buffer);
-  void produce_until(Instant instant);
-  void fill(int number, Instant begun_at);
-
-  FakeCamera& camera_;
-  bool is_open_ = false;
-  bool is_streaming_ = false;
-  FakeMode mode_;
-  std::vector<std::vector<std::uint8_t>> buffers_;
-  std::deque<std::uint32_t> queued_;
-  std::deque<Filled> filled_;
-  std::set<const std::uint8_t*> mapped_;
-  Instant next_frame_at_;
-};
+std::unique_ptr<VideoDevice> make_fake_video_device(FakeCamera& camera);
 
 // Bytes of a frame in this mode.
 std::size_t fake_frame_bytes(const FakeMode& mode);

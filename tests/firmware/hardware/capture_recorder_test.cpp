@@ -25,6 +25,7 @@ class Names final : public ResultSink {
     return true;
   }
   void report_fault(const DeviceFailure&) override {}
+  void report_restart() override {}
   void report_recovery(std::string_view) override {}
   std::vector<std::string> names;
 };

@@ -39,21 +39,23 @@ class GreyCamera final : public Camera {
 
 TEST(DeviceCheck, LooksAtTheBrightness) {
   GreyCamera camera;
-  EXPECT_TRUE(check_camera(camera).is_good);
-  EXPECT_EQ(check_camera(camera).text, "mean brightness 128 of 255");
+  TakenPicture picture;
+  EXPECT_TRUE(check_camera(camera, picture).is_good);
+  EXPECT_EQ(check_camera(camera, picture).text, "mean brightness 128 of 255");
   camera.grey = 12;
-  EXPECT_FALSE(check_camera(camera).is_good);
-  EXPECT_EQ(check_camera(camera).text,
+  EXPECT_FALSE(check_camera(camera, picture).is_good);
+  EXPECT_EQ(check_camera(camera, picture).text,
             "The picture is too dark, mean brightness 12 of 255; add light, or raise exposure_us or gain.");
   camera.grey = 250;
-  EXPECT_EQ(check_camera(camera).text,
+  EXPECT_EQ(check_camera(camera, picture).text,
             "The picture is too bright, mean brightness 250 of 255; lower exposure_us or gain.");
 }
 
 TEST(DeviceCheck, SaysWhatIsWrongInPlainWords) {
   GreyCamera camera;
   camera.start_status = {DeviceCode::no_permission, EACCES};
-  const CheckResult result = check_camera(camera);
+  TakenPicture picture;
+  const CheckResult result = check_camera(camera, picture);
   EXPECT_FALSE(result.is_good);
   EXPECT_EQ(result.device, "grey camera");
   EXPECT_EQ(
@@ -62,7 +64,7 @@ TEST(DeviceCheck, SaysWhatIsWrongInPlainWords) {
       "(/dev/video3) [Permission denied]");
   GreyCamera torn;
   torn.capture_status = DeviceCode::torn_frame;
-  EXPECT_FALSE(check_camera(torn).is_good);
+  EXPECT_FALSE(check_camera(torn, picture).is_good);
 }
 
 TEST(DeviceCheck, MeanGreyLeavesPaddingOut) {

@@ -89,7 +89,7 @@ TEST_F(StationFileTest, EveryKeyArrives) {
   EXPECT_EQ(station.button.line.bias, GpioBias::pull_down);
   EXPECT_EQ(station.button.debounce, std::chrono::microseconds(12'500));
   EXPECT_EQ(station.button.stuck_after, std::chrono::seconds(7));
-  EXPECT_EQ(station.lamp.table, (LampTable{0, 1, 2, 3, 1, 2, 0}));
+  EXPECT_EQ(station.lamp.table, (LampTable{0, 1, 2, 3, 1, 2, 2, 1, 2, 0}));
   const auto& stepper = std::get<StepperConfig>(station.arm->kind);
   EXPECT_EQ(stepper.home.line, "gpiochip1/4");
   EXPECT_EQ(stepper.home.bias, GpioBias::pull_up);
@@ -175,6 +175,76 @@ TEST_F(StationFileTest, SurvivesAnyText) {
     } catch (const InputError&) {  // said, not crashed
     }
   }
+}
+
+TEST_F(StationFileTest, GuidanceHasItsOwnLampsOrThoseOfTheSameMeaning) {
+  const auto lit = [](const StationFile& station, Signal signal) {
+    return station.lamp.table[static_cast<std::size_t>(signal)];
+  };
+  const StationFile plain = read(std::string(kSmallest) + kLamp);
+  EXPECT_EQ(lit(plain, Signal::move_on), lit(plain, Signal::hold_still));
+  EXPECT_EQ(lit(plain, Signal::far_enough), lit(plain, Signal::ready));
+  EXPECT_EQ(lit(plain, Signal::too_far), lit(plain, Signal::try_again));
+  const StationFile own =
+      read(std::string(kSmallest) + kLamp + "move_on = []\nfar_enough = [\"G\"]\ntoo_far = [\"G\", \"Y\"]\n");
+  EXPECT_EQ(lit(own, Signal::move_on), 0U);
+  EXPECT_EQ(lit(own, Signal::far_enough), 1U);
+  EXPECT_EQ(lit(own, Signal::too_far), 3U);
+}
+
+TEST_F(StationFileTest, ALongPressIsConfigured) {
+  EXPECT_FALSE(read(kSmallest).long_press);
+  EXPECT_EQ(read(std::string(kSmallest) + "long_press_s = 3\n").long_press, std::chrono::seconds(3));
+  EXPECT_EQ(read(std::string(kSmallest) + "long_press_s = 0\n").long_press, Nanoseconds::zero());
+  EXPECT_NE(
+      problem(std::string(kSmallest) + "long_press_s = 0.1\n").find("button.long_press_s: expected 0, or"),
+      std::string::npos);
+}
+
+constexpr const char* kLens =
+    "[lens]\nfx = 600\nfy = 601\ncx = 320\ncy = 240\ndistortion = [0, 0, 0, 0, 0]\n";
+constexpr const char* kCard =
+    "[card]\npattern = \"p.png\"\nwidth_mm = 80\nheight_mm = 50\nthickness_mm = 1\n";
+
+TEST_F(StationFileTest, SaysWhatHasChangedSinceTheLensWasCalibrated) {
+  const auto change = [&](const std::string& camera, const std::string& lens, std::optional<int> focus = {}) {
+    const StationFile station =
+        read("[camera]\ndevice = \"serial:A1\"\n" + camera + "[button]\nline = \"TRIGGER\"\n" + kLens + lens);
+    return find_lens_change(*station.lens, station.camera, focus);
+  };
+  const auto has = [](const std::string& text, const std::string& part) {
+    return text.find(part) != std::string::npos;
+  };
+  EXPECT_EQ(change("", ""), "");
+  EXPECT_EQ(change("lens_changed_on = \"2025-03-01\"\n",
+                   "camera = \"serial:A1\"\ncalibrated_on = \"2025-03-01\"\nfocus = 30\n", 30),
+            "");
+  EXPECT_TRUE(has(change("", "width = 800\nheight = 600\n"), "800x600, the camera takes 1600x1200"));
+  EXPECT_TRUE(has(change("", "camera = \"serial:B2\"\n"), "on camera serial:B2, this is serial:A1"));
+  EXPECT_TRUE(has(change("lens_changed_on = \"2025-03-02\"\n", "calibrated_on = \"2025-03-01\"\n"),
+                  "changed on 2025-03-02 and calibrated before, on 2025-03-01"));
+  EXPECT_TRUE(has(change("lens_changed_on = \"2025-03-02\"\n", ""), "on an unknown day"));
+  EXPECT_TRUE(has(change("", "focus = 30\n", 45), "at focus 30 and stands at 45"));
+  EXPECT_TRUE(has(problem("[camera]\ndevice = \"serial:A1\"\nlens_changed_on = \"March\"\n[button]\nline = "
+                          "\"TRIGGER\"\n" +
+                          std::string(kLens)),
+                  "lens_changed_on: expected a day"));
+}
+
+TEST_F(StationFileTest, ALensOfOtherPicturesMeasuresNothing) {
+  require_geometry(read(std::string(kSmallest) + kLens + kCard));
+  const StationFile other = read(std::string(kSmallest) + kLens + "width = 800\nheight = 600\n" + kCard);
+  EXPECT_THROW(require_geometry(other), InputError);
+}
+
+TEST_F(StationFileTest, TheArmsGeometryIsAMove) {
+  const std::string arm = "[arm_geometry]\ncommanded_deg = 18\nshift_mm = [0, 150, 20]\nturn_deg = ";
+  const StationFile station = read(std::string(kSmallest) + arm + "[3, -18, 0]\n");
+  ASSERT_TRUE(station.arm_geometry);
+  EXPECT_NEAR(station.arm_geometry->angle_deg(), 18.248, 0.001);
+  EXPECT_NE(
+      problem(std::string(kSmallest) + arm + "[0, 0.1, 0]\n").find("arm_geometry.turn_deg: expected a turn"),
+      std::string::npos);
 }
 
 }  // namespace

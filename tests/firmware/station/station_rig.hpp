@@ -52,8 +52,11 @@ class FakeMeasurer final : public Measurer {
     if (disagreements > 0) --disagreements;
     return measurement_;
   }
+  bool can_guide() const override { return static_cast<bool>(guide); }
+  std::optional<double> turned_deg(const FrameView& live) override { return guide(live); }
   std::string_view tray_name() const override { return "tray"; }
 
+  std::function<std::optional<double>(const FrameView&)> guide;
   Status first_view_status;
   Status status;
   int disagreements = 0;  // measurements that show another angle than the arm's
@@ -114,6 +117,7 @@ class RecordingSink final : public ResultSink {
   void report_fault(const DeviceFailure& failure) override {
     lines.push_back(std::string("fault ").append(text(failure)));
   }
+  void report_restart() override { lines.emplace_back("restart"); }
   void report_recovery(std::string_view what) override {
     lines.push_back(std::string("recovery ").append(what));
   }

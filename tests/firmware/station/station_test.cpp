@@ -187,56 +187,41 @@ TEST(Station, PressesDuringAScanDoNotStartAnother) {
   EXPECT_EQ(station.run().scans, 2U);
 }
 
-TEST(StationByHand, TakesTheSecondViewAtTheSecondPress) {
-  StationRig rig(2, false);
-  EXPECT_TRUE(rig.run().all_worked());
-  EXPECT_EQ(rig.sink.lines, (Lines{measured(1, 0), measured(2, 1)}));
-  EXPECT_EQ(rig.measurer.views[1].arm_angle_deg, std::nullopt);
-  const Signals twice{ready, hold_still, ready, hold_still, busy, done,
-                      ready, hold_still, ready, hold_still, busy, done};
-  EXPECT_EQ(rig.signals(), twice);
-}
+// A second camera that looks at the other view.
+struct TwoCameraRig : StationRig {
+  explicit TwoCameraRig(std::size_t trays)
+      : StationRig(trays, false),
+        other_captures(trays),
+        other_side(other_captures, CameraMover::hand),
+        second(clock, other_side, nullptr) {
+    trigger.before_press([this] {
+      player.handle_press();
+      other_side.handle_press();
+      other_side.handle_press();
+    });
+    lamp.on_signal([this](Signal signal) {
+      player.handle_signal(signal);
+      other_side.handle_signal(signal);
+    });
+    devices.emplace(StationDevices{camera, trigger, nullptr, lamp, clock, &second});
+    params.max_scans = trays;
+  }
+
+  SyntheticCaptures other_captures;
+  TrayPlayer other_side;
+  SimulatedCamera second;
+};
 
 TEST(StationWithTwoCameras, TakesBothViewsAfterOnePress) {
-  StationRig rig(3, false);
-  // The other camera looks at the other view.
-  SyntheticCaptures captures(std::vector<SyntheticCapture>(3));
-  TrayPlayer other_side(captures, CameraMover::hand);
-  SimulatedCamera second(rig.clock, other_side, nullptr);
-  rig.trigger.before_press([&] {
-    rig.player.handle_press();
-    other_side.handle_press();
-    other_side.handle_press();
-  });
-  const auto new_scan = [&](Signal signal) {
-    rig.player.handle_signal(signal);
-    other_side.handle_signal(signal);
-  };
-  rig.lamp.on_signal(new_scan);
-  rig.devices.emplace(StationDevices{rig.camera, rig.trigger, nullptr, rig.lamp, rig.clock, &second});
-  rig.params.max_scans = 3;
+  TwoCameraRig rig(3);
   EXPECT_TRUE(rig.run().all_worked());
   EXPECT_EQ(rig.sink.lines, (Lines{"1 measured ok 320", "2 measured ok 540", "3 measured ok 760"}));
-  EXPECT_FALSE(second.is_started());
+  EXPECT_FALSE(rig.second.is_started());
 }
 
 TEST(StationWithTwoCameras, TellsWhichOneFailsAndGoesOn) {
-  StationRig rig(2, false);
-  SyntheticCaptures captures(std::vector<SyntheticCapture>(2));
-  TrayPlayer other_side(captures, CameraMover::hand);
-  SimulatedCamera second(rig.clock, other_side, nullptr);
-  rig.trigger.before_press([&] {
-    rig.player.handle_press();
-    other_side.handle_press();
-    other_side.handle_press();
-  });
-  rig.lamp.on_signal([&](Signal signal) {
-    rig.player.handle_signal(signal);
-    other_side.handle_signal(signal);
-  });
-  second.faults().add({DeviceCode::device_gone, 1, 1});
-  rig.devices.emplace(StationDevices{rig.camera, rig.trigger, nullptr, rig.lamp, rig.clock, &second});
-  rig.params.max_scans = 2;
+  TwoCameraRig rig(2);
+  rig.second.faults().add({DeviceCode::device_gone, 1, 1});
   rig.run();
   EXPECT_EQ(rig.sink.lines, (Lines{"1 device_failed simulated camera device_gone", "recovery all devices",
                                    "2 measured ok 540"}));

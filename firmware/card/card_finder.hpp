@@ -1,0 +1,49 @@
+// Where the camera stands, from a picture that shows the reference card.
+#pragma once
+
+#include "core/base/table_frame.hpp"
+#include "core/estimator/configuration.hpp"
+#include "core/scale/card_location.hpp"
+#include "firmware/base/aligned_block.hpp"
+
+namespace traygauge {
+
+class CardFinder {
+ public:
+  // Takes its memory, for pictures of this size at most.
+  CardFinder(int max_frame_width, int max_frame_height);
+
+  // Before find(); the pattern is copied. invalid_configuration when it shows too little to be recognised.
+  Status learn(const ReferenceCard& card);
+  // frame_size_mismatch with the lens or the memory; card_not_found.
+  Status find(const FrameView& frame, const LensModel& lens, CardAlignment& card);
+
+  // Of the print, in the table's frame.
+  Vec3 card_centre_mm() const {
+    const CardModelSize& size = memory_.card.pattern.size;
+    return print_point_mm({0.5 * size.width_mm, 0.5 * size.height_mm}, size.thickness_mm);
+  }
+
+ private:
+  struct Memory {
+    CardLocationWorkspace card;
+    ImageView<std::uint8_t> gray;
+    ImageView<std::uint8_t> labels;
+
+    template <class Allocator>
+    void allocate(Allocator& arena, int width, int height, const CardLocationParams& params);
+  };
+  static std::size_t bytes_for(int width, int height);
+
+  CardLocationParams params_;
+  Memory memory_;
+  AlignedBlock block_;
+};
+
+// Between the lines of sight from a point to two cameras, given by their camera_from_table.
+double angle_of_sight_deg(const Pose& first, const Pose& second, const Vec3& point_mm);
+
+// By how much a rotation turns, whichever way.
+double turn_deg(const Mat3& rotation);
+
+}  // namespace traygauge

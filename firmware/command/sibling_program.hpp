@@ -1,0 +1,13 @@
+// Programs that lie beside this one: what they load, a station need not.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace traygauge {
+
+// Runs it with these arguments, on this program's streams, and returns its exit status. Throws UsageError
+// when it is not there.
+int run_sibling_program(const std::string& name, const std::vector<std::string>& arguments);
+
+}  // namespace traygauge
