@@ -163,8 +163,7 @@ TEST(FillGaps, OneSurfaceOrTwoIsDecidedByTheirDifference) {
   ConsistencyParams params;
   params.same_surface_px = 4.0;
   EXPECT_EQ(fill(labels, {px(10), kNone, px(14)}, params)[1], px(12));
-  EXPECT_EQ(fill(labels, {px(10), kNone, px(14.125)}, params)[1],
-            px(11) + 0);
+  EXPECT_EQ(fill(labels, {px(10), kNone, px(14.125)}, params)[1], px(11) + 0);
   const Labels dish{1, 1, 1};
   EXPECT_EQ(fill(dish, {px(10), kNone, px(14)}, params)[1], px(12));
   EXPECT_EQ(fill(dish, {px(10), kNone, px(14.125)}, params)[1], px(10));
