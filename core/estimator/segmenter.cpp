@@ -21,17 +21,13 @@ CardModelSize size_of(const ReferenceCard& card) {
   return {card.width_mm, card.height_mm, card.thickness_mm};
 }
 
-Vec2 pixel_of(const Vec2& ray, const LensModel& lens) {
-  return lens.pinhole.pixel(lens.distort(ray));
-}
-
 // Four straight sides through the lens.
 std::array<Vec2, 4 * kCardSideCorners> outline_of(const std::array<Vec2, 4>& corners, const LensModel& lens) {
   std::array<Vec2, 4 * kCardSideCorners> outline;
   for (std::size_t i = 0; i < outline.size(); ++i) {
     const std::size_t side = i / kCardSideCorners;
     const double t = static_cast<double>(i % kCardSideCorners) / kCardSideCorners;
-    outline[i] = pixel_of((1.0 - t) * corners[side] + t * corners[(side + 1) % 4], lens);
+    outline[i] = lens.pixel((1.0 - t) * corners[side] + t * corners[(side + 1) % 4]);
   }
   return outline;
 }
@@ -53,7 +49,7 @@ RimOutline rim_outline(const DishPlace& place, const DishSearchView& camera, dou
     const double angle = 2.0 * std::numbers::pi * static_cast<double>(i) / kRimCorners;
     Vec3 point = rim_point_mm(place, {std::cos(angle), std::sin(angle)}, beyond_mm);
     point.z() += above_mm;
-    outline[i] = pixel_of((camera.camera_from_table * point).hnormalized(), camera.lens);
+    outline[i] = camera.lens.pixel((camera.camera_from_table * point).hnormalized());
   }
   return outline;
 }
@@ -268,7 +264,7 @@ void Segmenter::carry_labels(const DishRaster& raster, const DishSearchViews& ca
       for (const double height_mm : params_.food_heights_mm) {
         const double depth = (bottom_mm + height_mm - table_from_second.translation.z()) / direction.z();
         const Vec3 point = cameras[0].camera_from_table * (table_from_second.translation + depth * direction);
-        const Vec2 pixel = pixel_of(point.hnormalized(), cameras[0].lens);
+        const Vec2 pixel = cameras[0].lens.pixel(point.hnormalized());
         const int px = static_cast<int>(std::lround(pixel.x()));
         const int py = static_cast<int>(std::lround(pixel.y()));
         const std::uint8_t seen = first_labels.contains(px, py) ? first_labels.at(px, py) : kBackgroundLabel;

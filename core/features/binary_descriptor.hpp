@@ -17,10 +17,16 @@ inline constexpr int kBinaryTurns = 32;        // steps of orientation that the 
 
 using BinaryDescriptor = std::array<std::uint64_t, 4>;
 
-inline int hamming_distance(const BinaryDescriptor& a, const BinaryDescriptor& b) {
+// Bits that differ in the words `first` to `end`.
+inline int hamming_distance(const BinaryDescriptor& a, const BinaryDescriptor& b, std::size_t first,
+                            std::size_t end) {
   int distance = 0;
-  for (std::size_t i = 0; i < a.size(); ++i) distance += std::popcount(a[i] ^ b[i]);
+  for (std::size_t i = first; i < end; ++i) distance += std::popcount(a[i] ^ b[i]);
   return distance;
+}
+
+inline int hamming_distance(const BinaryDescriptor& a, const BinaryDescriptor& b) {
+  return hamming_distance(a, b, 0, a.size());
 }
 
 // Which places of the patch are compared, for every turn. 32 KiB.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include <Eigen/LU>
 
@@ -13,15 +14,6 @@
 
 namespace traygauge {
 namespace {
-
-// A turn as a complex number of length one: b's direction seen from a's.
-Vec2 turn_from(const Vec2& a, const Vec2& b) {
-  return {a.x() * b.x() + a.y() * b.y(), a.x() * b.y() - a.y() * b.x()};
-}
-
-Vec2 turned(const Vec2& v, const Vec2& turn) {
-  return {turn.x() * v.x() - turn.y() * v.y(), turn.y() * v.x() + turn.x() * v.y()};
-}
 
 // Shrinks `source` into `storage`.
 ImageView<std::uint8_t> reduced(ImageView<const std::uint8_t> source, double scale,
@@ -64,11 +56,10 @@ const PrintCorner* find_like(const BinaryDescriptor& descriptor, std::span<const
   int least = 256;
   int least_elsewhere = 256;
   for (const PrintCorner& corner : print) {
-    const int half = std::popcount(descriptor[0] ^ corner.descriptor[0]) +
-                     std::popcount(descriptor[1] ^ corner.descriptor[1]);
+    constexpr std::size_t kHalf = std::tuple_size_v<BinaryDescriptor> / 2;
+    const int half = hamming_distance(descriptor, corner.descriptor, 0, kHalf);
     if (half > params.max_half_distance) continue;
-    const int distance = half + std::popcount(descriptor[2] ^ corner.descriptor[2]) +
-                         std::popcount(descriptor[3] ^ corner.descriptor[3]);
+    const int distance = half + hamming_distance(descriptor, corner.descriptor, kHalf, descriptor.size());
     if (distance < least) {
       if (nearest != nullptr && is_elsewhere(*nearest, corner)) least_elsewhere = least;
       least = distance;
@@ -86,7 +77,7 @@ bool agrees(const CardSearchMatch& a, const CardSearchMatch& b, const CardSearch
   const double ratio = a.px_per_mm / b.px_per_mm;
   if (std::max(ratio, 1.0 / ratio) > params.max_scale_ratio) return false;
   if (a.turn.dot(b.turn) < params.min_turn_cosine) return false;
-  const Vec2 away = a.px_per_mm * turned(b.pattern_mm - a.pattern_mm, a.turn);
+  const Vec2 away = a.px_per_mm * turned_by(b.pattern_mm - a.pattern_mm, a.turn);
   const double reach_px = params.near_px + params.reach_share * away.norm();
   return (b.pixel - a.pixel - away).squaredNorm() <= reach_px * reach_px;
 }
@@ -117,7 +108,7 @@ Status search_at_scale(ImageView<const std::uint8_t> gray, double scale, const L
                     double ratio = 1.0;
                     const PrintCorner* like = find_like(descriptor, print.corners.items(), params, ratio);
                     if (like == nullptr) return;
-                    workspace.matches.push_back({pixel, turn_from(like->direction, direction),
+                    workspace.matches.push_back({pixel, turned_back_by(direction, like->direction),
                                                  like->px_per_mm, like->pattern_mm, 1.0 - ratio});
                   });
   std::span<CardSearchMatch> matches = workspace.matches.items();

@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "core/segmentation/neighbours.hpp"
+
 namespace traygauge {
 namespace {
 
@@ -25,14 +27,8 @@ class Components {
     };
     if (old == value) return {};
     take(start);
-    for (std::size_t i = 0; i < size; ++i) {
-      const int cell = queue_[i];
-      const int x = cell % width;
-      if (x > 0) take(cell - 1);
-      if (x + 1 < width) take(cell + 1);
-      if (cell >= width) take(cell - width);
-      if (cell + width < count) take(cell + width);
-    }
+    for (std::size_t i = 0; i < size; ++i)
+      for_each_neighbour(queue_[i], width, count, [&](int cell, std::size_t) { take(cell); });
     return queue_.first(size);
   }
 
@@ -47,11 +43,10 @@ constexpr int kMaxRadius = 7;           // a row of the square then fits into a 
 bool has_labelled_neighbour(ImageView<const std::uint8_t> cells, std::span<const std::int32_t> visited) {
   const int count = cells.width * cells.height;
   return std::any_of(visited.begin(), visited.end(), [&](std::int32_t cell) {
-    const int x = cell % cells.width;
-    return (x > 0 && is_item(cells.data[cell - 1])) ||
-           (x + 1 < cells.width && is_item(cells.data[cell + 1])) ||
-           (cell >= cells.width && is_item(cells.data[cell - cells.width])) ||
-           (cell + cells.width < count && is_item(cells.data[cell + cells.width]));
+    bool is_labelled = false;
+    for_each_neighbour(cell, cells.width, count,
+                       [&](int neighbour, std::size_t) { is_labelled |= is_item(cells.data[neighbour]); });
+    return is_labelled;
   });
 }
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "core/segmentation/neighbours.hpp"
+
 namespace traygauge {
 namespace {
 
@@ -49,20 +51,15 @@ void spread_owners(ImageView<const CellColour> colours, const GeodesicParams& pa
       --listed;
       const int cell = cell_of(entry);
       if (workspace.distance[static_cast<std::size_t>(cell)] != distance) continue;
-      const int x = cell % width;
-      const std::array<int, 4> steps = {x > 0 ? -1 : 0, x + 1 < width ? 1 : 0, cell >= width ? -width : 0,
-                                        cell + width < cells ? width : 0};
-      for (std::size_t side = 0; side < steps.size(); ++side) {
-        if (steps[side] == 0) continue;
-        const int neighbour = cell + steps[side];
-        if (owners.data[neighbour] == kBarred) continue;
+      for_each_neighbour(cell, width, cells, [&](int neighbour, std::size_t side) {
+        if (owners.data[neighbour] == kBarred) return;
         const int reached = distance + cost_of(colours.data[cell], colours.data[neighbour], params);
         std::uint16_t& least = workspace.distance[static_cast<std::size_t>(neighbour)];
-        if (reached >= least) continue;
+        if (reached >= least) return;
         least = static_cast<std::uint16_t>(reached);
         owners.data[neighbour] = owners.data[cell];
         list(neighbour + static_cast<std::int32_t>(side + 1) * cells, reached);
-      }
+      });
     }
   }
 }

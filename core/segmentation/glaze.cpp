@@ -59,15 +59,12 @@ bool measure_glaze(const DishRaster& raster, const GlazeParams& params, GlazeCol
   if (luma.total() < params.min_flange_cells) return false;
   glaze.median = {static_cast<std::uint8_t>(luma.median()), static_cast<std::uint8_t>(red.median()),
                   static_cast<std::uint8_t>(green.median())};
-  ByteHistogram luma_off;
   ByteHistogram share_off;
   for_each_cell(raster, DishZone::flange, [&](int x, int y) {
     const CellColour& colour = raster.colours.at(x, y);
-    luma_off.add(std::abs(colour.luma - glaze.median.luma));
     share_off.add(std::abs(colour.red - glaze.median.red));
     share_off.add(std::abs(colour.green - glaze.median.green));
   });
-  glaze.luma_sigma = std::max(params.min_luma_sigma, kMedianToSigma * luma_off.median());
   glaze.share_sigma = std::max(params.min_share_sigma, kMedianToSigma * share_off.median());
   glaze.texture = std::max(1.0, static_cast<double>(texture.median()));
   return true;

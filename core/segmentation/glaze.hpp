@@ -15,7 +15,6 @@ inline constexpr std::uint8_t kFoodSeed = 2;
 
 struct GlazeParams {
   double min_share_sigma = 4.0;  // of the colour shares, 1/255: noise and compression
-  double min_luma_sigma = 5.0;
   // In those deviations from the flange's median, for a cell to be glaze for sure, and food for sure.
   double glaze_deviations = 2.0;
   double food_deviations = 8.0;
@@ -33,7 +32,6 @@ struct GlazeParams {
 // The colour of the flange; deviations by the median of absolute differences.
 struct GlazeColour {
   CellColour median;
-  double luma_sigma = 0.0;
   double share_sigma = 0.0;
   double texture = 0.0;  // median local deviation of luma
 };

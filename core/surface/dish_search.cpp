@@ -118,10 +118,9 @@ class DishSearch {
         ballot.clear();
         for (const RimLevelEdge& at : workspace_.level_edges) {
           const Vec2 outward = -inside_sign * at.brighter;
-          const Vec2 normal(axis.dot(outward), axis.x() * outward.y() - axis.y() * outward.x());
+          const Vec2 normal = turned_back_by(outward, axis);
           const Vec2 on_axes = semi.cwiseAbs2().cwiseProduct(normal) / semi.cwiseProduct(normal).norm();
-          ballot.vote(at.place_mm - Vec2(axis.x() * on_axes.x() - axis.y() * on_axes.y(),
-                                         axis.y() * on_axes.x() + axis.x() * on_axes.y()));
+          ballot.vote(at.place_mm - turned_by(on_axes, axis));
         }
         Peak peak{&dish, {}, inside_sign, 0.0};
         const int most =
@@ -230,9 +229,7 @@ class DishSearch {
 
   // Of the steps that were read about `place`, those where the rim of `moved` lies, to first order.
   float sum_steps(const DishPlace& place, const DishPlace& moved, int offsets) {
-    const Vec2 axis = direction_of(place.azimuth_rad);
-    const Vec2 shift = moved.centre_mm - place.centre_mm;
-    const Vec2 on_axes(axis.dot(shift), axis.x() * shift.y() - axis.y() * shift.x());
+    const Vec2 on_axes = turned_back_by(moved.centre_mm - place.centre_mm, direction_of(place.azimuth_rad));
     const double turn = moved.azimuth_rad - place.azimuth_rad;
     const Vec2 semi(0.5 * place.size_mm[0], 0.5 * place.size_mm[1]);
     float sum = 0.0F;
@@ -325,9 +322,8 @@ Vec3 rim_point_mm(const DishPlace& place, const Vec2& cosine_sine, double beyond
   const Vec2 semi(0.5 * place.size_mm[0], 0.5 * place.size_mm[1]);
   const Vec2 normal = Vec2(semi.y() * cosine_sine.x(), semi.x() * cosine_sine.y()).normalized();
   const Vec2 on_axes = semi.cwiseProduct(cosine_sine) + beyond_mm * normal;
-  const Vec2 axis = direction_of(place.azimuth_rad);
-  return {place.centre_mm.x() + axis.x() * on_axes.x() - axis.y() * on_axes.y(),
-          place.centre_mm.y() + axis.y() * on_axes.x() + axis.x() * on_axes.y(), place.edge_height_mm};
+  const Vec2 at_mm = place.centre_mm + turned_by(on_axes, direction_of(place.azimuth_rad));
+  return {at_mm.x(), at_mm.y(), place.edge_height_mm};
 }
 
 Status search_dish(const DishSearchViews& views, std::span<const DishModel> candidates,

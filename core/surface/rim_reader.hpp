@@ -83,7 +83,7 @@ class RimReader {
   bool pixel_of(const Vec3& point_mm, Vec2& pixel) const {
     const Vec3 in_camera = view_.camera_from_table * point_mm;
     if (!(in_camera.z() > 0.0)) return false;
-    pixel = view_.lens.pinhole.pixel(view_.lens.distort(in_camera.hnormalized()));
+    pixel = view_.lens.pixel(in_camera.hnormalized());
     return true;
   }
 
