@@ -98,6 +98,35 @@ double rate(const CardSearchMatch& seed, std::span<const CardSearchMatch> matche
   return sum;
 }
 
+// Once it is known about where the card lies, a corner need not resemble one place of the print more than all
+// others: of the print's corners that may lie there, it shows the one that it differs from least.
+template <class Take>
+void for_each_match_about(const CardSearchMatch& seed, ImageView<const std::uint8_t> picture,
+                          const PrintCorners& print, double card_mm, const CardSearchParams& params,
+                          const CardSearchWorkspace& workspace, Take&& take) {
+  const ImageView<const std::uint8_t> smooth{workspace.smooth.data(), picture.width, picture.height};
+  const double reach_px = params.near_px + (1.0 + params.reach_share) * seed.px_per_mm * card_mm;
+  for (const Corner& corner : workspace.corners) {
+    const Vec2 pixel(corner.x, corner.y);
+    BinaryDescriptor descriptor;
+    Vec2 direction;
+    if ((pixel - seed.pixel).squaredNorm() > reach_px * reach_px) continue;
+    if (!describe_binary(smooth, corner.x, corner.y, print.sampling.front(), descriptor, direction)) continue;
+    const PrintCorner* nearest = nullptr;
+    int least = params.max_distance + 1;
+    for (const PrintCorner& like : print.corners) {
+      const int distance = hamming_distance(descriptor, like.descriptor);
+      if (distance >= least) continue;
+      const CardSearchMatch match{pixel, turned_back_by(direction, like.direction), like.px_per_mm,
+                                  like.pattern_mm, 0.0};
+      if (!agrees(seed, match, params)) continue;
+      least = distance;
+      nearest = &like;
+    }
+    if (nearest != nullptr) take(pixel, nearest->pattern_mm);
+  }
+}
+
 Status search_at_scale(ImageView<const std::uint8_t> gray, double scale, const LensModel& lens,
                        const CardModelSize& size, const PrintCorners& print, const CardSearchParams& params,
                        const CardParams& card, CardSearchWorkspace& workspace, std::array<Vec2, 4>& corners) {
@@ -128,19 +157,29 @@ Status search_at_scale(ImageView<const std::uint8_t> gray, double scale, const L
       return !agrees(seed, match, params);
     });
     std::size_t count = 0;
-    for (auto match = rest; match != matches.end(); ++match) {
+    const auto add_track = [&](const Vec2& pixel, const Vec2& pattern_mm) {
       CardTrack track;
-      track.pattern_mm = match->pattern_mm;
-      const Vec2 stored(
-          scale_coordinate(match->pixel.x(), static_cast<double>(gray.width) / picture.width),
-          scale_coordinate(match->pixel.y(), static_cast<double>(gray.height) / picture.height));
+      track.pattern_mm = pattern_mm;
+      const Vec2 stored(scale_coordinate(pixel.x(), static_cast<double>(gray.width) / picture.width),
+                        scale_coordinate(pixel.y(), static_cast<double>(gray.height) / picture.height));
       if (lens.undistort_pixel(stored, track.first)) workspace.tracks[count++] = track;
-    }
+    };
+    for (auto match = rest; match != matches.end(); ++match) add_track(match->pixel, match->pattern_mm);
     matches = matches.first(static_cast<std::size_t>(rest - matches.begin()));
     std::sort(matches.begin(), matches.end(), is_clearer);
     Random random(params.seed);
     CardFit fit;
-    if (!find_card(workspace.tracks.first(count), size, card, random, workspace.card, fit).ok()) continue;
+    Status found = find_card(workspace.tracks.first(count), size, card, random, workspace.card, fit);
+    if (!found.ok() && count >= static_cast<std::size_t>(params.min_agreeing)) {
+      count = 0;
+      for_each_match_about(seed, picture, print, std::hypot(size.width_mm, size.height_mm), params, workspace,
+                           add_track);
+      // A homography of few corners in one part of the card need not be that of any card.
+      CardParams rigid = card;
+      rigid.detection.model = CardModel::absolute_pose;
+      found = find_card(workspace.tracks.first(count), size, rigid, random, workspace.card, fit);
+    }
+    if (!found.ok()) continue;
     const Mat3 ray_from_pattern = fit.pattern_from_first.inverse();
     const std::array<Vec2, 4> print_mm = print_corners_mm(size);
     for (std::size_t i = 0; i < 4; ++i)

@@ -45,7 +45,10 @@ struct CardSearchParams {
   double max_scale_ratio = 1.4;  // … their scales
   int max_seeds = 120;           // of the clearest matches, each of which may say where the card lies
   int max_tried = 4;             // places that are looked at in full, those that most speaks for first
-  std::uint64_t seed = 1;        // of the homography's samples
+  // Of a place whose corners do not suffice, that is looked at again with all others about it: a print that
+  // is small, blurred and noisy has few corners that resemble one place alone.
+  int min_agreeing = 4;
+  std::uint64_t seed = 1;  // of the homography's samples
 };
 
 // A corner of the picture and the print's that looks like it.
