@@ -5,6 +5,7 @@
 #include "core/estimator/best/sparse_parameters.hpp"
 #include "core/estimator/configuration.hpp"
 #include "core/estimator/paper_parameters.hpp"
+#include "core/estimator/segmenter_parameters.hpp"
 
 namespace traygauge {
 

@@ -27,8 +27,7 @@ class Components {
     };
     if (old == value) return {};
     take(start);
-    for (std::size_t i = 0; i < size; ++i)
-      for_each_neighbour(queue_[i], width, count, [&](int cell, std::size_t) { take(cell); });
+    for (std::size_t i = 0; i < size; ++i) for_each_neighbour(queue_[i], width, count, take);
     return queue_.first(size);
   }
 
@@ -45,7 +44,7 @@ bool has_labelled_neighbour(ImageView<const std::uint8_t> cells, std::span<const
   return std::any_of(visited.begin(), visited.end(), [&](std::int32_t cell) {
     bool is_labelled = false;
     for_each_neighbour(cell, cells.width, count,
-                       [&](int neighbour, std::size_t) { is_labelled |= is_item(cells.data[neighbour]); });
+                       [&](int neighbour) { is_labelled |= is_item(cells.data[neighbour]); });
     return is_labelled;
   });
 }
@@ -66,34 +65,39 @@ void drop_small(ImageView<std::uint8_t> cells, std::uint8_t from, std::uint8_t t
   }
 }
 
-// Food where at least `least_share` of the square about a cell is; by running sums along rows, then columns.
+// Food where at least `least_share` of the square about a cell is; cells beyond the border are like the
+// nearest. Running sums along the rows, of which those of 2 radius + 1 rows are summed by column.
 void threshold_share(ImageView<std::uint8_t> cells, int radius, double least_share,
-                     std::span<std::uint8_t> sums) {
+                     FoodOutlineWorkspace& workspace) {
   const int width = cells.width;
   const int height = cells.height;
-  const auto is_food = [&](int x, int y) {
-    return cells.at(std::clamp(x, 0, width - 1), std::clamp(y, 0, height - 1)) == kFoodSeed ? 1 : 0;
-  };
-  const int side = 2 * radius + 1;
+  const ImageView<std::uint8_t> sums{workspace.sums.data(), width, height};
   for (int y = 0; y < height; ++y) {
+    const std::uint8_t* row = cells.row(y);
+    const auto is_food = [&](int x) { return row[std::clamp(x, 0, width - 1)] == kFoodSeed ? 1 : 0; };
     int sum = 0;
-    for (int x = -radius; x <= radius; ++x) sum += is_food(x, y);
+    for (int x = -radius; x <= radius; ++x) sum += is_food(x);
     for (int x = 0; x < width; ++x) {
-      sums[static_cast<std::size_t>(y * width + x)] = static_cast<std::uint8_t>(sum);
-      sum += is_food(x + radius + 1, y) - is_food(x - radius, y);
+      sums.at(x, y) = static_cast<std::uint8_t>(sum);
+      sum += is_food(x + radius + 1) - is_food(x - radius);
     }
   }
-  for (int x = 0; x < width; ++x) {
-    const auto row_sum = [&](int y) {
-      return static_cast<int>(sums[static_cast<std::size_t>(std::clamp(y, 0, height - 1) * width + x)]);
-    };
-    int sum = 0;
-    for (int y = -radius; y <= radius; ++y) sum += row_sum(y);
-    for (int y = 0; y < height; ++y) {
-      std::uint8_t& cell = cells.at(x, y);
-      if (cell != kBarred) cell = sum >= least_share * side * side ? kFoodSeed : kGlazeSeed;
-      sum += row_sum(y + radius + 1) - row_sum(y - radius);
+  const std::span<std::int32_t> columns = workspace.column_sums.first(static_cast<std::size_t>(width));
+  std::fill(columns.begin(), columns.end(), 0);
+  const auto add_row = [&](int y, int sign) {
+    const std::uint8_t* row = sums.row(std::clamp(y, 0, height - 1));
+    for (int x = 0; x < width; ++x) columns[static_cast<std::size_t>(x)] += sign * row[x];
+  };
+  const int side = 2 * radius + 1;
+  const int least = static_cast<int>(std::ceil(least_share * side * side));
+  for (int y = -radius; y <= radius; ++y) add_row(y, 1);
+  for (int y = 0; y < height; ++y) {
+    std::uint8_t* row = cells.row(y);
+    for (int x = 0; x < width; ++x) {
+      if (row[x] != kBarred) row[x] = columns[static_cast<std::size_t>(x)] >= least ? kFoodSeed : kGlazeSeed;
     }
+    add_row(y + radius + 1, 1);
+    add_row(y - radius, -1);
   }
 }
 
@@ -102,18 +106,20 @@ void threshold_share(ImageView<std::uint8_t> cells, int radius, double least_sha
 bool outline_food(const DishRaster& raster, const FoodOutlineParams& params, FoodOutlineWorkspace& workspace,
                   ImageView<std::uint8_t> cells) {
   GlazeColour glaze;
-  if (!measure_glaze(raster, params.glaze, glaze)) return false;
+  const ImageView<std::uint16_t> texture{workspace.texture.data(), raster.width(), raster.height()};
+  measure_texture(raster, params.glaze.texture_radius, workspace.column_sums, texture);
+  if (!measure_glaze(raster, texture, params.glaze, glaze)) return false;
   const double cells_per_mm = 1.0 / raster.cell_mm;
-  seed_food(raster, glaze, params.glaze, cells);
+  seed_food(raster, texture, glaze, params.glaze, cells);
   spread_owners(raster.colours, params.geodesic, workspace.geodesic, cells);
   const auto radius_of = [&](double radius_mm) {
     return std::clamp(static_cast<int>(std::lround(radius_mm * cells_per_mm)), 1, kMaxRadius);
   };
-  threshold_share(cells, radius_of(params.smoothing_mm), 0.5, workspace.sums);
+  threshold_share(cells, radius_of(params.smoothing_mm), 0.5, workspace);
   // An opening: all of the square, then any of it.
   const int opening = radius_of(params.opening_mm);
-  threshold_share(cells, opening, 1.0, workspace.sums);
-  threshold_share(cells, opening, 0.5 / ((2.0 * opening + 1.0) * (2.0 * opening + 1.0)), workspace.sums);
+  threshold_share(cells, opening, 1.0, workspace);
+  threshold_share(cells, opening, 0.5 / ((2.0 * opening + 1.0) * (2.0 * opening + 1.0)), workspace);
   const double per_mm2 = cells_per_mm * cells_per_mm;
   drop_small(cells, kFoodSeed, kGlazeSeed, params.min_item_mm2 * per_mm2, workspace.queue);
   drop_small(cells, kGlazeSeed, kFoodSeed, params.min_hole_mm2 * per_mm2, workspace.queue);

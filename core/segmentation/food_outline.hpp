@@ -28,6 +28,9 @@ struct FoodOutlineParams {
 
 struct FoodOutlineWorkspace {
   DishRasterWorkspace raster;
+  // Used while no way is sought, in the memory of ways.
+  std::span<std::uint16_t> texture;
+  std::span<std::int32_t> column_sums;
   GeodesicWorkspace geodesic;
   ItemSplitWorkspace split;
   std::span<std::uint8_t> sums;
@@ -37,6 +40,10 @@ struct FoodOutlineWorkspace {
   constexpr void allocate(Allocator& arena, const FoodOutlineParams& params) {
     const auto cells = static_cast<std::size_t>(params.raster.max_cells);
     raster.allocate(arena, params.raster);
+    const std::size_t shared = arena.mark();
+    texture = arena.template take<std::uint16_t>(cells);
+    column_sums = arena.template take<std::int32_t>(cells / 3);  // a raster has three rows and more
+    arena.rewind(shared);
     geodesic.allocate(arena, params.raster.max_cells);
     split.allocate(arena, params.split);
     sums = arena.template take<std::uint8_t>(cells);

@@ -29,14 +29,16 @@ inline constexpr std::uint8_t kBarred = 255;
 
 struct GeodesicWorkspace {
   std::span<std::uint16_t> distance;
-  std::span<std::int32_t> next;  // in the bucket's list
+  std::span<std::int32_t> next;  // in the bucket's list, of which a cell is in one at most
+  std::span<std::int32_t> previous;
   std::array<std::int32_t, kMaxGeodesicStep + 1> heads{};
 
   template <class Allocator>
   constexpr void allocate(Allocator& arena, int max_cells) {
     const auto cells = static_cast<std::size_t>(max_cells);
     distance = arena.template take<std::uint16_t>(cells);
-    next = arena.template take<std::int32_t>(5 * cells);
+    next = arena.template take<std::int32_t>(cells);
+    previous = arena.template take<std::int32_t>(cells);
   }
 };
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdlib>
 
 #include "core/segmentation/geodesic.hpp"
 
@@ -44,7 +45,43 @@ void for_each_cell(const DishRaster& raster, DishZone zone, Take&& take) {
 
 }  // namespace
 
-bool measure_glaze(const DishRaster& raster, const GlazeParams& params, GlazeColour& glaze) {
+void measure_texture(const DishRaster& raster, int radius, std::span<std::int32_t> column_sums,
+                     ImageView<std::uint16_t> texture) {
+  const int width = raster.width();
+  const int height = raster.height();
+  const std::span<std::int32_t> columns = column_sums.first(static_cast<std::size_t>(width));
+  std::fill(columns.begin(), columns.end(), 0);
+  // The outermost cells have no bend.
+  const auto add_row = [&](int y, int sign) {
+    if (y < 1 || y > height - 2) return;
+    const CellColour* above = raster.colours.row(y - 1);
+    const CellColour* row = raster.colours.row(y);
+    const CellColour* below = raster.colours.row(y + 1);
+    for (int x = 1; x + 1 < width; ++x) {
+      columns[static_cast<std::size_t>(x)] +=
+          sign * (std::abs(2 * row[x].luma - row[x - 1].luma - row[x + 1].luma) +
+                  std::abs(2 * row[x].luma - above[x].luma - below[x].luma));
+    }
+  };
+  for (int y = 0; y < radius; ++y) add_row(y, 1);
+  for (int y = 0; y < height; ++y) {
+    add_row(y + radius, 1);
+    add_row(y - radius - 1, -1);
+    const int rows = std::min(height - 2, y + radius) - std::max(1, y - radius) + 1;
+    std::uint16_t* out = texture.row(y);
+    int sum = 0;
+    for (int x = 1; x < std::min(radius, width); ++x) sum += columns[static_cast<std::size_t>(x)];
+    for (int x = 0; x < width; ++x) {
+      if (x + radius < width) sum += columns[static_cast<std::size_t>(x + radius)];
+      if (x > radius) sum -= columns[static_cast<std::size_t>(x - radius - 1)];
+      const int count = rows * (std::min(width - 2, x + radius) - std::max(1, x - radius) + 1);
+      out[x] = static_cast<std::uint16_t>(count <= 0 ? 0 : 2 * sum / count);
+    }
+  }
+}
+
+bool measure_glaze(const DishRaster& raster, ImageView<const std::uint16_t> texture_map,
+                   const GlazeParams& params, GlazeColour& glaze) {
   ByteHistogram luma;
   ByteHistogram red;
   ByteHistogram green;
@@ -54,7 +91,7 @@ bool measure_glaze(const DishRaster& raster, const GlazeParams& params, GlazeCol
     luma.add(colour.luma);
     red.add(colour.red);
     green.add(colour.green);
-    texture.add(texture_at(raster, x, y, params.texture_radius));
+    texture.add(texture_map.at(x, y));
   });
   if (luma.total() < params.min_flange_cells) return false;
   glaze.median = {static_cast<std::uint8_t>(luma.median()), static_cast<std::uint8_t>(red.median()),
@@ -70,28 +107,8 @@ bool measure_glaze(const DishRaster& raster, const GlazeParams& params, GlazeCol
   return true;
 }
 
-int texture_at(const DishRaster& raster, int x, int y, int radius) {
-  const int left = std::max(1, x - radius);
-  const int right = std::min(raster.width() - 2, x + radius);
-  const int top = std::max(1, y - radius);
-  const int bottom = std::min(raster.height() - 2, y + radius);
-  int sum = 0;
-  int count = 0;
-  for (int j = top; j <= bottom; ++j) {
-    const CellColour* above = raster.colours.row(j - 1);
-    const CellColour* row = raster.colours.row(j);
-    const CellColour* below = raster.colours.row(j + 1);
-    for (int i = left; i <= right; ++i) {
-      sum += std::abs(2 * row[i].luma - row[i - 1].luma - row[i + 1].luma) +
-             std::abs(2 * row[i].luma - above[i].luma - below[i].luma);
-      ++count;
-    }
-  }
-  return count == 0 ? 0 : 2 * sum / count;
-}
-
-void seed_food(const DishRaster& raster, const GlazeColour& glaze, const GlazeParams& params,
-               ImageView<std::uint8_t> seeds) {
+void seed_food(const DishRaster& raster, ImageView<const std::uint16_t> texture_map, const GlazeColour& glaze,
+               const GlazeParams& params, ImageView<std::uint8_t> seeds) {
   for (int y = 0; y < raster.height(); ++y) {
     for (int x = 0; x < raster.width(); ++x) {
       std::uint8_t& seed = seeds.at(x, y);
@@ -110,7 +127,7 @@ void seed_food(const DishRaster& raster, const GlazeColour& glaze, const GlazePa
       const int green = colour.green - glaze.median.green;
       const double off = std::sqrt(static_cast<double>(red * red + green * green)) / glaze.share_sigma;
       const double light = static_cast<double>(colour.luma) / std::max<int>(1, glaze.median.luma);
-      const double texture = texture_at(raster, x, y, params.texture_radius) / glaze.texture;
+      const double texture = texture_map.at(x, y) / glaze.texture;
       const bool is_textured = texture >= params.food_texture_ratio;
       if (off >= params.food_deviations || light < params.food_darkest ||
           (is_textured && off >= params.textured_food_deviations)) {

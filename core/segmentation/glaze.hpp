@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 
 #include "core/image_view/image_view.hpp"
 #include "core/segmentation/dish_raster.hpp"
@@ -36,15 +37,17 @@ struct GlazeColour {
   double texture = 0.0;  // median local deviation of luma
 };
 
-// False with too few cells of the flange.
-bool measure_glaze(const DishRaster& raster, const GlazeParams& params, GlazeColour& glaze);
+// How much luma bends from cell to cell, doubled and averaged over a square, for every cell: slopes, as on a
+// shaded wall, have none. O(cells).
+void measure_texture(const DishRaster& raster, int radius, std::span<std::int32_t> column_sums,
+                     ImageView<std::uint16_t> texture);
 
-// How much luma bends from cell to cell, doubled and averaged over a square: slopes, as on a shaded wall,
-// have none.
-int texture_at(const DishRaster& raster, int x, int y, int radius);
+// False with too few cells of the flange.
+bool measure_glaze(const DishRaster& raster, ImageView<const std::uint16_t> texture,
+                   const GlazeParams& params, GlazeColour& glaze);
 
 // Seeds: kGlazeSeed, kFoodSeed, kNoOwner where neither is sure, kBarred outside of the dish.
-void seed_food(const DishRaster& raster, const GlazeColour& glaze, const GlazeParams& params,
-               ImageView<std::uint8_t> seeds);
+void seed_food(const DishRaster& raster, ImageView<const std::uint16_t> texture, const GlazeColour& glaze,
+               const GlazeParams& params, ImageView<std::uint8_t> seeds);
 
 }  // namespace traygauge

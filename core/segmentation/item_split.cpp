@@ -4,14 +4,16 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace traygauge {
 namespace {
 
 class Merging {
  public:
-  Merging(std::span<FoodBlock> blocks, int columns, int rows, const ItemSplitParams& params)
-      : blocks_(blocks), columns_(columns), rows_(rows), params_(params) {}
+  Merging(std::span<FoodBlock> blocks, std::span<FoodBorder> storage, int columns, int rows,
+          const ItemSplitParams& params)
+      : blocks_(blocks), storage_(storage), columns_(columns), rows_(rows), params_(params) {}
 
   int root(int block) const {
     while (at(block).parent != block) block = at(block).parent;
@@ -19,21 +21,21 @@ class Merging {
   }
   bool is_food(int block) const { return at(block).parent >= 0; }
 
-  // Merges until nothing admissible is left. Each round joins two, so there are at most as many as blocks.
+  // Merges until nothing admissible is left, the least cost first, of equal ones the first in the order of
+  // the blocks. Each round joins two, so there are at most as many as blocks.
   void run() {
+    list_borders();
     for (;;) {
-      float least = std::numeric_limits<float>::infinity();
-      int kept = -1;
-      int joined = -1;
-      for_each_border([&](int a, int b) {
-        const float cost = cost_of(at(a), at(b));
-        if (cost >= least) return;
-        least = cost;
-        kept = a;
-        joined = b;
-      });
-      if (kept < 0) return;
+      const FoodBorder* least = nullptr;
+      for (const FoodBorder& border : borders_) {
+        if (border.cost < (least != nullptr ? least->cost : std::numeric_limits<float>::infinity()))
+          least = &border;
+      }
+      if (least == nullptr) return;
+      const std::int32_t kept = least->first;
+      const std::int32_t joined = least->second;
       join(kept, joined);
+      update_borders(kept, joined);
     }
   }
 
@@ -41,21 +43,35 @@ class Merging {
   FoodBlock& at(int block) { return blocks_[static_cast<std::size_t>(block)]; }
   const FoodBlock& at(int block) const { return blocks_[static_cast<std::size_t>(block)]; }
 
-  template <class Take>
-  void for_each_border(Take&& take) {
+  void list_borders() {
+    std::size_t count = 0;
     for (int y = 0; y < rows_; ++y) {
       for (int x = 0; x < columns_; ++x) {
         const int block = y * columns_ + x;
         if (!is_food(block)) continue;
-        const int own = root(block);
         for (const int neighbour :
              {x + 1 < columns_ ? block + 1 : -1, y + 1 < rows_ ? block + columns_ : -1}) {
           if (neighbour < 0 || !is_food(neighbour)) continue;
-          const int other = root(neighbour);
-          if (other != own) take(std::min(own, other), std::max(own, other));
+          storage_[count++] = {block, neighbour, cost_of(at(block), at(neighbour))};
         }
       }
     }
+    borders_ = storage_.first(count);
+  }
+
+  // After a join: those of the part that is no more are the other's, and what it cost is out of date.
+  void update_borders(std::int32_t kept, std::int32_t joined) {
+    std::size_t count = 0;
+    for (FoodBorder border : borders_) {
+      if (border.first == joined) border.first = kept;
+      if (border.second == joined) border.second = kept;
+      if (border.first == border.second) continue;
+      if (border.first > border.second) std::swap(border.first, border.second);
+      if (border.first == kept || border.second == kept)
+        border.cost = cost_of(at(border.first), at(border.second));
+      borders_[count++] = border;
+    }
+    borders_ = borders_.first(count);
   }
 
   float spread_of(const FoodBlock& part) const {
@@ -96,6 +112,8 @@ class Merging {
   }
 
   std::span<FoodBlock> blocks_;
+  std::span<FoodBorder> storage_;
+  std::span<FoodBorder> borders_;
   int columns_;
   int rows_;
   const ItemSplitParams& params_;
@@ -145,7 +163,7 @@ int split_items(const DishRaster& raster, std::uint8_t food, double cell_mm, con
       sums.parent = block;
     }
   }
-  Merging merging(blocks, columns, rows, params);
+  Merging merging(blocks, workspace.borders, columns, rows, params);
   merging.run();
   int items = 0;
   // The roots' sums are no longer needed: `size` then holds their label.

@@ -32,12 +32,22 @@ struct FoodBlock {
   float squares = 0.0F;  // of all three, weighted
 };
 
+// Where two parts meet: their first blocks, the lower one first, and what joining them costs.
+struct FoodBorder {
+  std::int32_t first = 0;
+  std::int32_t second = 0;
+  float cost = 0.0F;
+};
+
 struct ItemSplitWorkspace {
   std::span<FoodBlock> blocks;
+  std::span<FoodBorder> borders;
 
   template <class Allocator>
   constexpr void allocate(Allocator& arena, const ItemSplitParams& params) {
-    blocks = arena.template take<FoodBlock>(static_cast<std::size_t>(params.max_blocks));
+    const auto count = static_cast<std::size_t>(params.max_blocks);
+    blocks = arena.template take<FoodBlock>(count);
+    borders = arena.template take<FoodBorder>(2 * count);  // to the right and below
   }
 };
 
