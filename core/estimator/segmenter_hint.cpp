@@ -1,6 +1,5 @@
 // How the items that were found become as many as a menu says.
 #include <array>
-#include <cmath>
 #include <limits>
 #include <span>
 
@@ -10,14 +9,17 @@
 namespace traygauge {
 namespace {
 
-// Of two mean colours, by the logarithm of their light: exposure alone counts for less than hue.
-double difference_of(const RegionColour& a, const RegionColour& b) {
-  const auto step = [](float x, float y) { return std::log(static_cast<double>(x) / y); };
+// What taking two items for one costs: the growth of the squared deviations (Ward 1963) of their light, in
+// shares of it. Exposure alone counts for less than hue.
+double cost_of(const RegionColour& a, const RegionColour& b) {
+  const auto step = [](double x, double y) { return 2.0 * (x - y) / (x + y); };
   const double light = step(a.green, b.green);
   const double red = step(a.red, b.red) - light;
   const double blue = step(a.blue, b.blue) - light;
   constexpr double kLightWeight = 0.25;  // of squares: shadows, beside another hue
-  return kLightWeight * light * light + red * red + blue * blue;
+  const double pixels =
+      static_cast<double>(a.samples) * b.samples / (static_cast<double>(a.samples) + b.samples);
+  return pixels * (kLightWeight * light * light + red * red + blue * blue);
 }
 
 }  // namespace
@@ -52,9 +54,10 @@ bool Segmenter::join_most_alike() {
     end += static_cast<std::size_t>(dish.items);
     for (std::size_t a = begin; a < end; ++a) {
       for (std::size_t b = a + 1; b < end; ++b) {
-        const double difference = difference_of(colours[a], colours[b]);
-        if (difference >= least) continue;
-        least = difference;
+        if (colours[a].samples == 0 || colours[b].samples == 0) continue;
+        const double cost = cost_of(colours[a], colours[b]);
+        if (cost >= least) continue;
+        least = cost;
         kept = a;
         joined = b;
         on = &dish;
