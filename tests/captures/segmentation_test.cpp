@@ -72,18 +72,5 @@ TEST(SegmentedCapture, SameViewsGetTheSameLabels) {
   EXPECT_GT(scores.mean_item_iou(), 0.95);
 }
 
-TEST(SegmentedCapture, AHiddenCardIsReported) {
-  if (captures_folder().empty()) GTEST_SKIP() << "TRAYGAUGE_CAPTURES names no captures";
-  const Capture capture = read_capture(captures_folder() / "meals/m01");
-  const PairSetup setup = set_up_pair(capture, {0, 1}, capture.dishes);
-  std::array<LoadedView, 2> views = {load_view(capture.views[0]), load_view(capture.views[1])};
-  for (std::size_t i = 0; i < views[1].labels.pixels.size(); ++i) {
-    if (views[1].labels.pixels[i] != kCardLabel) continue;
-    for (std::size_t channel = 0; channel < 3; ++channel) views[1].picture.pixels[3 * i + channel] = 70;
-  }
-  const PairLabels drawn = label_pair(configure(setup), setup, views);
-  EXPECT_EQ(drawn.segmentation.status.code(), StatusCode::card_not_found);
-}
-
 }  // namespace
 }  // namespace traygauge
