@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/estimator/best/dish_views.hpp"
 #include "core/image/resample.hpp"
 #include "core/scale/card_hypotheses.hpp"
 #include "core/segmentation/convex_fill.hpp"
@@ -67,11 +68,16 @@ constexpr void Segmenter::Memory::allocate(Allocator& arena, const Configuration
   pattern.allocate(arena, configuration.best.card.pattern);
   print.allocate(arena, params.card);
   dish.allocate(arena, params.dish);
-  gray = arena.template take_image<std::uint8_t>(limits.max_frame_width, limits.max_frame_height);
+  for (auto& picture : gray)
+    picture = arena.template take_image<std::uint8_t>(limits.max_frame_width, limits.max_frame_height);
   alignment.allocate(arena, configuration.best.card);
   const std::size_t shared = arena.mark();
   card.allocate(arena, limits.max_frame_width, limits.max_frame_height, params.card);
   arena.rewind(shared);
+  relief.allocate_kept(arena, params.relief);
+  const std::size_t measured = arena.mark();
+  relief.allocate_scratch(arena, params.relief);
+  arena.rewind(measured);
   food.allocate(arena, params.food);
   cells = arena.template take<std::uint8_t>(static_cast<std::size_t>(params.food.raster.max_cells));
 }
@@ -135,12 +141,12 @@ const Segmentation& Segmenter::segment(const std::array<SegmentedView, 2>& views
 // anyway, the rest.
 Status Segmenter::find_card(const SegmentedView& view, const LensModel& lens, std::size_t index) {
   const FrameView& frame = view.frame;
-  if (frame.width != lens.width || frame.height != lens.height || frame.width > memory_.gray.width ||
-      frame.height > memory_.gray.height || view.labels.width != frame.width ||
+  if (frame.width != lens.width || frame.height != lens.height || frame.width > memory_.gray[index].width ||
+      frame.height > memory_.gray[index].height || view.labels.width != frame.width ||
       view.labels.height != frame.height) {
     return StatusCode::frame_size_mismatch;
   }
-  const ImageView<std::uint8_t> gray{memory_.gray.data, frame.width, frame.height};
+  const ImageView<std::uint8_t> gray{memory_.gray[index].data, frame.width, frame.height};
   convert_to_gray(frame, gray);
   clear(view.labels);
   collect_rim_edges(gray, lens, params_.dish.edges, memory_.dish.edge_search, memory_.dish.edges[index]);
@@ -200,17 +206,35 @@ void Segmenter::draw_dishes(const std::array<SegmentedView, 2>& views, const Dis
 }
 
 void Segmenter::draw_food(const std::array<SegmentedView, 2>& views, const DishSearchViews& cameras) {
+  const std::array<LabelRegions, 2> regions = {measure_regions(views[0].labels),
+                                               measure_regions(views[1].labels)};
   for (std::size_t d = 0; d < result_.dish_count; ++d) {
     const SegmentedDish& dish = result_.dishes[d];
     if (!dish.status.ok()) continue;
     const auto first = static_cast<std::uint8_t>(kFirstItemLabel + result_.items);
     const int room = kLastItemLabel + 1 - first;
+    DishInViews scene;
+    scene.inner.place = frame_of(dish.found.place);
+    if (!scene.inner.profile.set(dish.model).ok()) continue;
+    for (std::size_t v = 0; v < 2; ++v) {
+      scene.stored[v] = {{memory_.gray[v].data, views[v].frame.width, views[v].frame.height},
+                         views[v].labels,
+                         regions[v].boxes[dish.label],
+                         cameras[v].lens,
+                         cameras[v].camera_from_table};
+    }
+    LabelTable kept{};
+    kept[dish.label] = kDishLabel;
+    // Without a relief colour has to do.
+    if (!measure_relief(scene.stored, kept, scene.inner, params_.relief, memory_.relief, scene.relief).ok())
+      scene.relief = {};
     DishRaster raster;
     ImageView<std::uint8_t> cells;
-    if (!outline_view(views[0], cameras[0], dish, raster, cells)) continue;
-    const int items = label_items(raster, params_.food, memory_.food, first, room, cells);
+    if (!outline_view(views[0].frame, cameras[0], dish, scene, 0, raster, cells)) continue;
+    const ImageView<const ReliefSample> laid{memory_.food.relief.data(), raster.width(), raster.height()};
+    const int items = label_items(raster, laid, params_.food, memory_.food, first, room, cells);
     draw_cells(raster, cells, dish.label, views[0].labels);
-    if (!outline_view(views[1], cameras[1], dish, raster, cells)) continue;
+    if (!outline_view(views[1].frame, cameras[1], dish, scene, 1, raster, cells)) continue;
     carry_labels(raster, cameras, views[0].labels, dish, cells);
     spread_items(raster, params_.food, memory_.food, cells);
     draw_cells(raster, cells, dish.label, views[1].labels);
@@ -219,15 +243,15 @@ void Segmenter::draw_food(const std::array<SegmentedView, 2>& views, const DishS
 }
 
 // Food and glaze of one dish in one view, as outline_food marks them.
-bool Segmenter::outline_view(const SegmentedView& view, const DishSearchView& camera,
-                             const SegmentedDish& dish, DishRaster& raster, ImageView<std::uint8_t>& cells) {
+bool Segmenter::outline_view(const FrameView& frame, const DishSearchView& camera, const SegmentedDish& dish,
+                             const DishInViews& scene, std::size_t v, DishRaster& raster,
+                             ImageView<std::uint8_t>& cells) {
   const DishPlace& place = dish.found.place;
-  DishProfile profile;
-  if (!profile.set(dish.model).ok()) return false;
+  const DishProfile& profile = scene.inner.profile;
   RimOutline outline = rim_outline(place, camera, 0.0, 0.0);
   const Vec3 middle = camera.camera_from_table * Vec3(place.centre_mm.x(), place.centre_mm.y(), 0.0);
   const double px_per_mm = camera.lens.pinhole.mean_focal_px() / middle.z();
-  if (!load_dish_raster(view.frame, outline, px_per_mm, params_.food.raster, memory_.food.raster, raster))
+  if (!load_dish_raster(frame, outline, px_per_mm, params_.food.raster, memory_.food.raster, raster))
     return false;
   mark_zone(raster, outline, DishZone::edge);
   const double edge_mm = profile.height_at_inset_mm(0.0);
@@ -243,7 +267,9 @@ bool Segmenter::outline_view(const SegmentedView& view, const DishSearchView& ca
   outline = ring(std::max(well_mm, params_.flange_begin_mm + params_.min_flange_mm));
   mark_zone(raster, outline, DishZone::inside);
   cells = {memory_.cells.data(), raster.width(), raster.height()};
-  return outline_food(raster, params_.food, memory_.food, cells);
+  const ImageView<ReliefSample> laid{memory_.food.relief.data(), raster.width(), raster.height()};
+  lay_relief(scene.relief, v, scene.stored[v], raster, laid);
+  return outline_food(raster, laid, params_.food, memory_.food, cells);
 }
 
 // Seeds for the second view: food that lies on the same item in the first view, whether it is low or high.

@@ -15,6 +15,7 @@
 #include "core/estimator/stage_clock.hpp"
 #include "core/scale/card_alignment.hpp"
 #include "core/scale/card_search.hpp"
+#include "core/segmentation/dish_relief.hpp"
 #include "core/segmentation/food_outline.hpp"
 #include "core/surface/dish_search.hpp"
 
@@ -23,6 +24,7 @@ namespace traygauge {
 struct SegmenterParams {
   CardSearchParams card;
   DishSearchParams dish;
+  DishReliefParams relief;
   FoodOutlineParams food;
   // Insets from the outer edge between which a flange counts as such, and the depth below it where the well
   // begins.
@@ -85,10 +87,11 @@ class Segmenter {
   struct Memory {
     CardPattern pattern;
     PrintCorners print;
-    ImageView<std::uint8_t> gray;
+    std::array<ImageView<std::uint8_t>, 2> gray;
     CardAlignmentWorkspace alignment;
     CardSearchWorkspace card;
     DishSearchWorkspace dish;
+    DishReliefWorkspace relief;
     FoodOutlineWorkspace food;
     std::span<std::uint8_t> cells;
 
@@ -97,13 +100,19 @@ class Segmenter {
                             const SegmenterParams& params);
   };
   friend std::size_t segmenter_bytes(const Configuration& configuration, const SegmenterParams& params);
+  struct DishInViews {
+    InnerSurface inner;
+    std::array<StoredView, 2> stored;
+    DishRelief relief;
+  };
 
   Status find_card(const SegmentedView& view, const LensModel& lens, std::size_t index);
   Status find_dishes(const DishSearchViews& views);
   void draw_dishes(const std::array<SegmentedView, 2>& views, const DishSearchViews& cameras);
   void draw_food(const std::array<SegmentedView, 2>& views, const DishSearchViews& cameras);
-  bool outline_view(const SegmentedView& view, const DishSearchView& camera, const SegmentedDish& dish,
-                    DishRaster& raster, ImageView<std::uint8_t>& cells);
+  bool outline_view(const FrameView& frame, const DishSearchView& camera, const SegmentedDish& dish,
+                    const DishInViews& scene, std::size_t v, DishRaster& raster,
+                    ImageView<std::uint8_t>& cells);
   void carry_labels(const DishRaster& raster, const DishSearchViews& cameras,
                     ImageView<const std::uint8_t> first_labels, const SegmentedDish& dish,
                     ImageView<std::uint8_t> cells) const;

@@ -66,15 +66,16 @@ void drop_small(ImageView<std::uint8_t> cells, std::uint8_t from, std::uint8_t t
   }
 }
 
-// Food where at least `least_share` of the square about a cell is; by running sums along rows, then columns.
-void threshold_share(ImageView<std::uint8_t> cells, int radius, double least_share,
-                     std::span<std::uint8_t> sums) {
+// Calls decide(cell, food) for every cell within the dish, with the number of cells of food in the square
+// about it; by running sums along rows, then columns.
+template <class Decide>
+void for_each_square(ImageView<std::uint8_t> cells, int radius, std::span<std::uint8_t> sums,
+                     Decide&& decide) {
   const int width = cells.width;
   const int height = cells.height;
   const auto is_food = [&](int x, int y) {
     return cells.at(std::clamp(x, 0, width - 1), std::clamp(y, 0, height - 1)) == kFoodSeed ? 1 : 0;
   };
-  const int side = 2 * radius + 1;
   for (int y = 0; y < height; ++y) {
     int sum = 0;
     for (int x = -radius; x <= radius; ++x) sum += is_food(x, y);
@@ -91,24 +92,43 @@ void threshold_share(ImageView<std::uint8_t> cells, int radius, double least_sha
     for (int y = -radius; y <= radius; ++y) sum += row_sum(y);
     for (int y = 0; y < height; ++y) {
       std::uint8_t& cell = cells.at(x, y);
-      if (cell != kBarred) cell = sum >= least_share * side * side ? kFoodSeed : kGlazeSeed;
+      if (cell != kBarred) decide(cell, sum);
       sum += row_sum(y + radius + 1) - row_sum(y - radius);
     }
   }
 }
 
+// Food where at least `least_share` of the square about a cell is.
+void threshold_share(ImageView<std::uint8_t> cells, int radius, double least_share,
+                     std::span<std::uint8_t> sums) {
+  const int side = 2 * radius + 1;
+  for_each_square(cells, radius, sums, [&](std::uint8_t& cell, int food) {
+    cell = food >= least_share * side * side ? kFoodSeed : kGlazeSeed;
+  });
+}
+
+// Takes the owner from cells that are near to the other kind.
+void free_band(ImageView<std::uint8_t> cells, int radius, std::span<std::uint8_t> sums) {
+  const int side = 2 * radius + 1;
+  for_each_square(cells, radius, sums, [&](std::uint8_t& cell, int food) {
+    if (food > 0 && food < side * side) cell = kNoOwner;
+  });
+}
+
 }  // namespace
 
-bool outline_food(const DishRaster& raster, const FoodOutlineParams& params, FoodOutlineWorkspace& workspace,
+bool outline_food(const DishRaster& raster, ImageView<const ReliefSample> relief,
+                  const FoodOutlineParams& params, FoodOutlineWorkspace& workspace,
                   ImageView<std::uint8_t> cells) {
   GlazeColour glaze;
   if (!measure_glaze(raster, params.glaze, glaze)) return false;
   const double cells_per_mm = 1.0 / raster.cell_mm;
-  seed_food(raster, glaze, params.glaze, cells);
-  spread_owners(raster.colours, params.geodesic, workspace.geodesic, cells);
   const auto radius_of = [&](double radius_mm) {
     return std::clamp(static_cast<int>(std::lround(radius_mm * cells_per_mm)), 1, kMaxRadius);
   };
+  find_food(raster, relief, glaze, params.field, workspace.field, cells);
+  free_band(cells, radius_of(params.band_mm), workspace.sums);
+  spread_owners(raster.colours, params.geodesic, workspace.geodesic, cells);
   threshold_share(cells, radius_of(params.smoothing_mm), 0.5, workspace.sums);
   // An opening: all of the square, then any of it.
   const int opening = radius_of(params.opening_mm);
@@ -120,14 +140,15 @@ bool outline_food(const DishRaster& raster, const FoodOutlineParams& params, Foo
   return true;
 }
 
-int label_items(const DishRaster& raster, const FoodOutlineParams& params, FoodOutlineWorkspace& workspace,
-                std::uint8_t first, int max_items, ImageView<std::uint8_t> cells) {
+int label_items(const DishRaster& raster, ImageView<const ReliefSample> relief,
+                const FoodOutlineParams& params, FoodOutlineWorkspace& workspace, std::uint8_t first,
+                int max_items, ImageView<std::uint8_t> cells) {
   // Items are drawn on cells where food has no meaning of its own.
   const int count = raster.width() * raster.height();
   for (int cell = 0; cell < count; ++cell) {
     if (cells.data[cell] == kFoodSeed) cells.data[cell] = kUnlabelled;
   }
-  int items = split_items(raster, kUnlabelled, raster.cell_mm, params.split, workspace.split, first,
+  int items = split_items(raster, relief, kUnlabelled, raster.cell_mm, params.split, workspace.split, first,
                           max_items, cells);
   // What has no block of its own is an item as it is.
   Components components(cells, workspace.queue);

@@ -23,6 +23,7 @@ struct Disc {
   double y = 0.0;
   double radius = 0.0;
   std::array<int, 3> bgr{};
+  double height_mm = 20.0;  // a dome
 };
 
 double distance(double x, double y, const Disc& disc) {
@@ -32,7 +33,8 @@ double distance(double x, double y, const Disc& disc) {
 // A round plate lit from the left: its shade falls by `shade` across it, without an edge. Seen from above.
 class Plate {
  public:
-  explicit Plate(std::vector<Disc> food, double shade = 0.1) : food_(std::move(food)) {
+  explicit Plate(std::vector<Disc> food, double shade = 0.1, bool has_relief = true)
+      : food_(std::move(food)), has_relief_(has_relief) {
     std::mt19937 random(7);
     std::normal_distribution<double> noise(0.0, 2.0);
     for (int y = 0; y < kSide; ++y) {
@@ -62,8 +64,10 @@ class Plate {
     mark_zone(raster, rim, DishZone::inside);
     labels.assign(static_cast<std::size_t>(raster.width() * raster.height()), 0);
     const ImageView<std::uint8_t> cells{labels.data(), raster.width(), raster.height()};
-    EXPECT_TRUE(outline_food(raster, params_, memory_.workspace, cells));
-    return label_items(raster, params_, memory_.workspace, kFirstItemLabel, 100, cells);
+    lay_relief(raster);
+    const ImageView<const ReliefSample> relief{relief_.data(), raster.width(), raster.height()};
+    EXPECT_TRUE(outline_food(raster, relief, params_, memory_.workspace, cells));
+    return label_items(raster, relief, params_, memory_.workspace, kFirstItemLabel, 100, cells);
   }
 
   // Share of the cells whose being food or not is right.
@@ -81,6 +85,33 @@ class Plate {
   }
 
  private:
+  // What two views would say: food of some height differs where it is compared on the glaze. Noise as of
+  // census windows; without relief nothing is known.
+  void lay_relief(const DishRaster& raster) {
+    relief_.assign(static_cast<std::size_t>(raster.width() * raster.height()), {});
+    if (!has_relief_) return;
+    std::mt19937 random(11);
+    std::normal_distribution<double> bits(0.0, 1.5);
+    const auto doubled = [&](double mean) {
+      return static_cast<std::uint8_t>(std::clamp(2.0 * (mean + bits(random)), 0.0, 62.0));
+    };
+    for (int y = 0; y < raster.height(); ++y) {
+      for (int x = 0; x < raster.width(); ++x) {
+        const Vec2 pixel = raster.pixel_of(x, y);
+        double height_mm = 0.0;
+        for (const Disc& disc : food_) {
+          const double part = distance(pixel.x(), pixel.y(), disc) / disc.radius;
+          if (part < 1.0) height_mm = std::max(height_mm, disc.height_mm * std::sqrt(1.0 - part * part));
+        }
+        ReliefSample& sample = relief_[static_cast<std::size_t>(y * raster.width() + x)];
+        sample.is_known = true;
+        sample.height = static_cast<std::int8_t>(std::lround(height_mm / kReliefUnitMm));
+        sample.food_cost = doubled(9.0);
+        sample.glaze_cost = height_mm > 0.0 ? doubled(14.0) : sample.food_cost;
+      }
+    }
+  }
+
   static std::vector<Vec2> ring(double radius) {
     std::vector<Vec2> points;
     for (int i = 0; i < 120; ++i)
@@ -89,6 +120,8 @@ class Plate {
   }
 
   std::vector<Disc> food_;
+  bool has_relief_;
+  std::vector<ReliefSample> relief_;
   std::vector<std::uint8_t> pixels_;
   FoodOutlineParams params_;
   WithMemory<FoodOutlineWorkspace> memory_{FoodOutlineParams{}};
@@ -145,7 +178,9 @@ TEST(FoodOutline, NoFlangeNoAnswer) {
   DishRaster raster;
   ASSERT_TRUE(load_dish_raster(frame, box, kPxPerMm, params, memory.workspace.raster, raster));
   std::vector<std::uint8_t> labels(static_cast<std::size_t>(raster.width() * raster.height()));
-  EXPECT_FALSE(outline_food(raster, {}, memory.workspace, {labels.data(), raster.width(), raster.height()}));
+  const std::vector<ReliefSample> relief(labels.size());
+  EXPECT_FALSE(outline_food(raster, {relief.data(), raster.width(), raster.height()}, {}, memory.workspace,
+                            {labels.data(), raster.width(), raster.height()}));
 }
 
 // Against the shortest ways by relaxing every cell until nothing changes.
