@@ -3,9 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <optional>
 #include <random>
 #include <vector>
 
@@ -23,7 +25,10 @@ struct Disc {
   double y = 0.0;
   double radius = 0.0;
   std::array<int, 3> bgr{};
-  double height_mm = 20.0;  // a dome
+  double height_mm = 20.0;  // flat, with a steep edge
+  int grain = 0;            // grey values, from pixel to pixel
+  // Of pieces that are mixed with those of `bgr`; the same where there are none.
+  std::optional<std::array<int, 3>> other_bgr{};
 };
 
 double distance(double x, double y, const Disc& disc) {
@@ -42,7 +47,13 @@ class Plate {
         std::array<int, 3> bgr = {40, 50, 60};
         if (distance(x, y, {300, 300, 0, {}}) < kRimPx) bgr = {205, 210, 215};
         for (const Disc& disc : food_) {
-          if (distance(x, y, disc) < disc.radius) bgr = disc.bgr;
+          if (distance(x, y, disc) >= disc.radius) continue;
+          bgr = disc.other_bgr && piece_at(x, y) ? *disc.other_bgr : disc.bgr;
+          const int grain =
+              disc.grain > 0
+                  ? static_cast<int>(random() % (2U * static_cast<unsigned>(disc.grain))) - disc.grain
+                  : 0;
+          for (int& value : bgr) value += grain;
         }
         for (const int value : bgr) {
           const double lit = value * (1.0 - shade * x / kSide) + noise(random);
@@ -101,7 +112,7 @@ class Plate {
         double height_mm = 0.0;
         for (const Disc& disc : food_) {
           const double part = distance(pixel.x(), pixel.y(), disc) / disc.radius;
-          if (part < 1.0) height_mm = std::max(height_mm, disc.height_mm * std::sqrt(1.0 - part * part));
+          if (part < 1.0) height_mm = std::max(height_mm, disc.height_mm * std::min(1.0, 6.0 * (1.0 - part)));
         }
         ReliefSample& sample = relief_[static_cast<std::size_t>(y * raster.width() + x)];
         sample.is_known = true;
@@ -110,6 +121,12 @@ class Plate {
         sample.glaze_cost = height_mm > 0.0 ? doubled(14.0) : sample.food_cost;
       }
     }
+  }
+
+  // Pieces of 8 mm, either kind as often.
+  static bool piece_at(int x, int y) {
+    const auto cell = static_cast<std::uint32_t>(x / 20 + 71 * (y / 20));
+    return ((cell * 2654435761U) >> 16U & 1U) != 0;
   }
 
   static std::vector<Vec2> ring(double radius) {
@@ -129,6 +146,8 @@ class Plate {
 
 constexpr std::array<int, 3> kGreen = {40, 130, 50};
 constexpr std::array<int, 3> kBrown = {40, 80, 150};
+constexpr std::array<int, 3> kOchre = {50, 110, 160};
+constexpr std::array<int, 3> kOrange = {40, 110, 210};
 
 TEST(FoodOutline, EmptyPlateHasNoFood) {
   Plate plate({}, 0.25);
@@ -169,6 +188,46 @@ TEST(FoodOutline, CrumbsAndLinesOfDecorationAreNoFood) {
   EXPECT_EQ(plate.outline(labels, raster), 0);
 }
 
+TEST(FoodOutline, FoodOfTheGlazesColourIsToldByItsHeight) {
+  constexpr std::array<int, 3> kWhite = {204, 209, 214};
+  const Disc mash{260, 310, 80, kWhite, 20.0, 14};
+  std::vector<std::uint8_t> labels;
+  DishRaster raster;
+  Plate plate({mash});
+  EXPECT_EQ(plate.outline(labels, raster), 1);
+  EXPECT_GT(plate.right_share(labels, raster), 0.98);
+  Plate blind({mash}, 0.1, false);
+  EXPECT_EQ(blind.outline(labels, raster), 0);
+}
+
+TEST(FoodOutline, GlazeTintedByFoodIsToldByLyingFlat) {
+  constexpr std::array<int, 3> kTint = {180, 205, 228};
+  const std::vector<Disc> discs = {{220, 250, 60, kBrown}, {400, 350, 60, kTint, 0.0}};
+  std::vector<std::uint8_t> labels;
+  DishRaster raster;
+  Plate plate(discs);
+  EXPECT_EQ(plate.outline(labels, raster), 1);
+  Plate blind(discs, 0.1, false);
+  EXPECT_EQ(blind.outline(labels, raster), 2);
+}
+
+TEST(FoodOutline, MixedPiecesAreOneItem) {
+  const std::vector<Disc> discs = {{220, 260, 85, kOrange, 20.0, 0, kGreen}, {410, 340, 70, kBrown}};
+  std::vector<std::uint8_t> labels;
+  DishRaster raster;
+  Plate plate(discs);
+  EXPECT_EQ(plate.outline(labels, raster), 2);
+}
+
+TEST(FoodOutline, WhatLiesWithinAnItemIsItsOwnOnlyWhereItStandsOut) {
+  std::vector<std::uint8_t> labels;
+  DishRaster raster;
+  Plate level({{300, 300, 110, kBrown, 15.0}, {300, 300, 50, kOchre, 15.0}});
+  EXPECT_EQ(level.outline(labels, raster), 1);
+  Plate raised({{300, 300, 110, kBrown, 15.0}, {300, 300, 50, kOchre, 45.0}});
+  EXPECT_EQ(raised.outline(labels, raster), 2);
+}
+
 TEST(FoodOutline, NoFlangeNoAnswer) {
   DishRasterParams params;
   WithMemory<FoodOutlineWorkspace> memory{FoodOutlineParams{}};
@@ -181,6 +240,42 @@ TEST(FoodOutline, NoFlangeNoAnswer) {
   const std::vector<ReliefSample> relief(labels.size());
   EXPECT_FALSE(outline_food(raster, {relief.data(), raster.width(), raster.height()}, {}, memory.workspace,
                             {labels.data(), raster.width(), raster.height()}));
+}
+
+// Without an outline's cost every cell is what its own evidence says; with a great one all are alike.
+TEST(FoodField, OutlineCostDecidesHowFarCellsAgree) {
+  constexpr int kWide = 40;
+  for (std::uint32_t seed = 1; seed <= 10; ++seed) {
+    SCOPED_TRACE(seed);
+    std::mt19937 random(seed);
+    std::vector<CellColour> colours(kWide * kWide, {200, 170, 170});
+    std::vector<DishZone> zones(colours.size(), DishZone::inside);
+    std::vector<ReliefSample> relief(colours.size());
+    int lifted = 0;
+    for (ReliefSample& sample : relief) {
+      const bool is_lifted = random() % 3 == 0;
+      sample = {40, 10, static_cast<std::uint8_t>(is_lifted ? 60 : 10), true};
+      lifted += is_lifted ? 1 : 0;
+    }
+    DishRaster raster;
+    raster.colours = {colours.data(), kWide, kWide};
+    raster.zones = {zones.data(), kWide, kWide};
+    FoodFieldParams params;
+    params.fold = 1;
+    params.sweeps = 400;
+    const GlazeColour glaze{colours.front(), 4.0, 1.0};
+    WithMemory<FoodFieldWorkspace> memory{kWide * kWide};
+    std::vector<std::uint8_t> cells(colours.size());
+    const auto count_food = [&] {
+      find_food(raster, {relief.data(), kWide, kWide}, glaze, params, memory.workspace,
+                {cells.data(), kWide, kWide});
+      return static_cast<int>(std::count(cells.begin(), cells.end(), kFoodSeed));
+    };
+    params.outline = 0.0;
+    EXPECT_EQ(count_food(), lifted);
+    params.outline = 50.0;
+    EXPECT_EQ(count_food(), 0);
+  }
 }
 
 // Against the shortest ways by relaxing every cell until nothing changes.
