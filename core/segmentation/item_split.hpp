@@ -17,10 +17,10 @@ struct ItemSplitParams {
   double block_mm = 7.0;
   int max_blocks = 4096;
   double luma_weight = 0.5;      // of a difference, beside those of the colour shares
-  double max_difference = 12.0;  // of two parts of one item, where both are of one colour
+  double max_difference = 10.0;  // of two parts of one item, where both are of one colour
   // Parts that are left are joined up to a greater difference, the more of the smaller one's outline they
   // share (mixed food is interleaved, piles only touch) and the less the surface sinks between them.
-  double joined_difference = 11.0;
+  double joined_difference = 10.0;
   double most_joined_ratio = 8.0;  // over joined_difference, where all of that speaks for one item
   double least_valley = 0.45;      // height of the border over the lower part's crest, which halves it
   double full_valley = 0.75;       // … from which there is no valley
