@@ -59,35 +59,27 @@ class Merging {
   std::span<const PartBorder> measure_borders() {
     for (FoodBlock& block : blocks_) block.sides = 0;
     std::size_t count = 0;
-    for (int y = 0; y < rows_; ++y) {
-      for (int x = 0; x < columns_; ++x) {
-        const int block = y * columns_ + x;
-        for (const int neighbour :
-             {x + 1 < columns_ ? block + 1 : -1, y + 1 < rows_ ? block + columns_ : -1}) {
-          if (neighbour < 0) continue;
-          const int own = is_food(block) ? root(block) : -1;
-          const int other = is_food(neighbour) ? root(neighbour) : -1;
-          if (own == other) continue;
-          if (own >= 0) ++at(own).sides;
-          if (other >= 0) ++at(other).sides;
-          if (own < 0 || other < 0) continue;
-          const int first = std::min(own, other);
-          const int second = std::max(own, other);
-          const auto known = borders_.first(count);
-          auto border = std::find_if(known.begin(), known.end(), [&](const PartBorder& b) {
-            return b.first == first && b.second == second;
-          });
-          if (border == known.end()) {
-            if (count == borders_.size()) continue;
-            borders_[count++] = {first, second, 0, {}};
-            border = borders_.begin() + static_cast<std::ptrdiff_t>(count - 1);
-          }
-          ++border->sides;
-          border->heights_mm[0] += at(own == first ? block : neighbour).own_height_mm;
-          border->heights_mm[1] += at(own == first ? neighbour : block).own_height_mm;
-        }
+    for_each_side([&](int block, int neighbour) {
+      const int own = is_food(block) ? root(block) : -1;
+      const int other = is_food(neighbour) ? root(neighbour) : -1;
+      if (own == other) return;
+      if (own >= 0) ++at(own).sides;
+      if (other >= 0) ++at(other).sides;
+      if (own < 0 || other < 0) return;
+      const int first = std::min(own, other);
+      const int second = std::max(own, other);
+      const auto known = borders_.first(count);
+      auto border = std::find_if(known.begin(), known.end(),
+                                 [&](const PartBorder& b) { return b.first == first && b.second == second; });
+      if (border == known.end()) {
+        if (count == borders_.size()) return;
+        borders_[count++] = {first, second, 0, {}};
+        border = borders_.begin() + static_cast<std::ptrdiff_t>(count - 1);
       }
-    }
+      ++border->sides;
+      border->heights_mm[0] += at(own == first ? block : neighbour).own_height_mm;
+      border->heights_mm[1] += at(own == first ? neighbour : block).own_height_mm;
+    });
     return borders_.first(count);
   }
 
@@ -96,17 +88,6 @@ class Merging {
     const auto n = static_cast<float>(part.size);
     const float mean = part.height_mm / n;
     return mean + std::sqrt(std::max(0.0F, part.height_squares / n - mean * mean));
-  }
-
-  float difference_of(const FoodBlock& a, const FoodBlock& b) const {
-    const auto na = static_cast<float>(a.size);
-    const auto nb = static_cast<float>(b.size);
-    const float luma = static_cast<float>(params_.luma_weight) * (a.luma / na - b.luma / nb);
-    const float red = a.red / na - b.red / nb;
-    const float green = a.green / na - b.green / nb;
-    const auto mixed = static_cast<float>(params_.mixed_deviation);
-    const float variance = 0.5F * (spread_of(a) + spread_of(b));
-    return std::sqrt((luma * luma + red * red + green * green) / (1.0F + variance / (mixed * mixed)));
   }
 
   float tolerance_of(const PartBorder& border) const {
@@ -131,21 +112,26 @@ class Merging {
   FoodBlock& at(int block) { return blocks_[static_cast<std::size_t>(block)]; }
   const FoodBlock& at(int block) const { return blocks_[static_cast<std::size_t>(block)]; }
 
+  // Every pair of blocks side by side or one above the other.
   template <class Take>
-  void for_each_border(Take&& take) {
+  void for_each_side(Take&& take) {
     for (int y = 0; y < rows_; ++y) {
       for (int x = 0; x < columns_; ++x) {
         const int block = y * columns_ + x;
-        if (!is_food(block)) continue;
-        const int own = root(block);
-        for (const int neighbour :
-             {x + 1 < columns_ ? block + 1 : -1, y + 1 < rows_ ? block + columns_ : -1}) {
-          if (neighbour < 0 || !is_food(neighbour)) continue;
-          const int other = root(neighbour);
-          if (other != own) take(std::min(own, other), std::max(own, other));
-        }
+        if (x + 1 < columns_) take(block, block + 1);
+        if (y + 1 < rows_) take(block, block + columns_);
       }
     }
+  }
+
+  template <class Take>
+  void for_each_border(Take&& take) {
+    for_each_side([&](int block, int neighbour) {
+      if (!is_food(block) || !is_food(neighbour)) return;
+      const int own = root(block);
+      const int other = root(neighbour);
+      if (other != own) take(std::min(own, other), std::max(own, other));
+    });
   }
 
   float spread_of(const FoodBlock& part) const {
@@ -156,21 +142,33 @@ class Merging {
     return std::max(0.0F, part.squares / n - mean);
   }
 
-  // Growth of the squared deviations (Ward 1963); infinite for two items that differ.
-  float cost_of(const FoodBlock& a, const FoodBlock& b) const {
+  float square_between(const FoodBlock& a, const FoodBlock& b) const {
     const auto na = static_cast<float>(a.size);
     const auto nb = static_cast<float>(b.size);
     const float luma = static_cast<float>(params_.luma_weight) * (a.luma / na - b.luma / nb);
     const float red = a.red / na - b.red / nb;
     const float green = a.green / na - b.green / nb;
-    const float square = luma * luma + red * red + green * green;
-    if (std::min(a.size, b.size) >= params_.min_item_blocks) {
-      const auto mixed = static_cast<float>(params_.mixed_deviation);
-      const auto most = static_cast<float>(params_.max_difference);
-      const float variance = 0.5F * (spread_of(a) + spread_of(b));
-      if (square > most * most * (1.0F + variance / (mixed * mixed)))
-        return std::numeric_limits<float>::infinity();
-    }
+    return luma * luma + red * red + green * green;
+  }
+
+  // Of squared differences: what both parts differ from themselves makes them differ less from each other.
+  float slack_of(const FoodBlock& a, const FoodBlock& b) const {
+    const auto mixed = static_cast<float>(params_.mixed_deviation);
+    return 1.0F + 0.5F * (spread_of(a) + spread_of(b)) / (mixed * mixed);
+  }
+
+  float difference_of(const FoodBlock& a, const FoodBlock& b) const {
+    return std::sqrt(square_between(a, b) / slack_of(a, b));
+  }
+
+  // Growth of the squared deviations (Ward 1963); infinite for two items that differ.
+  float cost_of(const FoodBlock& a, const FoodBlock& b) const {
+    const float square = square_between(a, b);
+    const auto most = static_cast<float>(params_.max_difference);
+    if (std::min(a.size, b.size) >= params_.min_item_blocks && square > most * most * slack_of(a, b))
+      return std::numeric_limits<float>::infinity();
+    const auto na = static_cast<float>(a.size);
+    const auto nb = static_cast<float>(b.size);
     return square * na * nb / (na + nb);
   }
 
