@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/estimator/best/dish_views.hpp"
 #include "core/estimator/view_input.hpp"
 #include "core/image/exposure.hpp"
 #include "core/image/resample.hpp"
@@ -218,18 +219,35 @@ void Segmenter::draw_items(const FoodOutlineParams& params) {
 
 void Segmenter::draw_food(const std::array<SegmentedView, 2>& views, const DishSearchViews& cameras,
                           const FoodOutlineParams& params) {
+  const std::array<LabelRegions, 2> regions = {measure_regions(views[0].labels),
+                                               measure_regions(views[1].labels)};
   for (std::size_t d = 0; d < result_.dish_count; ++d) {
     SegmentedDish& dish = result_.dishes[d];
     dish.items = 0;
     if (!dish.status.ok()) continue;
     const auto first = static_cast<std::uint8_t>(kFirstItemLabel + result_.items);
     const int room = kLastItemLabel + 1 - first;
+    DishInViews scene;
+    scene.inner.place = frame_of(dish.found.place);
+    if (!scene.inner.profile.set(dish.model).ok()) continue;
+    for (std::size_t v = 0; v < 2; ++v) {
+      scene.stored[v] = {views[v].gray, views[v].labels, regions[v].boxes[dish.label], cameras[v].lens,
+                         cameras[v].camera_from_table};
+    }
+    LabelTable kept{};
+    kept[dish.label] = kDishLabel;
+    // Without a relief colour has to do.
+    if (!measure_relief(scene.stored, kept, scene.inner, params_.relief, memory_.food.relief, scene.relief)
+             .ok())
+      scene.relief = {};
     DishRaster raster;
     ImageView<std::uint8_t> cells;
-    if (!outline_view(views[0], cameras[0], dish, raster, cells)) continue;
-    const int items = label_items(raster, params, memory_.food.outline, first, room, cells);
+    if (!outline_view(views[0].frame, cameras[0], dish, scene, 0, raster, cells)) continue;
+    const ImageView<const ReliefSample> laid{memory_.food.outline.relief.data(), raster.width(),
+                                             raster.height()};
+    const int items = label_items(raster, laid, params, memory_.food.outline, first, room, cells);
     draw_cells(raster, cells, dish.label, views[0].labels);
-    if (!outline_view(views[1], cameras[1], dish, raster, cells)) continue;
+    if (!outline_view(views[1].frame, cameras[1], dish, scene, 1, raster, cells)) continue;
     carry_labels(raster, cameras, views[0].labels, dish, cells);
     spread_items(raster, params, memory_.food.outline, cells);
     draw_cells(raster, cells, dish.label, views[1].labels);
@@ -239,16 +257,15 @@ void Segmenter::draw_food(const std::array<SegmentedView, 2>& views, const DishS
 }
 
 // Food and glaze of one dish in one view, as outline_food marks them.
-bool Segmenter::outline_view(const SegmentedView& view, const DishSearchView& camera,
-                             const SegmentedDish& dish, DishRaster& raster, ImageView<std::uint8_t>& cells) {
+bool Segmenter::outline_view(const FrameView& frame, const DishSearchView& camera, const SegmentedDish& dish,
+                             const DishInViews& scene, std::size_t v, DishRaster& raster,
+                             ImageView<std::uint8_t>& cells) {
   const DishPlace& place = dish.found.place;
-  DishProfile profile;
-  if (!profile.set(dish.model).ok()) return false;
+  const DishProfile& profile = scene.inner.profile;
   RimOutline outline = rim_outline(place, camera, 0.0, 0.0);
   const Vec3 middle = camera.camera_from_table * Vec3(place.centre_mm.x(), place.centre_mm.y(), 0.0);
   const double px_per_mm = camera.lens.pinhole.mean_focal_px() / middle.z();
-  if (!load_dish_raster(view.frame, outline, px_per_mm, params_.food.raster, memory_.food.outline.raster,
-                        raster))
+  if (!load_dish_raster(frame, outline, px_per_mm, params_.food.raster, memory_.food.outline.raster, raster))
     return false;
   mark_zone(raster, outline, DishZone::edge);
   const double edge_mm = profile.height_at_inset_mm(0.0);
@@ -264,7 +281,9 @@ bool Segmenter::outline_view(const SegmentedView& view, const DishSearchView& ca
   outline = ring(std::max(well_mm, params_.flange_begin_mm + params_.min_flange_mm));
   mark_zone(raster, outline, DishZone::inside);
   cells = {memory_.food.cells.data(), raster.width(), raster.height()};
-  return outline_food(raster, params_.food, memory_.food.outline, cells);
+  const ImageView<ReliefSample> laid{memory_.food.outline.relief.data(), raster.width(), raster.height()};
+  lay_relief(scene.relief, v, scene.stored[v], raster, laid);
+  return outline_food(raster, laid, params_.food, memory_.food.outline, cells);
 }
 
 // Seeds for the second view: food that lies on the same item in the first view, whether it is low or high.

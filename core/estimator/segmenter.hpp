@@ -80,6 +80,13 @@ class Segmenter {
   void reset();
 
  private:
+  // One dish as both views show it.
+  struct DishInViews {
+    InnerSurface inner;
+    std::array<StoredView, 2> stored;
+    DishRelief relief;
+  };
+
   Status check_view(const SegmentedView& view, const LensModel& lens) const;
   Status find_card(const SegmentedView& view, const LensModel& lens, std::size_t index);
   Status find_dishes(const DishSearchViews& views);
@@ -89,8 +96,9 @@ class Segmenter {
   bool join_most_alike();
   void draw_food(const std::array<SegmentedView, 2>& views, const DishSearchViews& cameras,
                  const FoodOutlineParams& params);
-  bool outline_view(const SegmentedView& view, const DishSearchView& camera, const SegmentedDish& dish,
-                    DishRaster& raster, ImageView<std::uint8_t>& cells);
+  bool outline_view(const FrameView& frame, const DishSearchView& camera, const SegmentedDish& dish,
+                    const DishInViews& scene, std::size_t v, DishRaster& raster,
+                    ImageView<std::uint8_t>& cells);
   void carry_labels(const DishRaster& raster, const DishSearchViews& cameras,
                     ImageView<const std::uint8_t> first_labels, const SegmentedDish& dish,
                     ImageView<std::uint8_t> cells) const;

@@ -32,6 +32,7 @@ void Segmenter::meet_hint() {
     while (result_.items < params_.items &&
            food.split.max_difference > params_.weakest_border * params_.food.split.max_difference) {
       food.split.max_difference *= params_.border_step;
+      food.split.joined_difference *= params_.border_step;
       draw_items(food);
     }
     if (result_.items < params_.items) draw_items(params_.food);

@@ -17,7 +17,7 @@ std::array<MemoryRow, kSegmenterRowCount> describe_segmenter(const Configuration
        false},
       {"card search", bytes_of([&](ArenaPlan& plan) { memory.card.allocate(plan, configuration); }), true},
       {"dish search", bytes_of([&](ArenaPlan& plan) { memory.dish.allocate(plan, params.dish); }), true},
-      {"food", bytes_of([&](ArenaPlan& plan) { memory.food.allocate(plan, params.food); }), true},
+      {"food and its relief", bytes_of([&](ArenaPlan& plan) { memory.food.allocate(plan, params); }), true},
   }};
 }
 

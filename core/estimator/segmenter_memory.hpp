@@ -25,15 +25,20 @@ struct CardStageWorkspace {
   }
 };
 
-// Of one dish.
+// Of one dish: its relief stays while its food is outlined.
 struct FoodStageWorkspace {
-  FoodOutlineWorkspace outline;
+  DishReliefWorkspace relief;
   std::span<std::uint8_t> cells;
+  FoodOutlineWorkspace outline;
 
   template <class Allocator>
-  constexpr void allocate(Allocator& arena, const FoodOutlineParams& params) {
-    outline.allocate(arena, params);
-    cells = arena.template take<std::uint8_t>(static_cast<std::size_t>(params.raster.max_cells));
+  constexpr void allocate(Allocator& arena, const SegmenterParams& params) {
+    relief.allocate_kept(arena, params.relief);
+    const std::size_t shared = arena.mark();
+    relief.allocate_scratch(arena, params.relief);
+    arena.rewind(shared);
+    cells = arena.template take<std::uint8_t>(static_cast<std::size_t>(params.food.raster.max_cells));
+    outline.allocate(arena, params.food);
   }
 };
 
@@ -62,7 +67,7 @@ struct SegmenterMemory {
     arena.rewind(shared);
     dish.allocate(arena, configuration.segmentation.dish);
     arena.rewind(shared);
-    food.allocate(arena, configuration.segmentation.food);
+    food.allocate(arena, configuration.segmentation);
   }
 };
 

@@ -3,6 +3,7 @@
 
 #include "core/base/parameter_range.hpp"
 #include "core/estimator/segmenter_params.hpp"
+#include "core/estimator/surface_parameters.hpp"
 
 namespace traygauge {
 
@@ -74,6 +75,40 @@ void visit_dish_search_parameters(Params& segmentation, Visit&& visit) {
 }
 
 template <class Params, class Visit>
+void visit_relief_parameters(Params& segmentation, Visit&& visit) {
+  auto& relief = segmentation.relief;
+  using Range = ParameterRange;
+  visit_two_view_surface(relief.surface, PrefixedVisit("segmentation.relief.surface.", visit));
+  visit("segmentation.relief.highest_mm", relief.highest_mm, Range{5, 400});
+  visit("segmentation.relief.window_radius", relief.window_radius, Range{0, 32});
+  visit("segmentation.relief.node_step", relief.node_step, Range{1, 64});
+}
+
+// `Params` is FoodFieldParams, const or not.
+template <class Params, class Visit>
+void visit_food_field_parameters(Params& field, Visit&& visit) {
+  using Range = ParameterRange;
+  visit("segmentation.food.field.fold", field.fold, Range{1, 3});  // a raster has three rows and more
+  visit("segmentation.food.field.relief.min_height_mm", field.relief.min_height_mm, Range{0, 100});
+  visit("segmentation.food.field.relief.full_bits", field.relief.full_bits, Range{0.1, 100});
+  visit("segmentation.food.field.lift_weight", field.lift_weight, Range{0, 100});
+  visit("segmentation.food.field.against_weight", field.against_weight, Range{0, 100});
+  visit("segmentation.food.field.colour_weight", field.colour_weight, Range{0, 100});
+  visit("segmentation.food.field.plain_share", field.plain_share, Range{0, 1});
+  visit("segmentation.food.field.prior", field.prior, Range{-100, 100});
+  visit("segmentation.food.field.neutral_deviations", field.neutral_deviations, Range{0, 8});
+  visit("segmentation.food.field.full_deviations", field.full_deviations, Range{8.5, 1000});
+  visit("segmentation.food.field.most_colour", field.most_colour, Range{0, 100});
+  visit("segmentation.food.field.least_colour", field.least_colour, Range{-10, -0.001});
+  visit("segmentation.food.field.neutral_texture", field.neutral_texture, Range{0, 2.5});
+  visit("segmentation.food.field.full_texture", field.full_texture, Range{2.6, 1000});
+  visit("segmentation.food.field.outline", field.outline, Range{0, 100});
+  visit("segmentation.food.field.edge_contrast", field.edge_contrast, Range{0.1, 1000});
+  visit("segmentation.food.field.least_outline", field.least_outline, Range{0, 1});
+  visit("segmentation.food.field.sweeps", field.sweeps, Range{0, 1000});
+}
+
+template <class Params, class Visit>
 void visit_food_parameters(Params& segmentation, Visit&& visit) {
   auto& food = segmentation.food;
   using Range = ParameterRange;
@@ -81,16 +116,7 @@ void visit_food_parameters(Params& segmentation, Visit&& visit) {
   visit("segmentation.food.raster.max_cells", food.raster.max_cells, Range{256, 1'000'000});
   visit("segmentation.food.raster.dark_level", food.raster.dark_level, Range{0, 255});
   visit("segmentation.food.glaze.min_share_sigma", food.glaze.min_share_sigma, Range{0.01, 255});
-  visit("segmentation.food.glaze.glaze_deviations", food.glaze.glaze_deviations, Range{0, 1000});
-  visit("segmentation.food.glaze.food_deviations", food.glaze.food_deviations, Range{0, 1000});
-  visit("segmentation.food.glaze.textured_food_deviations", food.glaze.textured_food_deviations,
-        Range{0, 1000});
-  visit("segmentation.food.glaze.darkest", food.glaze.darkest, Range{0, 10});
-  visit("segmentation.food.glaze.brightest", food.glaze.brightest, Range{0, 10});
-  visit("segmentation.food.glaze.food_darkest", food.glaze.food_darkest, Range{0, 10});
   visit("segmentation.food.glaze.texture_radius", food.glaze.texture_radius, Range{0, 16});
-  visit("segmentation.food.glaze.texture_ratio", food.glaze.texture_ratio, Range{0, 1000});
-  visit("segmentation.food.glaze.food_texture_ratio", food.glaze.food_texture_ratio, Range{0, 1000});
   visit("segmentation.food.glaze.min_flange_cells", food.glaze.min_flange_cells, Range{1, 1e6});
   visit("segmentation.food.geodesic.step_cost", food.geodesic.step_cost, Range{0, 255});
   visit("segmentation.food.geodesic.luma_weight", food.geodesic.luma_weight, Range{0, 1000});
@@ -99,8 +125,18 @@ void visit_food_parameters(Params& segmentation, Visit&& visit) {
   visit("segmentation.food.split.max_blocks", food.split.max_blocks, Range{16, 65536});
   visit("segmentation.food.split.luma_weight", food.split.luma_weight, Range{0, 100});
   visit("segmentation.food.split.max_difference", food.split.max_difference, Range{0, 1000});
+  visit("segmentation.food.split.joined_difference", food.split.joined_difference, Range{0.01, 1000});
+  visit("segmentation.food.split.most_joined_ratio", food.split.most_joined_ratio, Range{1, 1000});
+  visit("segmentation.food.split.least_valley", food.split.least_valley, Range{-1, 0.5});
+  visit("segmentation.food.split.full_valley", food.split.full_valley, Range{0.51, 10});
+  visit("segmentation.food.split.most_step", food.split.most_step, Range{0.31, 10});
+  visit("segmentation.food.split.full_step", food.split.full_step, Range{0, 0.3});
+  visit("segmentation.food.split.touching_share", food.split.touching_share, Range{0, 0.5});
+  visit("segmentation.food.split.mixed_share", food.split.mixed_share, Range{0.51, 1});
   visit("segmentation.food.split.mixed_deviation", food.split.mixed_deviation, Range{0.01, 1000});
   visit("segmentation.food.split.min_item_blocks", food.split.min_item_blocks, Range{1, 65536});
+  visit_food_field_parameters(food.field, visit);
+  visit("segmentation.food.band_mm", food.band_mm, Range{0, 20});
   visit("segmentation.food.smoothing_mm", food.smoothing_mm, Range{0, 20});
   visit("segmentation.food.opening_mm", food.opening_mm, Range{0, 20});
   visit("segmentation.food.min_item_mm2", food.min_item_mm2, Range{0, 1e6});
@@ -112,6 +148,7 @@ void visit_segmentation_parameters(Params& segmentation, Visit&& visit) {
   using Range = ParameterRange;
   visit_card_search_parameters(segmentation, visit);
   visit_dish_search_parameters(segmentation, visit);
+  visit_relief_parameters(segmentation, visit);
   visit_food_parameters(segmentation, visit);
   visit("segmentation.items", segmentation.items, Range{0, 198});
   visit("segmentation.weakest_border", segmentation.weakest_border, Range{0.01, 1});

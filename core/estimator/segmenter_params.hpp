@@ -4,6 +4,7 @@
 #include <array>
 
 #include "core/scale/card_search.hpp"
+#include "core/segmentation/dish_relief.hpp"
 #include "core/segmentation/food_outline.hpp"
 #include "core/surface/dish_search.hpp"
 
@@ -12,6 +13,7 @@ namespace traygauge {
 struct SegmenterParams {
   CardSearchParams card;
   DishSearchParams dish;
+  DishReliefParams relief;
   FoodOutlineParams food;
   // Items on the tray, as a menu says; 0: not known.
   int items = 0;

@@ -65,10 +65,12 @@ void drop_small(ImageView<std::uint8_t> cells, std::uint8_t from, std::uint8_t t
   }
 }
 
-// Food where at least `least_share` of the square about a cell is; cells beyond the border are like the
-// nearest. Running sums along the rows, of which those of 2 radius + 1 rows are summed by column.
-void threshold_share(ImageView<std::uint8_t> cells, int radius, double least_share,
-                     FoodOutlineWorkspace& workspace) {
+// Calls decide(cell, food) for every cell within the dish, with the number of cells of food in the square
+// about it; cells beyond the border are like the nearest. Running sums along the rows, of which those of
+// 2 radius + 1 rows are summed by column.
+template <class Decide>
+void for_each_square(ImageView<std::uint8_t> cells, int radius, FoodOutlineWorkspace& workspace,
+                     Decide&& decide) {
   const int width = cells.width;
   const int height = cells.height;
   const ImageView<std::uint8_t> sums{workspace.sums.data(), width, height};
@@ -88,33 +90,48 @@ void threshold_share(ImageView<std::uint8_t> cells, int radius, double least_sha
     const std::uint8_t* row = sums.row(std::clamp(y, 0, height - 1));
     for (int x = 0; x < width; ++x) columns[static_cast<std::size_t>(x)] += sign * row[x];
   };
-  const int side = 2 * radius + 1;
-  const int least = static_cast<int>(std::ceil(least_share * side * side));
   for (int y = -radius; y <= radius; ++y) add_row(y, 1);
   for (int y = 0; y < height; ++y) {
     std::uint8_t* row = cells.row(y);
     for (int x = 0; x < width; ++x) {
-      if (row[x] != kBarred) row[x] = columns[static_cast<std::size_t>(x)] >= least ? kFoodSeed : kGlazeSeed;
+      if (row[x] != kBarred) decide(row[x], columns[static_cast<std::size_t>(x)]);
     }
     add_row(y + radius + 1, 1);
     add_row(y - radius, -1);
   }
 }
 
+// Food where at least `least_share` of the square about a cell is.
+void threshold_share(ImageView<std::uint8_t> cells, int radius, double least_share,
+                     FoodOutlineWorkspace& workspace) {
+  const int side = 2 * radius + 1;
+  const int least = static_cast<int>(std::ceil(least_share * side * side));
+  for_each_square(cells, radius, workspace,
+                  [&](std::uint8_t& cell, int food) { cell = food >= least ? kFoodSeed : kGlazeSeed; });
+}
+
+// Takes the owner from cells that are near to the other kind.
+void free_band(ImageView<std::uint8_t> cells, int radius, FoodOutlineWorkspace& workspace) {
+  const int side = 2 * radius + 1;
+  for_each_square(cells, radius, workspace, [&](std::uint8_t& cell, int food) {
+    if (food > 0 && food < side * side) cell = kNoOwner;
+  });
+}
+
 }  // namespace
 
-bool outline_food(const DishRaster& raster, const FoodOutlineParams& params, FoodOutlineWorkspace& workspace,
+bool outline_food(const DishRaster& raster, ImageView<const ReliefSample> relief,
+                  const FoodOutlineParams& params, FoodOutlineWorkspace& workspace,
                   ImageView<std::uint8_t> cells) {
   GlazeColour glaze;
-  const ImageView<std::uint16_t> texture{workspace.texture.data(), raster.width(), raster.height()};
-  measure_texture(raster, params.glaze.texture_radius, workspace.column_sums, texture);
-  if (!measure_glaze(raster, texture, params.glaze, glaze)) return false;
+  if (!measure_glaze(raster, params.glaze, glaze)) return false;
   const double cells_per_mm = 1.0 / raster.cell_mm;
-  seed_food(raster, texture, glaze, params.glaze, cells);
-  spread_owners(raster.colours, params.geodesic, workspace.geodesic, cells);
   const auto radius_of = [&](double radius_mm) {
     return std::clamp(static_cast<int>(std::lround(radius_mm * cells_per_mm)), 1, kMaxRadius);
   };
+  find_food(raster, relief, glaze, params.field, workspace.field, cells);
+  free_band(cells, radius_of(params.band_mm), workspace);
+  spread_owners(raster.colours, params.geodesic, workspace.geodesic, cells);
   threshold_share(cells, radius_of(params.smoothing_mm), 0.5, workspace);
   // An opening: all of the square, then any of it.
   const int opening = radius_of(params.opening_mm);
@@ -126,14 +143,15 @@ bool outline_food(const DishRaster& raster, const FoodOutlineParams& params, Foo
   return true;
 }
 
-int label_items(const DishRaster& raster, const FoodOutlineParams& params, FoodOutlineWorkspace& workspace,
-                std::uint8_t first, int max_items, ImageView<std::uint8_t> cells) {
+int label_items(const DishRaster& raster, ImageView<const ReliefSample> relief,
+                const FoodOutlineParams& params, FoodOutlineWorkspace& workspace, std::uint8_t first,
+                int max_items, ImageView<std::uint8_t> cells) {
   // Items are drawn on cells where food has no meaning of its own.
   const int count = raster.width() * raster.height();
   for (int cell = 0; cell < count; ++cell) {
     if (cells.data[cell] == kFoodSeed) cells.data[cell] = kUnlabelled;
   }
-  int items = split_items(raster, kUnlabelled, raster.cell_mm, params.split, workspace.split, first,
+  int items = split_items(raster, relief, kUnlabelled, raster.cell_mm, params.split, workspace.split, first,
                           max_items, cells);
   // What has no block of its own is an item as it is.
   Components components(cells, workspace.queue);

@@ -26,6 +26,9 @@ inline constexpr int kMaxGeodesicStep = 255;  // more counts as this
 // `owners`: labels of the seeds, kNoOwner elsewhere, kBarred where none may go. Dial's buckets.
 inline constexpr std::uint8_t kNoOwner = 0;
 inline constexpr std::uint8_t kBarred = 255;
+// The owners of dish and food.
+inline constexpr std::uint8_t kGlazeSeed = 1;
+inline constexpr std::uint8_t kFoodSeed = 2;
 
 struct GeodesicWorkspace {
   std::span<std::uint16_t> distance;

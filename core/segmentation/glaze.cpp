@@ -4,8 +4,6 @@
 #include <array>
 #include <cmath>
 
-#include "core/segmentation/geodesic.hpp"
-
 namespace traygauge {
 namespace {
 
@@ -42,45 +40,27 @@ void for_each_cell(const DishRaster& raster, DishZone zone, Take&& take) {
   }
 }
 
-}  // namespace
-
-void measure_texture(const DishRaster& raster, int radius, std::span<std::int32_t> column_sums,
-                     ImageView<std::uint16_t> texture) {
-  const int width = raster.width();
-  const int height = raster.height();
-  const std::span<std::int32_t> columns = column_sums.first(static_cast<std::size_t>(width));
-  std::fill(columns.begin(), columns.end(), 0);
-  // The outermost cells have no bend.
-  const auto add_row = [&](int y, int sign) {
-    if (y < 1 || y > height - 2) return;
-    const CellColour* above = raster.colours.row(y - 1);
-    const CellColour* row = raster.colours.row(y);
-    const CellColour* below = raster.colours.row(y + 1);
-    for (int x = 1; x + 1 < width; ++x) {
-      columns[static_cast<std::size_t>(x)] +=
-          sign * (std::abs(2 * row[x].luma - row[x - 1].luma - row[x + 1].luma) +
-                  std::abs(2 * row[x].luma - above[x].luma - below[x].luma));
-    }
-  };
-  for (int y = 0; y < radius; ++y) add_row(y, 1);
-  for (int y = 0; y < height; ++y) {
-    add_row(y + radius, 1);
-    add_row(y - radius - 1, -1);
-    const int rows = std::min(height - 2, y + radius) - std::max(1, y - radius) + 1;
-    std::uint16_t* out = texture.row(y);
-    int sum = 0;
-    for (int x = 1; x < std::min(radius, width); ++x) sum += columns[static_cast<std::size_t>(x)];
-    for (int x = 0; x < width; ++x) {
-      if (x + radius < width) sum += columns[static_cast<std::size_t>(x + radius)];
-      if (x > radius) sum -= columns[static_cast<std::size_t>(x - radius - 1)];
-      const int count = rows * (std::min(width - 2, x + radius) - std::max(1, x - radius) + 1);
-      out[x] = static_cast<std::uint16_t>(count <= 0 ? 0 : 2 * sum / count);
-    }
+// Mean bend over a square, doubled.
+int texture_at(ImageView<const CellColour> colours, int x, int y, int radius) {
+  int sum = 0;
+  int count = 0;
+  for (int j = std::max(0, y - radius); j <= std::min(colours.height - 1, y + radius); ++j) {
+    for (int i = std::max(0, x - radius); i <= std::min(colours.width - 1, x + radius); ++i, ++count)
+      sum += bend_at(colours, i, j);
   }
+  return 2 * sum / count;
 }
 
-bool measure_glaze(const DishRaster& raster, ImageView<const std::uint16_t> texture_map,
-                   const GlazeParams& params, GlazeColour& glaze) {
+}  // namespace
+
+int bend_at(ImageView<const CellColour> colours, int x, int y) {
+  if (x == 0 || y == 0 || x + 1 == colours.width || y + 1 == colours.height) return 0;
+  const CellColour* row = colours.row(y);
+  return std::abs(2 * row[x].luma - row[x - 1].luma - row[x + 1].luma) +
+         std::abs(2 * row[x].luma - colours.at(x, y - 1).luma - colours.at(x, y + 1).luma);
+}
+
+bool measure_glaze(const DishRaster& raster, const GlazeParams& params, GlazeColour& glaze) {
   ByteHistogram luma;
   ByteHistogram red;
   ByteHistogram green;
@@ -90,7 +70,7 @@ bool measure_glaze(const DishRaster& raster, ImageView<const std::uint16_t> text
     luma.add(colour.luma);
     red.add(colour.red);
     green.add(colour.green);
-    texture.add(texture_map.at(x, y));
+    texture.add(texture_at(raster.colours, x, y, params.texture_radius));
   });
   if (luma.total() < params.min_flange_cells) return false;
   glaze.median = {static_cast<std::uint8_t>(luma.median()), static_cast<std::uint8_t>(red.median()),
@@ -104,39 +84,6 @@ bool measure_glaze(const DishRaster& raster, ImageView<const std::uint16_t> text
   glaze.share_sigma = std::max(params.min_share_sigma, kMedianToSigma * share_off.median());
   glaze.texture = std::max(1.0, static_cast<double>(texture.median()));
   return true;
-}
-
-void seed_food(const DishRaster& raster, ImageView<const std::uint16_t> texture_map, const GlazeColour& glaze,
-               const GlazeParams& params, ImageView<std::uint8_t> seeds) {
-  for (int y = 0; y < raster.height(); ++y) {
-    for (int x = 0; x < raster.width(); ++x) {
-      std::uint8_t& seed = seeds.at(x, y);
-      const DishZone zone = raster.zones.at(x, y);
-      if (zone == DishZone::outside) {
-        seed = kBarred;
-        continue;
-      }
-      if (zone == DishZone::edge) {
-        seed = kGlazeSeed;
-        continue;
-      }
-      seed = kNoOwner;
-      const CellColour& colour = raster.colours.at(x, y);
-      const int red = colour.red - glaze.median.red;
-      const int green = colour.green - glaze.median.green;
-      const double off = std::sqrt(static_cast<double>(red * red + green * green)) / glaze.share_sigma;
-      const double light = static_cast<double>(colour.luma) / std::max<int>(1, glaze.median.luma);
-      const double texture = texture_map.at(x, y) / glaze.texture;
-      const bool is_textured = texture >= params.food_texture_ratio;
-      if (off >= params.food_deviations || light < params.food_darkest ||
-          (is_textured && off >= params.textured_food_deviations)) {
-        seed = kFoodSeed;
-      } else if (off < params.glaze_deviations && light > params.darkest && light < params.brightest &&
-                 texture < params.texture_ratio) {
-        seed = kGlazeSeed;
-      }
-    }
-  }
 }
 
 }  // namespace traygauge

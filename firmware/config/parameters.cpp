@@ -15,7 +15,7 @@
 namespace traygauge {
 namespace {
 
-constexpr std::size_t kNameWidth = 48;
+constexpr std::size_t kNameWidth = 64;
 
 // The shortest text without an exponent that reads back as the same number.
 template <class Number>

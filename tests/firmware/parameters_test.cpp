@@ -131,10 +131,13 @@ TEST(Parameters, EveryFieldOfTheSegmentationHasAName) {
   EXPECT_EQ(count("segmentation.card.corners."), field_count<CornerParams>() - 1);  // there are no labels yet
   EXPECT_EQ(count("segmentation.dish."), field_count<DishSearchParams>());
   EXPECT_EQ(count("segmentation.dish.edges."), field_count<RimEdgeParams>());
+  EXPECT_EQ(count("segmentation.relief."), field_count<DishReliefParams>());
+  EXPECT_EQ(count("segmentation.relief.surface."), field_count<TwoViewSurfaceParams>());
   EXPECT_EQ(count("segmentation.food."), field_count<FoodOutlineParams>());
   EXPECT_EQ(count("segmentation.food.raster."), field_count<DishRasterParams>());
   EXPECT_EQ(count("segmentation.food.glaze."), field_count<GlazeParams>());
   EXPECT_EQ(count("segmentation.food.geodesic."), field_count<GeodesicParams>());
+  EXPECT_EQ(count("segmentation.food.field."), field_count<FoodFieldParams>());
   EXPECT_EQ(count("segmentation.food.split."), field_count<ItemSplitParams>());
 }
 

@@ -115,7 +115,10 @@ class Finder {
     corners = outline(view, dish.place, 1.0 - kFlangeShare);
     mark_zone(raster, corners, DishZone::inside);
     const ImageView<std::uint8_t> cells{memory_.food.cells.data(), raster.width(), raster.height()};
-    if (!outline_food(raster, params().food, workspace, cells)) return;
+    // One picture alone tells no height.
+    const ImageView<ReliefSample> relief{workspace.relief.data(), raster.width(), raster.height()};
+    std::fill_n(relief.data, raster.width() * raster.height(), ReliefSample{});
+    if (!outline_food(raster, relief, params().food, workspace, cells)) return;
     for (int y = 0; y < raster.height(); ++y) {
       for (int x = 0; x < raster.width(); ++x) {
         if (cells.at(x, y) != kFoodSeed) continue;
