@@ -98,8 +98,8 @@ struct CardSearchWorkspace {
 
   // `wanted_scale`, or less where a picture of this size would not fit.
   double fit(int width, int height, double wanted_scale) const {
-    return std::min({wanted_scale, static_cast<double>(max_width) / width,
-                     static_cast<double>(max_height) / height});
+    return std::min(
+        {wanted_scale, static_cast<double>(max_width) / width, static_cast<double>(max_height) / height});
   }
 
   template <class Allocator>
