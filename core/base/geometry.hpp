@@ -45,6 +45,16 @@ inline Mat3 rotation_about(const Vec3& turn) {
   return Eigen::AngleAxisd(angle, turn / angle).toRotationMatrix();
 }
 
+// A turn in the plane is a unit vector, its cosine and sine; the products are those of complex numbers.
+inline Vec2 turned_by(const Vec2& v, const Vec2& turn) {
+  return {turn.x() * v.x() - turn.y() * v.y(), turn.y() * v.x() + turn.x() * v.y()};
+}
+
+// Undoes turned_by. Also the turn that leads from the direction `turn` to the direction `v`.
+inline Vec2 turned_back_by(const Vec2& v, const Vec2& turn) {
+  return {turn.x() * v.x() + turn.y() * v.y(), turn.x() * v.y() - turn.y() * v.x()};
+}
+
 inline Mat3 skew(const Vec3& v) {
   Mat3 m;
   m << 0.0, -v.z(), v.y(), v.z(), 0.0, -v.x(), -v.y(), v.x(), 0.0;

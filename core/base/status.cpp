@@ -34,7 +34,8 @@ constexpr auto kTexts = std::to_array<Text>({
     {"dish_cut_off", "The dish is cut off by the edge of the picture; move it into the middle."},
     {"too_blurred", "The picture is blurred; focus the camera and hold it still."},
     {"card_hidden",
-     "Part of the reference card is covered or cut off; lay it beside the dish, fully visible in both "
+     "Part of the reference card is covered, cut off or bent; lay it flat beside the dish, fully visible in "
+     "both "
      "pictures."},
     {"exposure_differs",
      "One picture is far brighter than the other; take both in the same light with the same exposure."},

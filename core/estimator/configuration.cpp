@@ -54,6 +54,7 @@ bool are_parameters_within_range(const Configuration& configuration) {
   RangeCheck check;
   visit_shared_parameters(configuration, check);
   visit_parameters_of(configuration.profile, configuration, check);
+  visit_segmentation_parameters(configuration.segmentation, check);
   return check.all_hold;
 }
 

@@ -8,6 +8,7 @@
 #include "core/base/status.hpp"
 #include "core/estimator/best/best_params.hpp"
 #include "core/estimator/label_agreement.hpp"
+#include "core/estimator/segmenter_params.hpp"
 #include "core/estimator/view_checks.hpp"
 #include "core/features/surf.hpp"
 #include "core/image/camera.hpp"
@@ -134,6 +135,7 @@ struct Configuration {
   ViewGeometryParams geometry;
   LabelAgreementParams label_agreement;
   BestParams best;
+  SegmenterParams segmentation;  // where no labels are given
 };
 
 // invalid_configuration when a value lies outside its range (core/estimator/parameters.hpp); surf_not_built

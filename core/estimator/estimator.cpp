@@ -23,8 +23,8 @@ Status start_view(EstimatorState& state, const ViewInput& input) {
     view.lens = lens;
     view.arm_angle_deg = input.arm_angle_deg;
     view.labels = input.labels;
-    return prepare_best_view(input.frame, state.configuration, state.best.pattern, state.best.preparation,
-                             state.preparation_clock, view);
+    return prepare_best_view({input.frame, input.gray, input.card}, state.configuration, state.best.pattern,
+                             state.best.preparation, state.preparation_clock, view);
   }
   PreparedView& view = state.view(state.views);
   view.lens = lens;
@@ -221,6 +221,16 @@ const Measurement& Estimator::estimate(std::uint64_t seed, StageTap* tap) {
   measurement_.stage_ms = clock.stage_ms();
   measurement_.total_ms = clock.total_ms();
   return measurement_;
+}
+
+ImageView<std::uint8_t> Estimator::gray_memory(std::size_t view) const {
+  const bool keeps_gray = state_ != nullptr && state_->configuration.profile == Profile::best;
+  return keeps_gray ? state_->best.views[view].gray_storage : ImageView<std::uint8_t>{};
+}
+
+const CardPattern* Estimator::card_pattern() const {
+  const bool is_best = state_ != nullptr && state_->configuration.profile == Profile::best;
+  return is_best ? &state_->best.pattern : nullptr;
 }
 
 void Estimator::reset() {

@@ -26,6 +26,10 @@ struct ViewInput {
   ImageView<const std::uint8_t> labels;
   std::optional<LensModel> lens;        // a camera of its own; else the configuration's
   std::optional<double> arm_angle_deg;  // commanded, about the arm's axis
+  // What a segmentation has made of the frame already; profile best takes it as it is. Grey values as
+  // convert_to_gray gives them, and where the card lies.
+  ImageView<const std::uint8_t> gray = {};
+  const CardAlignment* card = nullptr;
 };
 
 // Features from another detector, instead of SURF: pixels of the picture, descriptors of unit length.
@@ -75,6 +79,13 @@ class Estimator {
 
   // Measures the two views; the same input and seed give the same bits. Profile best shows `tap` its stages.
   const Measurement& estimate(std::uint64_t seed, StageTap* tap = nullptr);
+
+  // Memory for the grey picture of the first or second view, of the largest frame's size: a segmentation may
+  // leave it there before add_view. Empty in profile paper, which keeps none.
+  ImageView<std::uint8_t> gray_memory(std::size_t view) const;
+
+  // The card's pattern; null in profile paper, which keeps another, and where the configuration is refused.
+  const CardPattern* card_pattern() const;
 
   // Forgets both views.
   void reset();

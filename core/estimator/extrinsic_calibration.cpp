@@ -116,7 +116,7 @@ bool motion_of_card(const CardFit& fit, const CardPoseParams& params, ExtrinsicW
 }
 
 bool lies_on_card(const PreparedView& view, const Vec2& ray) {
-  const Vec2 pixel = view.lens.pinhole.pixel(view.lens.distort(ray));
+  const Vec2 pixel = view.lens.pixel(ray);
   const auto x = static_cast<int>(std::lround(pixel.x()));
   const auto y = static_cast<int>(std::lround(pixel.y()));
   return view.labels.contains(x, y) && view.labels.at(x, y) == kCardLabel;

@@ -27,7 +27,7 @@ constexpr std::array<WarningText, kWarningCount> kWarnings = {{
     {"pose_from_card", "The camera motion was taken from the card because the scene alone was ambiguous."},
     {"blurred", "A picture is blurred; focus the camera and hold it still."},
     {"underexposed", "A picture is dark; add light or expose longer."},
-    {"card_partly_hidden", "The outline of the reference card is not that of a whole card; uncover it."},
+    {"card_partly_hidden", "The reference card is not seen whole and flat; uncover it."},
     {"food_clipped", "Part of an item is burnt out or black; change the exposure or remove the glare."},
     {"little_texture", "Part of an item has too little texture to be matched, or too much noise over it."},
     {"exposure_differs", "One picture is much brighter than the other; keep light and exposure the same."},
@@ -36,6 +36,8 @@ constexpr std::array<WarningText, kWarningCount> kWarnings = {{
     {"item_hardly_matched",
      "Large parts of an item could not be found in both views, as on smooth, shining food; its volume may be "
      "far off."},
+    {"dish_not_found",
+     "A dish was not found whole in both pictures, and its food is not measured; see traygauge segment."},
 }};
 
 }  // namespace

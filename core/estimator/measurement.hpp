@@ -50,8 +50,9 @@ enum class Warning : std::uint8_t {
   exposure_differs,
   white_balance_differs,
   item_hardly_matched,  // large parts of an item were found in one view only
+  dish_not_found,       // labels drawn: one of several dishes; its food is not measured
 };
-inline constexpr std::size_t kWarningCount = static_cast<std::size_t>(Warning::item_hardly_matched) + 1;
+inline constexpr std::size_t kWarningCount = static_cast<std::size_t>(Warning::dish_not_found) + 1;
 const char* name(Warning warning);
 const char* sentence(Warning warning);
 
@@ -139,6 +140,7 @@ struct Measurement {
   double relative_angle_deg = 0.0;  // between the lines of sight, at the dish
   double rotation_angle_deg = 0.0;  // of the camera
   std::array<double, kStageCount> stage_ms{};
+  double segmentation_ms = 0.0;  // before the stages, where labels were drawn; part of the total
   double total_ms = 0.0;
   std::array<bool, kWarningCount> warnings{};
   MeasurementReport report;

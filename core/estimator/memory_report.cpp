@@ -5,14 +5,6 @@
 namespace traygauge {
 namespace {
 
-// Bytes that one part takes.
-template <class Allocate>
-std::size_t bytes_of(Allocate&& allocate) {
-  ArenaPlan plan;
-  allocate(plan);
-  return plan.high_water_bytes();
-}
-
 std::array<MemoryRow, kMemoryRowCount> describe_best(const Configuration& configuration) {
   BestMemory memory;
   const auto view = bytes_of([&](ArenaPlan& plan) { memory.views[0].allocate(plan, configuration.limits); });

@@ -5,6 +5,7 @@
 #include "core/estimator/best/sparse_parameters.hpp"
 #include "core/estimator/configuration.hpp"
 #include "core/estimator/paper_parameters.hpp"
+#include "core/estimator/segmenter_parameters.hpp"
 
 namespace traygauge {
 
@@ -31,7 +32,6 @@ void visit_parameters_of(Profile profile, Config& c, Visit&& visit) {
   visit_tracking_parameters(c.best, visit);
   visit_joint_parameters(c.best, visit);
   visit_surface_parameters(c.best, visit);
-  visit_matching_parameters(c.best, visit);
   visit_height_parameters(c.best, visit);
   visit_round_body_parameters(c.best, visit);
   visit_volume_parameters(c.best, visit);

@@ -4,6 +4,9 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/estimator/best/dish_views.hpp"
+#include "core/estimator/view_input.hpp"
+#include "core/image/exposure.hpp"
 #include "core/image/resample.hpp"
 #include "core/scale/card_hypotheses.hpp"
 #include "core/segmentation/convex_fill.hpp"
@@ -21,17 +24,13 @@ CardModelSize size_of(const ReferenceCard& card) {
   return {card.width_mm, card.height_mm, card.thickness_mm};
 }
 
-Vec2 pixel_of(const Vec2& ray, const LensModel& lens) {
-  return lens.pinhole.pixel(lens.distort(ray));
-}
-
 // Four straight sides through the lens.
 std::array<Vec2, 4 * kCardSideCorners> outline_of(const std::array<Vec2, 4>& corners, const LensModel& lens) {
   std::array<Vec2, 4 * kCardSideCorners> outline;
   for (std::size_t i = 0; i < outline.size(); ++i) {
     const std::size_t side = i / kCardSideCorners;
     const double t = static_cast<double>(i % kCardSideCorners) / kCardSideCorners;
-    outline[i] = pixel_of((1.0 - t) * corners[side] + t * corners[(side + 1) % 4], lens);
+    outline[i] = lens.pixel((1.0 - t) * corners[side] + t * corners[(side + 1) % 4]);
   }
   return outline;
 }
@@ -43,6 +42,12 @@ std::array<Vec2, 4> corners_of(const Pose& camera_from_table, const CardModelSiz
   return corners;
 }
 
+bool is_within(const FrameView& frame, std::span<const Vec2> outline_px) {
+  return std::all_of(outline_px.begin(), outline_px.end(), [&](const Vec2& corner) {
+    return corner.minCoeff() > 0.0 && corner.x() < frame.width - 1 && corner.y() < frame.height - 1;
+  });
+}
+
 using RimOutline = std::array<Vec2, kRimCorners>;
 
 // A ring parallel to the rim, in pixels.
@@ -51,9 +56,9 @@ RimOutline rim_outline(const DishPlace& place, const DishSearchView& camera, dou
   RimOutline outline;
   for (std::size_t i = 0; i < outline.size(); ++i) {
     const double angle = 2.0 * std::numbers::pi * static_cast<double>(i) / kRimCorners;
-    Vec3 point = rim_point_mm(place, {std::cos(angle), std::sin(angle)}, beyond_mm);
+    Vec3 point = rim_normal(place, {std::cos(angle), std::sin(angle)}).beyond(beyond_mm);
     point.z() += above_mm;
-    outline[i] = pixel_of((camera.camera_from_table * point).hnormalized(), camera.lens);
+    outline[i] = camera.lens.pixel((camera.camera_from_table * point).hnormalized());
   }
   return outline;
 }
@@ -64,94 +69,87 @@ void clear(ImageView<std::uint8_t> labels) {
 
 }  // namespace
 
-template <class Allocator>
-constexpr void Segmenter::Memory::allocate(Allocator& arena, const Configuration& configuration,
-                                           const SegmenterParams& params) {
-  const EstimatorLimits& limits = configuration.limits;
-  pattern.allocate(arena, configuration.best.card.pattern);
-  print.allocate(arena, params.card);
-  dish.allocate(arena, params.dish);
-  gray = arena.template take_image<std::uint8_t>(limits.max_frame_width, limits.max_frame_height);
-  alignment.allocate(arena, configuration.best.card);
-  const std::size_t shared = arena.mark();
-  card.allocate(arena, limits.max_frame_width, limits.max_frame_height, params.card);
-  arena.rewind(shared);
-  food.allocate(arena, params.food);
-  cells = arena.template take<std::uint8_t>(static_cast<std::size_t>(params.food.raster.max_cells));
-}
-
-std::size_t segmenter_bytes(const Configuration& configuration, const SegmenterParams& params) {
-  ArenaPlan plan;
-  Segmenter::Memory memory;
-  memory.allocate(plan, configuration, params);
-  return plan.high_water_bytes();
-}
-
 Segmenter::Segmenter(std::span<std::byte> block, const Configuration& configuration,
-                     const SegmenterParams& params)
-    : configuration_(configuration), params_(params) {
+                     const CardPattern& pattern)
+    : configuration_(configuration), pattern_(pattern) {
   status_ = validate(configuration);
   if (!status_.ok()) return;
   std::copy(configuration.dishes.begin(), configuration.dishes.end(), dishes_.begin());
   configuration_.dishes = std::span<const DishModel>(dishes_).first(configuration.dishes.size());
   configuration_.card.pattern = {};
   Arena arena(block);
-  memory_.allocate(arena, configuration_, params_);
+  memory_.allocate(arena, configuration_);
   if (arena.exhausted()) {
     status_ = StatusCode::out_of_memory;
     return;
   }
-  status_ = prepare_card_pattern(configuration.card.pattern, size_of(configuration.card),
-                                 configuration.best.card.pattern, memory_.pattern);
-  if (status_.ok()) status_ = learn_print_corners(memory_.pattern, params_.card, memory_.card, memory_.print);
+  status_ = learn_print_corners(pattern_, params_.card, memory_.card.search, memory_.print);
 }
 
-const Segmentation& Segmenter::segment(const std::array<SegmentedView, 2>& views) {
-  result_ = {};
-  result_.status = status_;
+Status Segmenter::add_view(const SegmentedView& view) {
+  if (!status_.ok()) return status_;
+  if (view_count_ == views_.size()) return StatusCode::invalid_configuration;
   StageClock clock;
-  DishSearchViews cameras;
   clock.enter(Stage::scale);
-  for (std::size_t v = 0; v < 2 && result_.status.ok(); ++v) {
-    cameras[v].frame = views[v].frame;
-    cameras[v].lens = views[v].lens.value_or(configuration_.lens);
-    result_.status = find_card(views[v], cameras[v].lens, v);
-    cameras[v].camera_from_table = result_.cards[v].camera_from_table;
-  }
-  if (result_.status.ok()) {
-    clock.enter(Stage::surface);
-    result_.status = find_dishes(cameras);
-  }
+  const std::size_t index = view_count_++;
+  const LensModel lens = view.lens.value_or(configuration_.lens);
+  views_[index] = view;
+  Status status = check_view(view, lens);
+  if (status.ok()) status = find_card(view, lens, index);
+  const FrameView gray{view.gray.data, view.gray.width, view.gray.height, view.gray.stride,
+                       PixelFormat::gray8};
+  cameras_[index] = {gray, lens, result_.cards[index].camera_from_table};
+  if (result_.status.ok()) result_.status = status;
+  clock.stop();
+  result_.card_ms += clock.total_ms();
+  return status;
+}
+
+void Segmenter::reset() {
+  view_count_ = 0;
+  result_ = {};
+}
+
+const Segmentation& Segmenter::segment() {
+  if (!status_.ok()) result_.status = status_;
+  if (result_.status.ok() && view_count_ != views_.size()) result_.status = StatusCode::frame_missing;
+  if (!result_.status.ok()) return result_;
+  StageClock clock;
+  clock.enter(Stage::surface);
+  result_.status = find_dishes(cameras_);
   if (result_.status.ok()) {
     clock.enter(Stage::volume);
-    draw_dishes(views, cameras);
-    draw_food(views, cameras);
+    draw_items(params_.food);
+    if (params_.items > 0) meet_hint();
     if (result_.items == 0) result_.status = StatusCode::no_food_label;
   }
+  if (!result_.status.ok() && result_.is_card_doubtful) result_.status = StatusCode::card_hidden;
   clock.stop();
-  result_.card_ms = clock.stage_ms()[static_cast<std::size_t>(Stage::scale)];
   result_.dish_ms = clock.stage_ms()[static_cast<std::size_t>(Stage::surface)];
   result_.food_ms = clock.stage_ms()[static_cast<std::size_t>(Stage::volume)];
   return result_;
 }
 
+Status Segmenter::check_view(const SegmentedView& view, const LensModel& lens) const {
+  const FrameView& frame = view.frame;
+  if (const Status status = check_sizes(frame, view.labels, lens, configuration_.limits); !status.ok())
+    return status;
+  if (view.gray.width != frame.width || view.gray.height != frame.height)
+    return StatusCode::frame_size_mismatch;
+  convert_to_gray(frame, view.gray);
+  return check_exposure(view.gray, configuration_.exposure);
+}
+
 // The search gives the outline to a pixel or two; the alignment of the print, which a labelled card gets
 // anyway, the rest.
 Status Segmenter::find_card(const SegmentedView& view, const LensModel& lens, std::size_t index) {
-  const FrameView& frame = view.frame;
-  if (frame.width != lens.width || frame.height != lens.height || frame.width > memory_.gray.width ||
-      frame.height > memory_.gray.height || view.labels.width != frame.width ||
-      view.labels.height != frame.height) {
-    return StatusCode::frame_size_mismatch;
-  }
-  const ImageView<std::uint8_t> gray{memory_.gray.data, frame.width, frame.height};
-  convert_to_gray(frame, gray);
+  const ImageView<const std::uint8_t> gray = view.gray;
   clear(view.labels);
-  collect_rim_edges(gray, lens, params_.dish.edges, memory_.dish.edge_search, memory_.dish.edges[index]);
+  collect_rim_edges(gray, lens, params_.dish.edges, memory_.card.edges, memory_.edges[index]);
   const CardModelSize size = size_of(configuration_.card);
   std::array<Vec2, 4> corners;
-  Status status = search_card(gray, lens, size, memory_.print, params_.card, configuration_.card_search,
-                              memory_.card, corners);
+  const Status status = search_card(gray, lens, size, memory_.print, params_.card, configuration_.card_search,
+                                    memory_.card.search, corners);
   if (!status.ok()) return status;
   // An outline that is off by some pixels may end in a print half aligned, which a second start mends.
   CardAlignment& card = result_.cards[index];
@@ -159,8 +157,8 @@ Status Segmenter::find_card(const SegmentedView& view, const LensModel& lens, st
     clear(view.labels);
     fill_convex(view.labels, outline_of(corners, lens), kCardLabel);
     CardAlignment aligned;
-    const Status reached = align_card(gray, view.labels, measure_regions(view.labels).card, lens,
-                                      memory_.pattern, configuration_.best.card, memory_.alignment, aligned);
+    const Status reached = align_card(gray, view.labels, measure_regions(view.labels).card, lens, pattern_,
+                                      configuration_.best.card, memory_.card.alignment, aligned);
     if (!reached.ok() && round == 0) return reached;
     if (!reached.ok() || aligned.correlation <= card.correlation) break;
     card = aligned;
@@ -168,13 +166,17 @@ Status Segmenter::find_card(const SegmentedView& view, const LensModel& lens, st
     if (card.correlation >= params_.sure_correlation) break;
   }
   clear(view.labels);
-  fill_convex(view.labels, outline_of(corners, lens), kCardLabel);
-  return StatusCode::ok;
+  const auto outline = outline_of(corners, lens);
+  fill_convex(view.labels, outline, kCardLabel);
+  if (card.correlation < params_.sure_card_correlation) result_.is_card_doubtful = true;
+  return is_within(view.frame, outline) ? StatusCode::ok : StatusCode::card_hidden;
 }
 
 Status Segmenter::find_dishes(const DishSearchViews& views) {
   std::array<FoundDish, kMaxPlacedDishes> taken;
+  result_.dish_count = 0;
   std::size_t taken_count = 0;
+  std::size_t found_count = 0;
   std::span<const DishModel> rest = configuration_.dishes;
   while (!rest.empty()) {
     const std::uint8_t label = rest.front().label;
@@ -185,13 +187,19 @@ Status Segmenter::find_dishes(const DishSearchViews& views) {
     if (result_.dish_count == kMaxPlacedDishes) return StatusCode::too_many_dishes;
     SegmentedDish& dish = result_.dishes[result_.dish_count++];
     dish.label = label;
-    dish.status = search_dish(views, candidates, std::span(taken).first(taken_count), params_.dish,
-                              memory_.dish, dish.found);
+    dish.status = search_dish(views, memory_.edges, candidates, std::span(taken).first(taken_count),
+                              params_.dish, memory_.dish, dish.found);
     if (!dish.status.ok()) continue;
     dish.model = candidates[static_cast<std::size_t>(dish.found.candidate)];
     taken[taken_count++] = dish.found;
+    for (const DishSearchView& view : views) {
+      if (!is_within(view.frame, rim_outline(dish.found.place, view, 0.0, 0.0)))
+        dish.status = StatusCode::dish_cut_off;
+    }
+    if (dish.status.ok()) ++found_count;
   }
-  return taken_count > 0 ? StatusCode::ok : StatusCode::rim_not_found;
+  if (found_count > 0) return StatusCode::ok;
+  return taken_count > 0 ? StatusCode::dish_cut_off : StatusCode::rim_not_found;
 }
 
 void Segmenter::draw_dishes(const std::array<SegmentedView, 2>& views, const DishSearchViews& cameras) {
@@ -203,35 +211,61 @@ void Segmenter::draw_dishes(const std::array<SegmentedView, 2>& views, const Dis
   }
 }
 
-void Segmenter::draw_food(const std::array<SegmentedView, 2>& views, const DishSearchViews& cameras) {
+void Segmenter::draw_items(const FoodOutlineParams& params) {
+  result_.items = 0;
+  draw_dishes(views_, cameras_);
+  draw_food(views_, cameras_, params);
+}
+
+void Segmenter::draw_food(const std::array<SegmentedView, 2>& views, const DishSearchViews& cameras,
+                          const FoodOutlineParams& params) {
+  const std::array<LabelRegions, 2> regions = {measure_regions(views[0].labels),
+                                               measure_regions(views[1].labels)};
   for (std::size_t d = 0; d < result_.dish_count; ++d) {
-    const SegmentedDish& dish = result_.dishes[d];
+    SegmentedDish& dish = result_.dishes[d];
+    dish.items = 0;
     if (!dish.status.ok()) continue;
     const auto first = static_cast<std::uint8_t>(kFirstItemLabel + result_.items);
     const int room = kLastItemLabel + 1 - first;
+    DishInViews scene;
+    scene.inner.place = frame_of(dish.found.place);
+    if (!scene.inner.profile.set(dish.model).ok()) continue;
+    for (std::size_t v = 0; v < 2; ++v) {
+      scene.stored[v] = {views[v].gray, views[v].labels, regions[v].boxes[dish.label], cameras[v].lens,
+                         cameras[v].camera_from_table};
+    }
+    LabelTable kept{};
+    kept[dish.label] = kDishLabel;
+    // Without a relief colour has to do.
+    if (!measure_relief(scene.stored, kept, scene.inner, params_.relief, memory_.food.relief, scene.relief)
+             .ok())
+      scene.relief = {};
     DishRaster raster;
     ImageView<std::uint8_t> cells;
-    if (!outline_view(views[0], cameras[0], dish, raster, cells)) continue;
-    const int items = label_items(raster, params_.food, memory_.food, first, room, cells);
+    if (!outline_view(views[0].frame, cameras[0], dish, scene, 0, raster, cells)) continue;
+    const ImageView<const ReliefSample> laid{memory_.food.outline.relief.data(), raster.width(),
+                                             raster.height()};
+    const int items = label_items(raster, laid, params, memory_.food.outline, first, room, cells);
     draw_cells(raster, cells, dish.label, views[0].labels);
-    if (!outline_view(views[1], cameras[1], dish, raster, cells)) continue;
+    if (!outline_view(views[1].frame, cameras[1], dish, scene, 1, raster, cells)) continue;
     carry_labels(raster, cameras, views[0].labels, dish, cells);
-    spread_items(raster, params_.food, memory_.food, cells);
+    spread_items(raster, params, memory_.food.outline, cells);
     draw_cells(raster, cells, dish.label, views[1].labels);
-    result_.items += keep_confirmed(views, first, items, dish.label);
+    dish.items = keep_confirmed(views, first, items, dish.label);
+    result_.items += dish.items;
   }
 }
 
 // Food and glaze of one dish in one view, as outline_food marks them.
-bool Segmenter::outline_view(const SegmentedView& view, const DishSearchView& camera,
-                             const SegmentedDish& dish, DishRaster& raster, ImageView<std::uint8_t>& cells) {
+bool Segmenter::outline_view(const FrameView& frame, const DishSearchView& camera, const SegmentedDish& dish,
+                             const DishInViews& scene, std::size_t v, DishRaster& raster,
+                             ImageView<std::uint8_t>& cells) {
   const DishPlace& place = dish.found.place;
-  DishProfile profile;
-  if (!profile.set(dish.model).ok()) return false;
+  const DishProfile& profile = scene.inner.profile;
   RimOutline outline = rim_outline(place, camera, 0.0, 0.0);
   const Vec3 middle = camera.camera_from_table * Vec3(place.centre_mm.x(), place.centre_mm.y(), 0.0);
   const double px_per_mm = camera.lens.pinhole.mean_focal_px() / middle.z();
-  if (!load_dish_raster(view.frame, outline, px_per_mm, params_.food.raster, memory_.food.raster, raster))
+  if (!load_dish_raster(frame, outline, px_per_mm, params_.food.raster, memory_.food.outline.raster, raster))
     return false;
   mark_zone(raster, outline, DishZone::edge);
   const double edge_mm = profile.height_at_inset_mm(0.0);
@@ -246,8 +280,10 @@ bool Segmenter::outline_view(const SegmentedView& view, const DishSearchView& ca
   mark_zone(raster, outline, DishZone::flange);
   outline = ring(std::max(well_mm, params_.flange_begin_mm + params_.min_flange_mm));
   mark_zone(raster, outline, DishZone::inside);
-  cells = {memory_.cells.data(), raster.width(), raster.height()};
-  return outline_food(raster, params_.food, memory_.food, cells);
+  cells = {memory_.food.cells.data(), raster.width(), raster.height()};
+  const ImageView<ReliefSample> laid{memory_.food.outline.relief.data(), raster.width(), raster.height()};
+  lay_relief(scene.relief, v, scene.stored[v], raster, laid);
+  return outline_food(raster, laid, params_.food, memory_.food.outline, cells);
 }
 
 // Seeds for the second view: food that lies on the same item in the first view, whether it is low or high.
@@ -268,7 +304,7 @@ void Segmenter::carry_labels(const DishRaster& raster, const DishSearchViews& ca
       for (const double height_mm : params_.food_heights_mm) {
         const double depth = (bottom_mm + height_mm - table_from_second.translation.z()) / direction.z();
         const Vec3 point = cameras[0].camera_from_table * (table_from_second.translation + depth * direction);
-        const Vec2 pixel = pixel_of(point.hnormalized(), cameras[0].lens);
+        const Vec2 pixel = cameras[0].lens.pixel(point.hnormalized());
         const int px = static_cast<int>(std::lround(pixel.x()));
         const int py = static_cast<int>(std::lround(pixel.y()));
         const std::uint8_t seen = first_labels.contains(px, py) ? first_labels.at(px, py) : kBackgroundLabel;
@@ -312,8 +348,13 @@ int Segmenter::keep_confirmed(const std::array<SegmentedView, 2>& views, std::ui
     renamed[label] =
         fewer > params_.min_confirmed_share * more ? static_cast<std::uint8_t>(first + kept++) : dish;
   }
-  if (kept == items) return kept;
-  for (const SegmentedView& view : views) {
+  if (kept < items) rename_items(first, items, renamed);
+  return kept;
+}
+
+void Segmenter::rename_items(std::uint8_t first, int items,
+                             const std::array<std::uint8_t, 256>& renamed) const {
+  for (const SegmentedView& view : views_) {
     for (int y = 0; y < view.labels.height; ++y) {
       for (int x = 0; x < view.labels.width; ++x) {
         std::uint8_t& label = view.labels.at(x, y);
@@ -321,7 +362,6 @@ int Segmenter::keep_confirmed(const std::array<SegmentedView, 2>& views, std::ui
       }
     }
   }
-  return kept;
 }
 
 }  // namespace traygauge

@@ -3,45 +3,26 @@
 // (ICIAP workshops 2015). What it draws is then measured as if a person had drawn it.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>
 
-#include "core/base/arena.hpp"
 #include "core/base/status.hpp"
 #include "core/estimator/configuration.hpp"
+#include "core/estimator/segmenter_memory.hpp"
 #include "core/estimator/stage_clock.hpp"
 #include "core/scale/card_alignment.hpp"
-#include "core/scale/card_search.hpp"
-#include "core/segmentation/food_outline.hpp"
-#include "core/surface/dish_search.hpp"
 
 namespace traygauge {
 
-struct SegmenterParams {
-  CardSearchParams card;
-  DishSearchParams dish;
-  FoodOutlineParams food;
-  // Insets from the outer edge between which a flange counts as such, and the depth below it where the well
-  // begins.
-  double flange_begin_mm = 2.5;
-  double flange_depth_mm = 6.0;
-  double min_flange_mm = 4.0;
-  // Over the bottom of the dish, between which food is seen; what is carried to the other view counts where
-  // both lead to the same item.
-  std::array<double, 2> food_heights_mm{3.0, 22.0};
-  double min_confirmed_share = 0.2;  // of an item's pixels in one view over the other's
-  int max_alignments = 3;            // of the card, each from the outline that the last one gave
-  // Of print and picture, from which the card's place is sure; a print out of focus or hidden reaches less.
-  double sure_correlation = 0.9;
-};
-
-// A picture to be labelled. `labels` has the frame's size; both belong to the caller.
+// A picture to be labelled. All three are of one size and belong to the caller, until segment() returns.
 struct SegmentedView {
   FrameView frame;
   ImageView<std::uint8_t> labels;
+  ImageView<std::uint8_t> gray;   // the picture's grey values, which a measurement needs as well
   std::optional<LensModel> lens;  // a camera of its own; else the configuration's
 };
 
@@ -50,12 +31,14 @@ struct SegmentedDish {
   Status status;
   FoundDish found;
   DishModel model;  // as described, where it was found
+  int items = 0;    // that lie on it: their labels follow those of the dish before
 };
 
 // What a segmentation found; the labels themselves are in the caller's pictures.
 struct Segmentation {
   Status status;
   std::array<CardAlignment, 2> cards;
+  bool is_card_doubtful = false;  // in one of the views: part of its print is covered, or out of its place
   std::array<SegmentedDish, kMaxPlacedDishes> dishes;
   std::size_t dish_count = 0;
   int items = 0;  // labels from kFirstItemLabel on
@@ -63,64 +46,78 @@ struct Segmentation {
   double dish_ms = 0.0;
   double food_ms = 0.0;
 
+  bool has_all_dishes() const {
+    return std::all_of(dishes.begin(), dishes.begin() + static_cast<std::ptrdiff_t>(dish_count),
+                       [](const SegmentedDish& dish) { return dish.status.ok(); });
+  }
   double total_ms() const { return card_ms + dish_ms + food_ms; }
 };
 
 // Not thread-safe. Nothing allocates, construction included.
 class Segmenter {
  public:
-  // `block` holds segmenter_bytes(configuration, params), aligned to kArenaAlignmentBytes, and outlives the
-  // segmenter; of `configuration`, card, dishes, lens, limits and best.card are read. Check status() before
-  // use.
-  Segmenter(std::span<std::byte> block, const Configuration& configuration,
-            const SegmenterParams& params = {});
+  Segmenter(const Segmenter&) = delete;
+  Segmenter& operator=(const Segmenter&) = delete;
+  // `block` holds segmenter_bytes(configuration), aligned to kArenaAlignmentBytes, and outlives the
+  // segmenter; of `configuration`, card, dishes, lens, limits, exposure, view_checks, segmentation and
+  // best.card are read. `pattern` is the card's as an estimator has it, and outlives the segmenter, too.
+  // Check status() before use.
+  Segmenter(std::span<std::byte> block, const Configuration& configuration, const CardPattern& pattern);
 
   Status status() const { return status_; }
 
-  // Labels both views. card_not_found, rim_not_found (no dish at all), no_food_label; frames of another size
-  // than the lens: frame_size_mismatch.
-  const Segmentation& segment(const std::array<SegmentedView, 2>& views);
+  // Takes the first, then the second view: makes its grey picture and finds its card. frame_size_mismatch:
+  // of another size than the lens or the pictures to be filled; frame_too_dark, frame_too_bright;
+  // card_not_found; card_hidden where it is cut off. What fails here is also what segment()
+  // reports. A third view is refused (invalid_configuration) and changes nothing.
+  Status add_view(const SegmentedView& view);
+  // Draws the labels of both views. rim_not_found (no dish at all), dish_cut_off (none whole), no_food_label;
+  // card_hidden instead of each where a card is doubtful.
+  const Segmentation& segment();
+  // Of the view that was added first or second.
+  const CardAlignment& card(std::size_t view) const { return result_.cards[view]; }
+  // Forgets both views.
+  void reset();
 
  private:
-  struct Memory {
-    CardPattern pattern;
-    PrintCorners print;
-    ImageView<std::uint8_t> gray;
-    CardAlignmentWorkspace alignment;
-    CardSearchWorkspace card;
-    DishSearchWorkspace dish;
-    FoodOutlineWorkspace food;
-    std::span<std::uint8_t> cells;
-
-    template <class Allocator>
-    constexpr void allocate(Allocator& arena, const Configuration& configuration,
-                            const SegmenterParams& params);
+  // One dish as both views show it.
+  struct DishInViews {
+    InnerSurface inner;
+    std::array<StoredView, 2> stored;
+    DishRelief relief;
   };
-  friend std::size_t segmenter_bytes(const Configuration& configuration, const SegmenterParams& params);
 
+  Status check_view(const SegmentedView& view, const LensModel& lens) const;
   Status find_card(const SegmentedView& view, const LensModel& lens, std::size_t index);
   Status find_dishes(const DishSearchViews& views);
   void draw_dishes(const std::array<SegmentedView, 2>& views, const DishSearchViews& cameras);
-  void draw_food(const std::array<SegmentedView, 2>& views, const DishSearchViews& cameras);
-  bool outline_view(const SegmentedView& view, const DishSearchView& camera, const SegmentedDish& dish,
-                    DishRaster& raster, ImageView<std::uint8_t>& cells);
+  void draw_items(const FoodOutlineParams& params);
+  void meet_hint();
+  bool join_most_alike();
+  void draw_food(const std::array<SegmentedView, 2>& views, const DishSearchViews& cameras,
+                 const FoodOutlineParams& params);
+  bool outline_view(const FrameView& frame, const DishSearchView& camera, const SegmentedDish& dish,
+                    const DishInViews& scene, std::size_t v, DishRaster& raster,
+                    ImageView<std::uint8_t>& cells);
   void carry_labels(const DishRaster& raster, const DishSearchViews& cameras,
                     ImageView<const std::uint8_t> first_labels, const SegmentedDish& dish,
                     ImageView<std::uint8_t> cells) const;
   int keep_confirmed(const std::array<SegmentedView, 2>& views, std::uint8_t first, int items,
                      std::uint8_t dish) const;
+  void rename_items(std::uint8_t first, int items, const std::array<std::uint8_t, 256>& renamed) const;
   static void draw_cells(const DishRaster& raster, ImageView<const std::uint8_t> cells, std::uint8_t dish,
                          ImageView<std::uint8_t> labels);
 
   Configuration configuration_;
-  SegmenterParams params_;
+  const SegmenterParams& params_ = configuration_.segmentation;
   std::array<DishModel, kMaxDishCandidates> dishes_{};
-  Memory memory_;
+  SegmenterMemory memory_;
+  const CardPattern& pattern_;
   Status status_;
+  std::array<SegmentedView, 2> views_;
+  DishSearchViews cameras_;
+  std::size_t view_count_ = 0;
   Segmentation result_;
 };
-
-// Bytes that a segmenter takes from its block.
-std::size_t segmenter_bytes(const Configuration& configuration, const SegmenterParams& params = {});
 
 }  // namespace traygauge

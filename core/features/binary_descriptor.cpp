@@ -17,10 +17,6 @@ Vec2 one_turn() {
   return {cosine, std::sqrt(1.0 - cosine * cosine)};
 }
 
-Vec2 turned_by(const Vec2& v, const Vec2& turn) {
-  return {turn.x() * v.x() - turn.y() * v.y(), turn.y() * v.x() + turn.x() * v.y()};
-}
-
 std::array<std::int8_t, 2> rounded(const Vec2& v) {
   return {static_cast<std::int8_t>(std::lround(v.x())), static_cast<std::int8_t>(std::lround(v.y()))};
 }

@@ -4,7 +4,6 @@
 #pragma once
 
 #include <array>
-#include <bit>
 #include <cstdint>
 
 #include "core/base/geometry.hpp"
@@ -17,10 +16,24 @@ inline constexpr int kBinaryTurns = 32;        // steps of orientation that the 
 
 using BinaryDescriptor = std::array<std::uint64_t, 4>;
 
+// Bits that differ in the words `first` to `end`. Counted in bytes that are added up once: a processor that
+// is not known to count bits would be asked for each word by a call.
+inline int hamming_distance(const BinaryDescriptor& a, const BinaryDescriptor& b, std::size_t first,
+                            std::size_t end) {
+  std::uint64_t bytes = 0;
+  for (std::size_t i = first; i < end; ++i) {
+    std::uint64_t bits = a[i] ^ b[i];
+    bits -= bits >> 1U & 0x5555555555555555U;
+    bits = (bits & 0x3333333333333333U) + (bits >> 2U & 0x3333333333333333U);
+    bytes += (bits + (bits >> 4U)) & 0x0F0F0F0F0F0F0F0FU;
+  }
+  // At most 32 a byte; all eight together may need more than a byte.
+  const std::uint64_t pairs = (bytes & 0x00FF00FF00FF00FFU) + (bytes >> 8U & 0x00FF00FF00FF00FFU);
+  return static_cast<int>(pairs * 0x0001000100010001U >> 48U);
+}
+
 inline int hamming_distance(const BinaryDescriptor& a, const BinaryDescriptor& b) {
-  int distance = 0;
-  for (std::size_t i = 0; i < a.size(); ++i) distance += std::popcount(a[i] ^ b[i]);
-  return distance;
+  return hamming_distance(a, b, 0, a.size());
 }
 
 // Which places of the patch are compared, for every turn. 32 KiB.

@@ -31,6 +31,8 @@ struct LensModel {
 
   // Where the lens moves an ideal ray.
   Vec2 distort(const Vec2& ray) const;
+  // Where the stored picture shows an ideal ray.
+  Vec2 pixel(const Vec2& ray) const { return pinhole.pixel(distort(ray)); }
   // The ideal ray behind a pixel of the stored picture; false where the model cannot be inverted there.
   bool undistort_pixel(const Vec2& pixel, Vec2& ray) const;
 };

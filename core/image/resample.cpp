@@ -22,7 +22,7 @@ struct PositionBlock {
 };
 
 Vec2 frame_position(const LensModel& lens, const PinholeCamera& camera, const Vec2& target_pixel) {
-  return lens.pinhole.pixel(lens.distort(camera.ray(target_pixel)));
+  return lens.pixel(camera.ray(target_pixel));
 }
 
 // As frame_position, for kBlock pixels in single precision, written to vectorise.

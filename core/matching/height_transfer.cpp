@@ -46,7 +46,7 @@ bool HeightTransfer::project(const Vec3& point_mm, Vec2& pixel) const {
   if (!(seen.z() > kNearestMm)) return false;
   const Vec2 ray = seen.head<2>() / seen.z();
   if (!(ray.squaredNorm() < kLargestRay * kLargestRay)) return false;
-  pixel = second_.pinhole.pixel(second_.distort(ray));
+  pixel = second_.pixel(ray);
   return pixel.allFinite();
 }
 

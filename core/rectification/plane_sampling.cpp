@@ -126,7 +126,7 @@ void PlaneRectification::sample_gray(const StoredView& source, ImageView<std::ui
   Positions positions;
   const auto position = [&](double row, double column) {
     const Vec3 ray = source.camera_from_table * plane_point(row, column);
-    return source.lens.pinhole.pixel(source.lens.distort(Vec2(ray.x() / ray.z(), ray.y() / ray.z())));
+    return source.lens.pixel(Vec2(ray.x() / ray.z(), ray.y() / ray.z()));
   };
   const int most = std::clamp(max_samples_per_axis_, 1, 4);
   for (int r = 0; r < rows(); ++r) {

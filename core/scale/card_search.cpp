@@ -1,7 +1,9 @@
 #include "core/scale/card_search.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstring>
 
 #include <Eigen/LU>
 
@@ -13,15 +15,6 @@
 
 namespace traygauge {
 namespace {
-
-// A turn as a complex number of length one: b's direction seen from a's.
-Vec2 turn_from(const Vec2& a, const Vec2& b) {
-  return {a.x() * b.x() + a.y() * b.y(), a.x() * b.y() - a.y() * b.x()};
-}
-
-Vec2 turned(const Vec2& v, const Vec2& turn) {
-  return {turn.x() * v.x() - turn.y() * v.y(), turn.y() * v.x() + turn.x() * v.y()};
-}
 
 // Shrinks `source` into `storage`.
 ImageView<std::uint8_t> reduced(ImageView<const std::uint8_t> source, double scale,
@@ -53,9 +46,18 @@ void for_each_corner(ImageView<const std::uint8_t> picture, const BinarySampling
   }
 }
 
+// Of eight bytes up to 128, the highest bit of those that are at most `limit`; the first byte lowest.
+std::uint64_t bytes_up_to(int limit, const std::uint8_t* bytes) {
+  static_assert(std::endian::native == std::endian::little);
+  std::uint64_t eight = 0;
+  std::memcpy(&eight, bytes, sizeof(eight));
+  const auto rest = static_cast<std::uint64_t>(127 - std::min(limit, 127));
+  return ~(eight + 0x0101010101010101U * rest) & 0x8080808080808080U;
+}
+
 // The print's corner that differs least, and clearly less than those elsewhere on the print; nullptr when
 // there is none. `ratio` of the two distances.
-const PrintCorner* find_like(const BinaryDescriptor& descriptor, std::span<const PrintCorner> print,
+const PrintCorner* find_like(const BinaryDescriptor& descriptor, const PrintCorners& print,
                              const CardSearchParams& params, double& ratio) {
   const auto is_elsewhere = [&](const PrintCorner& a, const PrintCorner& b) {
     return (a.pattern_mm - b.pattern_mm).squaredNorm() > params.same_place_mm * params.same_place_mm;
@@ -63,18 +65,27 @@ const PrintCorner* find_like(const BinaryDescriptor& descriptor, std::span<const
   const PrintCorner* nearest = nullptr;
   int least = 256;
   int least_elsewhere = 256;
-  for (const PrintCorner& corner : print) {
-    const int half = std::popcount(descriptor[0] ^ corner.descriptor[0]) +
-                     std::popcount(descriptor[1] ^ corner.descriptor[1]);
-    if (half > params.max_half_distance) continue;
-    const int distance = half + std::popcount(descriptor[2] ^ corner.descriptor[2]) +
-                         std::popcount(descriptor[3] ^ corner.descriptor[3]);
+  const auto compare = [&](const PrintCorner& corner, int half) {
+    const int distance =
+        half + hamming_distance(descriptor, corner.descriptor, kHalfWords, descriptor.size());
     if (distance < least) {
       if (nearest != nullptr && is_elsewhere(*nearest, corner)) least_elsewhere = least;
       least = distance;
       nearest = &corner;
     } else if (distance < least_elsewhere && is_elsewhere(*nearest, corner)) {
       least_elsewhere = distance;
+    }
+  };
+  const std::span<const PrintCorner> corners = print.corners.items();
+  const DescriptorBlock::Spread spread = DescriptorBlock::spread(descriptor);
+  for (std::size_t begin = 0; begin < corners.size(); begin += DescriptorBlock::kSide) {
+    const DescriptorBlock::Distances halves = print.blocks[begin / DescriptorBlock::kSide].distances(spread);
+    for (std::size_t eight = 0; eight < halves.size(); eight += 8) {
+      std::uint64_t near = bytes_up_to(params.max_half_distance, &halves[eight]);
+      for (; near != 0; near &= near - 1) {
+        const std::size_t i = eight + static_cast<std::size_t>(std::countr_zero(near)) / 8;
+        if (begin + i < corners.size()) compare(corners[begin + i], halves[i]);
+      }
     }
   }
   ratio = static_cast<double>(least) / std::max(1, least_elsewhere);
@@ -83,12 +94,14 @@ const PrintCorner* find_like(const BinaryDescriptor& descriptor, std::span<const
 
 // Whether two matches may show the same card: each has its turn and scale, and lies where the other puts it.
 bool agrees(const CardSearchMatch& a, const CardSearchMatch& b, const CardSearchParams& params) {
-  const double ratio = a.px_per_mm / b.px_per_mm;
-  if (std::max(ratio, 1.0 / ratio) > params.max_scale_ratio) return false;
   if (a.turn.dot(b.turn) < params.min_turn_cosine) return false;
-  const Vec2 away = a.px_per_mm * turned(b.pattern_mm - a.pattern_mm, a.turn);
+  if (a.px_per_mm > params.max_scale_ratio * b.px_per_mm ||
+      b.px_per_mm > params.max_scale_ratio * a.px_per_mm)
+    return false;
+  const Vec2 away = a.px_per_mm * turned_by(b.pattern_mm - a.pattern_mm, a.turn);
+  const Vec2 off_px = b.pixel - a.pixel - away;
   const double reach_px = params.near_px + params.reach_share * away.norm();
-  return (b.pixel - a.pixel - away).squaredNorm() <= reach_px * reach_px;
+  return off_px.squaredNorm() <= reach_px * reach_px;
 }
 
 // A strict order, so that equal ones do not depend on the search.
@@ -107,6 +120,35 @@ double rate(const CardSearchMatch& seed, std::span<const CardSearchMatch> matche
   return sum;
 }
 
+// Once it is known about where the card lies, a corner need not resemble one place of the print more than all
+// others: of the print's corners that may lie there, it shows the one that it differs from least.
+template <class Take>
+void for_each_match_about(const CardSearchMatch& seed, ImageView<const std::uint8_t> picture,
+                          const PrintCorners& print, double card_mm, const CardSearchParams& params,
+                          const CardSearchWorkspace& workspace, Take&& take) {
+  const ImageView<const std::uint8_t> smooth{workspace.smooth.data(), picture.width, picture.height};
+  const double reach_px = params.near_px + (1.0 + params.reach_share) * seed.px_per_mm * card_mm;
+  for (const Corner& corner : workspace.corners) {
+    const Vec2 pixel(corner.x, corner.y);
+    BinaryDescriptor descriptor;
+    Vec2 direction;
+    if ((pixel - seed.pixel).squaredNorm() > reach_px * reach_px) continue;
+    if (!describe_binary(smooth, corner.x, corner.y, print.sampling.front(), descriptor, direction)) continue;
+    const PrintCorner* nearest = nullptr;
+    int least = params.max_distance + 1;
+    for (const PrintCorner& like : print.corners) {
+      const int distance = hamming_distance(descriptor, like.descriptor);
+      if (distance >= least) continue;
+      const CardSearchMatch match{pixel, turned_back_by(direction, like.direction), like.px_per_mm,
+                                  like.pattern_mm, 0.0};
+      if (!agrees(seed, match, params)) continue;
+      least = distance;
+      nearest = &like;
+    }
+    if (nearest != nullptr) take(pixel, nearest->pattern_mm);
+  }
+}
+
 Status search_at_scale(ImageView<const std::uint8_t> gray, double scale, const LensModel& lens,
                        const CardModelSize& size, const PrintCorners& print, const CardSearchParams& params,
                        const CardParams& card, CardSearchWorkspace& workspace, std::array<Vec2, 4>& corners) {
@@ -115,9 +157,9 @@ Status search_at_scale(ImageView<const std::uint8_t> gray, double scale, const L
   for_each_corner(picture, print.sampling.front(), params, workspace,
                   [&](const Vec2& pixel, const BinaryDescriptor& descriptor, const Vec2& direction) {
                     double ratio = 1.0;
-                    const PrintCorner* like = find_like(descriptor, print.corners.items(), params, ratio);
+                    const PrintCorner* like = find_like(descriptor, print, params, ratio);
                     if (like == nullptr) return;
-                    workspace.matches.push_back({pixel, turn_from(like->direction, direction),
+                    workspace.matches.push_back({pixel, turned_back_by(direction, like->direction),
                                                  like->px_per_mm, like->pattern_mm, 1.0 - ratio});
                   });
   std::span<CardSearchMatch> matches = workspace.matches.items();
@@ -137,19 +179,29 @@ Status search_at_scale(ImageView<const std::uint8_t> gray, double scale, const L
       return !agrees(seed, match, params);
     });
     std::size_t count = 0;
-    for (auto match = rest; match != matches.end(); ++match) {
+    const auto add_track = [&](const Vec2& pixel, const Vec2& pattern_mm) {
       CardTrack track;
-      track.pattern_mm = match->pattern_mm;
-      const Vec2 stored(
-          scale_coordinate(match->pixel.x(), static_cast<double>(gray.width) / picture.width),
-          scale_coordinate(match->pixel.y(), static_cast<double>(gray.height) / picture.height));
+      track.pattern_mm = pattern_mm;
+      const Vec2 stored(scale_coordinate(pixel.x(), static_cast<double>(gray.width) / picture.width),
+                        scale_coordinate(pixel.y(), static_cast<double>(gray.height) / picture.height));
       if (lens.undistort_pixel(stored, track.first)) workspace.tracks[count++] = track;
-    }
+    };
+    for (auto match = rest; match != matches.end(); ++match) add_track(match->pixel, match->pattern_mm);
     matches = matches.first(static_cast<std::size_t>(rest - matches.begin()));
     std::sort(matches.begin(), matches.end(), is_clearer);
     Random random(params.seed);
     CardFit fit;
-    if (!find_card(workspace.tracks.first(count), size, card, random, workspace.card, fit).ok()) continue;
+    Status found = find_card(workspace.tracks.first(count), size, card, random, workspace.card, fit);
+    if (!found.ok() && count >= static_cast<std::size_t>(params.min_agreeing)) {
+      count = 0;
+      for_each_match_about(seed, picture, print, std::hypot(size.width_mm, size.height_mm), params, workspace,
+                           add_track);
+      // A homography of few corners in one part of the card need not be that of any card.
+      CardParams rigid = card;
+      rigid.detection.model = CardModel::absolute_pose;
+      found = find_card(workspace.tracks.first(count), size, rigid, random, workspace.card, fit);
+    }
+    if (!found.ok()) continue;
     const Mat3 ray_from_pattern = fit.pattern_from_first.inverse();
     const std::array<Vec2, 4> print_mm = print_corners_mm(size);
     for (std::size_t i = 0; i < 4; ++i)
@@ -170,7 +222,8 @@ Status learn_print_corners(const CardPattern& pattern, const CardSearchParams& p
   learning.corners.cell_px = std::max(8, params.corners.cell_px / 2);
   for (const double scale : params.scales_px_per_mm) {
     const ImageView<const std::uint8_t> finest = pattern.levels[0].gray;
-    const double reduction = std::min(1.0, scale / pattern.levels[0].px_per_axis_mm[0]);
+    const double reduction = workspace.fit(finest.width, finest.height,
+                                           std::min(1.0, scale / pattern.levels[0].px_per_axis_mm[0]));
     const ImageView<std::uint8_t> picture = reduced(finest, reduction, workspace.picture);
     if (std::min(picture.width, picture.height) <= 2 * kBinaryPatchRadius) continue;
     const double px_per_mm = picture.width / pattern.size.width_mm;
@@ -182,6 +235,10 @@ Status learn_print_corners(const CardPattern& pattern, const CardSearchParams& p
                       print.corners.push_back({descriptor, direction, place, px_per_mm});
                     });
   }
+  for (std::size_t i = 0; i < print.corners.size(); ++i) {
+    print.blocks[i / DescriptorBlock::kSide].set(i % DescriptorBlock::kSide,
+                                                 print.corners.items()[i].descriptor);
+  }
   return print.corners.empty() ? StatusCode::invalid_configuration : StatusCode::ok;
 }
 
@@ -191,7 +248,8 @@ Status search_card(ImageView<const std::uint8_t> gray, const LensModel& lens, co
   Status status = StatusCode::card_not_found;
   double searched = 0.0;
   for (const int pixels : params.search_px) {
-    const double scale = std::min(1.0, std::sqrt(pixels / (static_cast<double>(gray.width) * gray.height)));
+    const double by_area = std::sqrt(pixels / (static_cast<double>(gray.width) * gray.height));
+    const double scale = workspace.fit(gray.width, gray.height, std::min(1.0, by_area));
     if (status.ok() || scale == searched) break;
     searched = scale;
     status = search_at_scale(gray, scale, lens, size, print, params, card, workspace, corners);

@@ -14,6 +14,7 @@
 #include "core/base/status.hpp"
 #include "core/features/binary_descriptor.hpp"
 #include "core/features/corners.hpp"
+#include "core/features/descriptor_block.hpp"
 #include "core/image/camera.hpp"
 #include "core/image_view/image_view.hpp"
 #include "core/scale/card.hpp"
@@ -45,7 +46,10 @@ struct CardSearchParams {
   double max_scale_ratio = 1.4;  // … their scales
   int max_seeds = 120;           // of the clearest matches, each of which may say where the card lies
   int max_tried = 4;             // places that are looked at in full, those that most speaks for first
-  std::uint64_t seed = 1;        // of the homography's samples
+  // Of a place whose corners do not suffice, that is looked at again with all others about it: a print that
+  // is small, blurred and noisy has few corners that resemble one place alone.
+  int min_agreeing = 4;
+  std::uint64_t seed = 1;  // of the homography's samples
 };
 
 // A corner of the picture and the print's that looks like it.
@@ -68,12 +72,15 @@ struct PrintCorner {
 struct PrintCorners {
   std::span<BinarySampling> sampling;  // one
   BoundedList<PrintCorner> corners;
+  std::span<DescriptorBlock> blocks;  // of their descriptors, in order
 
   template <class Allocator>
   constexpr void allocate(Allocator& arena, const CardSearchParams& params) {
     sampling = arena.template take<BinarySampling>(1);
-    corners = BoundedList<PrintCorner>(arena.template take<PrintCorner>(
-        kCardSearchScales * static_cast<std::size_t>(params.max_pattern_corners)));
+    const std::size_t count = kCardSearchScales * static_cast<std::size_t>(params.max_pattern_corners);
+    corners = BoundedList<PrintCorner>(arena.template take<PrintCorner>(count));
+    blocks =
+        arena.template take<DescriptorBlock>((count + DescriptorBlock::kSide - 1) / DescriptorBlock::kSide);
   }
 };
 
@@ -85,6 +92,15 @@ struct CardSearchWorkspace {
   BoundedList<CardSearchMatch> matches;
   std::span<CardTrack> tracks;
   CardWorkspace card;
+  // Of the picture searched, and of the print as it is learned.
+  int max_width = 0;
+  int max_height = 0;
+
+  // `wanted_scale`, or less where a picture of this size would not fit.
+  double fit(int width, int height, double wanted_scale) const {
+    return std::min(
+        {wanted_scale, static_cast<double>(max_width) / width, static_cast<double>(max_height) / height});
+  }
 
   template <class Allocator>
   constexpr void allocate(Allocator& arena, int max_frame_width, int max_frame_height,
@@ -95,8 +111,9 @@ struct CardSearchWorkspace {
     smooth = arena.template take<std::uint8_t>(pixels);
     const double scale = std::min(1.0, std::sqrt(static_cast<double>(pixels) /
                                                  (static_cast<double>(max_frame_width) * max_frame_height)));
-    corner_search.allocate(arena, static_cast<int>(scale * max_frame_width) + 1,
-                           static_cast<int>(scale * max_frame_height) + 1, params.corners);
+    max_width = static_cast<int>(scale * max_frame_width) + 1;
+    max_height = static_cast<int>(scale * max_frame_height) + 1;
+    corner_search.allocate(arena, max_width, max_height, params.corners);
     corners = BoundedList<Corner>(arena.template take<Corner>(count));
     matches = BoundedList<CardSearchMatch>(arena.template take<CardSearchMatch>(count));
     tracks = arena.template take<CardTrack>(count);

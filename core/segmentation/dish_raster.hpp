@@ -13,8 +13,8 @@
 namespace traygauge {
 
 struct DishRasterParams {
-  double cell_mm = 0.8;      // about; cells are whole pixels
-  int max_cells = 160'000;   // 360 × 280 mm at that size
+  double cell_mm = 1.0;      // about; cells are whole pixels
+  int max_cells = 105'000;   // 360 × 290 mm at that size
   double dark_level = 12.0;  // grey value below which a colour tells little
 };
 

@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "core/segmentation/neighbours.hpp"
+
 namespace traygauge {
 namespace {
 
@@ -25,14 +27,7 @@ class Components {
     };
     if (old == value) return {};
     take(start);
-    for (std::size_t i = 0; i < size; ++i) {
-      const int cell = queue_[i];
-      const int x = cell % width;
-      if (x > 0) take(cell - 1);
-      if (x + 1 < width) take(cell + 1);
-      if (cell >= width) take(cell - width);
-      if (cell + width < count) take(cell + width);
-    }
+    for (std::size_t i = 0; i < size; ++i) for_each_neighbour(queue_[i], width, count, take);
     return queue_.first(size);
   }
 
@@ -47,11 +42,10 @@ constexpr int kMaxRadius = 7;           // a row of the square then fits into a 
 bool has_labelled_neighbour(ImageView<const std::uint8_t> cells, std::span<const std::int32_t> visited) {
   const int count = cells.width * cells.height;
   return std::any_of(visited.begin(), visited.end(), [&](std::int32_t cell) {
-    const int x = cell % cells.width;
-    return (x > 0 && is_item(cells.data[cell - 1])) ||
-           (x + 1 < cells.width && is_item(cells.data[cell + 1])) ||
-           (cell >= cells.width && is_item(cells.data[cell - cells.width])) ||
-           (cell + cells.width < count && is_item(cells.data[cell + cells.width]));
+    bool is_labelled = false;
+    for_each_neighbour(cell, cells.width, count,
+                       [&](int neighbour) { is_labelled |= is_item(cells.data[neighbour]); });
+    return is_labelled;
   });
 }
 
@@ -71,68 +65,93 @@ void drop_small(ImageView<std::uint8_t> cells, std::uint8_t from, std::uint8_t t
   }
 }
 
-// Food where at least `least_share` of the square about a cell is; by running sums along rows, then columns.
-void threshold_share(ImageView<std::uint8_t> cells, int radius, double least_share,
-                     std::span<std::uint8_t> sums) {
+// Calls decide(cell, food) for every cell within the dish, with the number of cells of food in the square
+// about it; cells beyond the border are like the nearest. Running sums along the rows, of which those of
+// 2 radius + 1 rows are summed by column.
+template <class Decide>
+void for_each_square(ImageView<std::uint8_t> cells, int radius, FoodOutlineWorkspace& workspace,
+                     Decide&& decide) {
   const int width = cells.width;
   const int height = cells.height;
-  const auto is_food = [&](int x, int y) {
-    return cells.at(std::clamp(x, 0, width - 1), std::clamp(y, 0, height - 1)) == kFoodSeed ? 1 : 0;
-  };
-  const int side = 2 * radius + 1;
+  const ImageView<std::uint8_t> sums{workspace.sums.data(), width, height};
   for (int y = 0; y < height; ++y) {
+    const std::uint8_t* row = cells.row(y);
+    const auto is_food = [&](int x) { return row[std::clamp(x, 0, width - 1)] == kFoodSeed ? 1 : 0; };
     int sum = 0;
-    for (int x = -radius; x <= radius; ++x) sum += is_food(x, y);
+    for (int x = -radius; x <= radius; ++x) sum += is_food(x);
     for (int x = 0; x < width; ++x) {
-      sums[static_cast<std::size_t>(y * width + x)] = static_cast<std::uint8_t>(sum);
-      sum += is_food(x + radius + 1, y) - is_food(x - radius, y);
+      sums.at(x, y) = static_cast<std::uint8_t>(sum);
+      sum += is_food(x + radius + 1) - is_food(x - radius);
     }
   }
-  for (int x = 0; x < width; ++x) {
-    const auto row_sum = [&](int y) {
-      return static_cast<int>(sums[static_cast<std::size_t>(std::clamp(y, 0, height - 1) * width + x)]);
-    };
-    int sum = 0;
-    for (int y = -radius; y <= radius; ++y) sum += row_sum(y);
-    for (int y = 0; y < height; ++y) {
-      std::uint8_t& cell = cells.at(x, y);
-      if (cell != kBarred) cell = sum >= least_share * side * side ? kFoodSeed : kGlazeSeed;
-      sum += row_sum(y + radius + 1) - row_sum(y - radius);
+  const std::span<std::int32_t> columns = workspace.column_sums.first(static_cast<std::size_t>(width));
+  std::fill(columns.begin(), columns.end(), 0);
+  const auto add_row = [&](int y, int sign) {
+    const std::uint8_t* row = sums.row(std::clamp(y, 0, height - 1));
+    for (int x = 0; x < width; ++x) columns[static_cast<std::size_t>(x)] += sign * row[x];
+  };
+  for (int y = -radius; y <= radius; ++y) add_row(y, 1);
+  for (int y = 0; y < height; ++y) {
+    std::uint8_t* row = cells.row(y);
+    for (int x = 0; x < width; ++x) {
+      if (row[x] != kBarred) decide(row[x], columns[static_cast<std::size_t>(x)]);
     }
+    add_row(y + radius + 1, 1);
+    add_row(y - radius, -1);
   }
+}
+
+// Food where at least `least_share` of the square about a cell is.
+void threshold_share(ImageView<std::uint8_t> cells, int radius, double least_share,
+                     FoodOutlineWorkspace& workspace) {
+  const int side = 2 * radius + 1;
+  const int least = static_cast<int>(std::ceil(least_share * side * side));
+  for_each_square(cells, radius, workspace,
+                  [&](std::uint8_t& cell, int food) { cell = food >= least ? kFoodSeed : kGlazeSeed; });
+}
+
+// Takes the owner from cells that are near to the other kind.
+void free_band(ImageView<std::uint8_t> cells, int radius, FoodOutlineWorkspace& workspace) {
+  const int side = 2 * radius + 1;
+  for_each_square(cells, radius, workspace, [&](std::uint8_t& cell, int food) {
+    if (food > 0 && food < side * side) cell = kNoOwner;
+  });
 }
 
 }  // namespace
 
-bool outline_food(const DishRaster& raster, const FoodOutlineParams& params, FoodOutlineWorkspace& workspace,
+bool outline_food(const DishRaster& raster, ImageView<const ReliefSample> relief,
+                  const FoodOutlineParams& params, FoodOutlineWorkspace& workspace,
                   ImageView<std::uint8_t> cells) {
   GlazeColour glaze;
   if (!measure_glaze(raster, params.glaze, glaze)) return false;
   const double cells_per_mm = 1.0 / raster.cell_mm;
-  seed_food(raster, glaze, params.glaze, cells);
-  spread_owners(raster.colours, params.geodesic, workspace.geodesic, cells);
   const auto radius_of = [&](double radius_mm) {
     return std::clamp(static_cast<int>(std::lround(radius_mm * cells_per_mm)), 1, kMaxRadius);
   };
-  threshold_share(cells, radius_of(params.smoothing_mm), 0.5, workspace.sums);
+  find_food(raster, relief, glaze, params.field, workspace.field, cells);
+  free_band(cells, radius_of(params.band_mm), workspace);
+  spread_owners(raster.colours, params.geodesic, workspace.geodesic, cells);
+  threshold_share(cells, radius_of(params.smoothing_mm), 0.5, workspace);
   // An opening: all of the square, then any of it.
   const int opening = radius_of(params.opening_mm);
-  threshold_share(cells, opening, 1.0, workspace.sums);
-  threshold_share(cells, opening, 0.5 / ((2.0 * opening + 1.0) * (2.0 * opening + 1.0)), workspace.sums);
+  threshold_share(cells, opening, 1.0, workspace);
+  threshold_share(cells, opening, 0.5 / ((2.0 * opening + 1.0) * (2.0 * opening + 1.0)), workspace);
   const double per_mm2 = cells_per_mm * cells_per_mm;
   drop_small(cells, kFoodSeed, kGlazeSeed, params.min_item_mm2 * per_mm2, workspace.queue);
   drop_small(cells, kGlazeSeed, kFoodSeed, params.min_hole_mm2 * per_mm2, workspace.queue);
   return true;
 }
 
-int label_items(const DishRaster& raster, const FoodOutlineParams& params, FoodOutlineWorkspace& workspace,
-                std::uint8_t first, int max_items, ImageView<std::uint8_t> cells) {
+int label_items(const DishRaster& raster, ImageView<const ReliefSample> relief,
+                const FoodOutlineParams& params, FoodOutlineWorkspace& workspace, std::uint8_t first,
+                int max_items, ImageView<std::uint8_t> cells) {
   // Items are drawn on cells where food has no meaning of its own.
   const int count = raster.width() * raster.height();
   for (int cell = 0; cell < count; ++cell) {
     if (cells.data[cell] == kFoodSeed) cells.data[cell] = kUnlabelled;
   }
-  int items = split_items(raster, kUnlabelled, raster.cell_mm, params.split, workspace.split, first,
+  int items = split_items(raster, relief, kUnlabelled, raster.cell_mm, params.split, workspace.split, first,
                           max_items, cells);
   // What has no block of its own is an item as it is.
   Components components(cells, workspace.queue);

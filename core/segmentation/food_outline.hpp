@@ -6,6 +6,7 @@
 
 #include "core/base/arena.hpp"
 #include "core/segmentation/dish_raster.hpp"
+#include "core/segmentation/food_field.hpp"
 #include "core/segmentation/geodesic.hpp"
 #include "core/segmentation/glaze.hpp"
 #include "core/segmentation/item_split.hpp"
@@ -20,6 +21,8 @@ struct FoodOutlineParams {
   GlazeParams glaze;
   GeodesicParams geodesic;
   ItemSplitParams split;
+  FoodFieldParams field;
+  double band_mm = 3.0;         // to either side of the field's outline, in which the picture's edges decide
   double smoothing_mm = 1.6;    // radius of the majority that smooths outlines
   double opening_mm = 2.4;      // radius of what fits into food: rings of decoration and bridges do not
   double min_item_mm2 = 250.0;  // smaller is a crumb, a drop or a highlight
@@ -28,31 +31,46 @@ struct FoodOutlineParams {
 
 struct FoodOutlineWorkspace {
   DishRasterWorkspace raster;
-  GeodesicWorkspace geodesic;
-  ItemSplitWorkspace split;
+  std::span<ReliefSample> relief;
   std::span<std::uint8_t> sums;
   std::span<std::int32_t> queue;
+  // Each used while the others are not, in the same memory.
+  FoodFieldWorkspace field;
+  std::span<std::int32_t> column_sums;
+  ItemSplitWorkspace split;
+  GeodesicWorkspace geodesic;
 
+  // Nothing may be taken behind it that is used at the same time.
   template <class Allocator>
   constexpr void allocate(Allocator& arena, const FoodOutlineParams& params) {
     const auto cells = static_cast<std::size_t>(params.raster.max_cells);
     raster.allocate(arena, params.raster);
-    geodesic.allocate(arena, params.raster.max_cells);
-    split.allocate(arena, params.split);
+    relief = arena.template take<ReliefSample>(cells);
     sums = arena.template take<std::uint8_t>(cells);
     queue = arena.template take<std::int32_t>(cells);
+    const std::size_t shared = arena.mark();
+    field.allocate(arena, params.raster.max_cells / (params.field.fold * params.field.fold));
+    arena.rewind(shared);
+    column_sums = arena.template take<std::int32_t>(cells / 3);  // a raster has three rows and more
+    arena.rewind(shared);
+    split.allocate(arena, params.split);
+    arena.rewind(shared);
+    geodesic.allocate(arena, params.raster.max_cells);
   }
 };
 
-// Marks the cells of food as kFoodSeed, the rest of the dish as kGlazeSeed, kBarred outside. False when the
-// flange shows too little glaze.
-bool outline_food(const DishRaster& raster, const FoodOutlineParams& params, FoodOutlineWorkspace& workspace,
+// `relief` has the raster's size; cells that are not known in it are told by colour alone. Marks the cells of
+// food as kFoodSeed, the rest of the dish as kGlazeSeed, kBarred outside. False when the flange shows too
+// little glaze.
+bool outline_food(const DishRaster& raster, ImageView<const ReliefSample> relief,
+                  const FoodOutlineParams& params, FoodOutlineWorkspace& workspace,
                   ImageView<std::uint8_t> cells);
 
 // Gives the food items labels from `first` on, kDishLabel to the rest of the dish and kBackgroundLabel
 // outside; `cells` as outline_food left them. Returns the number of items, at most `max_items`.
-int label_items(const DishRaster& raster, const FoodOutlineParams& params, FoodOutlineWorkspace& workspace,
-                std::uint8_t first, int max_items, ImageView<std::uint8_t> cells);
+int label_items(const DishRaster& raster, ImageView<const ReliefSample> relief,
+                const FoodOutlineParams& params, FoodOutlineWorkspace& workspace, std::uint8_t first,
+                int max_items, ImageView<std::uint8_t> cells);
 
 // The same with seeds that are known already: cells that carry an item's label, among food that is
 // kUnlabelled. Food that no seed reaches is dish.

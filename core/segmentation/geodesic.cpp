@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "core/segmentation/neighbours.hpp"
+
 namespace traygauge {
 namespace {
 
@@ -17,52 +19,75 @@ int cost_of(const CellColour& a, const CellColour& b, const GeodesicParams& para
   return std::min(params.step_cost + squares / 16, kMaxGeodesicStep);
 }
 
+// Cells by the distance at which they are to be visited, last come first; no two in use lie further apart
+// than there are lists.
+class Buckets {
+ public:
+  explicit Buckets(GeodesicWorkspace& workspace) : workspace_(workspace) { workspace_.heads.fill(kEnd); }
+
+  bool empty() const { return listed_ == 0; }
+
+  void add(std::int32_t cell, int distance) {
+    std::int32_t& head = head_of(distance);
+    next(cell) = head;
+    previous(cell) = kEnd;
+    if (head != kEnd) previous(head) = cell;
+    head = cell;
+    ++listed_;
+  }
+  void remove(std::int32_t cell, int distance) {
+    if (previous(cell) == kEnd) {
+      head_of(distance) = next(cell);
+    } else {
+      next(previous(cell)) = next(cell);
+    }
+    if (next(cell) != kEnd) previous(next(cell)) = previous(cell);
+    --listed_;
+  }
+  // kEnd where there is none left at this distance.
+  std::int32_t take(int distance) {
+    const std::int32_t cell = head_of(distance);
+    if (cell != kEnd) remove(cell, distance);
+    return cell;
+  }
+
+ private:
+  std::int32_t& head_of(int distance) {
+    return workspace_.heads[static_cast<std::size_t>(distance % (kMaxGeodesicStep + 1))];
+  }
+  std::int32_t& next(std::int32_t cell) { return workspace_.next[static_cast<std::size_t>(cell)]; }
+  std::int32_t& previous(std::int32_t cell) { return workspace_.previous[static_cast<std::size_t>(cell)]; }
+
+  GeodesicWorkspace& workspace_;
+  int listed_ = 0;
+};
+
 }  // namespace
 
 void spread_owners(ImageView<const CellColour> colours, const GeodesicParams& params,
                    GeodesicWorkspace& workspace, ImageView<std::uint8_t> owners) {
   const int width = owners.width;
   const int cells = width * owners.height;
-  // A cell is listed once as a seed and once for each neighbour that shortens its way, at most.
-  const auto cell_of = [&](std::int32_t entry) { return entry % cells; };
-  workspace.heads.fill(kEnd);
-  std::array<std::int32_t, kMaxGeodesicStep + 1>& heads = workspace.heads;
+  Buckets buckets(workspace);
   std::fill_n(workspace.distance.begin(), cells, kFar);
-  std::int32_t listed = 0;
-  const auto list = [&](std::int32_t entry, int distance) {
-    std::int32_t& head = heads[static_cast<std::size_t>(distance % (kMaxGeodesicStep + 1))];
-    workspace.next[static_cast<std::size_t>(entry)] = head;
-    head = entry;
-    ++listed;
-  };
   for (int cell = 0; cell < cells; ++cell) {
     const std::uint8_t owner = owners.data[cell];
     if (owner == kNoOwner || owner == kBarred) continue;
     workspace.distance[static_cast<std::size_t>(cell)] = 0;
-    list(cell, 0);
+    buckets.add(cell, 0);
   }
-  for (int distance = 0; listed > 0 && distance < kFar - kMaxGeodesicStep; ++distance) {
-    std::int32_t& head = heads[static_cast<std::size_t>(distance % (kMaxGeodesicStep + 1))];
-    while (head != kEnd) {
-      const std::int32_t entry = head;
-      head = workspace.next[static_cast<std::size_t>(entry)];
-      --listed;
-      const int cell = cell_of(entry);
-      if (workspace.distance[static_cast<std::size_t>(cell)] != distance) continue;
-      const int x = cell % width;
-      const std::array<int, 4> steps = {x > 0 ? -1 : 0, x + 1 < width ? 1 : 0, cell >= width ? -width : 0,
-                                        cell + width < cells ? width : 0};
-      for (std::size_t side = 0; side < steps.size(); ++side) {
-        if (steps[side] == 0) continue;
-        const int neighbour = cell + steps[side];
-        if (owners.data[neighbour] == kBarred) continue;
-        const int reached = distance + cost_of(colours.data[cell], colours.data[neighbour], params);
+  for (int distance = 0; !buckets.empty() && distance < kFar - kMaxGeodesicStep; ++distance) {
+    for (std::int32_t cell = buckets.take(distance); cell != kEnd; cell = buckets.take(distance)) {
+      for_each_neighbour(cell, width, cells, [&](int neighbour) {
         std::uint16_t& least = workspace.distance[static_cast<std::size_t>(neighbour)];
-        if (reached >= least) continue;
+        if (least <= distance + params.step_cost || owners.data[neighbour] == kBarred) return;
+        const int reached = distance + cost_of(colours.data[cell], colours.data[neighbour], params);
+        if (reached >= least) return;
+        if (least != kFar) buckets.remove(neighbour, least);
         least = static_cast<std::uint16_t>(reached);
         owners.data[neighbour] = owners.data[cell];
-        list(neighbour + static_cast<std::int32_t>(side + 1) * cells, reached);
-      }
+        buckets.add(neighbour, reached);
+      });
     }
   }
 }

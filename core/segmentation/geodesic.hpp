@@ -26,17 +26,22 @@ inline constexpr int kMaxGeodesicStep = 255;  // more counts as this
 // `owners`: labels of the seeds, kNoOwner elsewhere, kBarred where none may go. Dial's buckets.
 inline constexpr std::uint8_t kNoOwner = 0;
 inline constexpr std::uint8_t kBarred = 255;
+// The owners of dish and food.
+inline constexpr std::uint8_t kGlazeSeed = 1;
+inline constexpr std::uint8_t kFoodSeed = 2;
 
 struct GeodesicWorkspace {
   std::span<std::uint16_t> distance;
-  std::span<std::int32_t> next;  // in the bucket's list
+  std::span<std::int32_t> next;  // in the bucket's list, of which a cell is in one at most
+  std::span<std::int32_t> previous;
   std::array<std::int32_t, kMaxGeodesicStep + 1> heads{};
 
   template <class Allocator>
   constexpr void allocate(Allocator& arena, int max_cells) {
     const auto cells = static_cast<std::size_t>(max_cells);
     distance = arena.template take<std::uint16_t>(cells);
-    next = arena.template take<std::int32_t>(5 * cells);
+    next = arena.template take<std::int32_t>(cells);
+    previous = arena.template take<std::int32_t>(cells);
   }
 };
 

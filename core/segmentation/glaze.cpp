@@ -4,8 +4,6 @@
 #include <array>
 #include <cmath>
 
-#include "core/segmentation/geodesic.hpp"
-
 namespace traygauge {
 namespace {
 
@@ -42,7 +40,25 @@ void for_each_cell(const DishRaster& raster, DishZone zone, Take&& take) {
   }
 }
 
+// Mean bend over a square, doubled.
+int texture_at(ImageView<const CellColour> colours, int x, int y, int radius) {
+  int sum = 0;
+  int count = 0;
+  for (int j = std::max(0, y - radius); j <= std::min(colours.height - 1, y + radius); ++j) {
+    for (int i = std::max(0, x - radius); i <= std::min(colours.width - 1, x + radius); ++i, ++count)
+      sum += bend_at(colours, i, j);
+  }
+  return 2 * sum / count;
+}
+
 }  // namespace
+
+int bend_at(ImageView<const CellColour> colours, int x, int y) {
+  if (x == 0 || y == 0 || x + 1 == colours.width || y + 1 == colours.height) return 0;
+  const CellColour* row = colours.row(y);
+  return std::abs(2 * row[x].luma - row[x - 1].luma - row[x + 1].luma) +
+         std::abs(2 * row[x].luma - colours.at(x, y - 1).luma - colours.at(x, y + 1).luma);
+}
 
 bool measure_glaze(const DishRaster& raster, const GlazeParams& params, GlazeColour& glaze) {
   ByteHistogram luma;
@@ -54,76 +70,20 @@ bool measure_glaze(const DishRaster& raster, const GlazeParams& params, GlazeCol
     luma.add(colour.luma);
     red.add(colour.red);
     green.add(colour.green);
-    texture.add(texture_at(raster, x, y, params.texture_radius));
+    texture.add(texture_at(raster.colours, x, y, params.texture_radius));
   });
   if (luma.total() < params.min_flange_cells) return false;
   glaze.median = {static_cast<std::uint8_t>(luma.median()), static_cast<std::uint8_t>(red.median()),
                   static_cast<std::uint8_t>(green.median())};
-  ByteHistogram luma_off;
   ByteHistogram share_off;
   for_each_cell(raster, DishZone::flange, [&](int x, int y) {
     const CellColour& colour = raster.colours.at(x, y);
-    luma_off.add(std::abs(colour.luma - glaze.median.luma));
     share_off.add(std::abs(colour.red - glaze.median.red));
     share_off.add(std::abs(colour.green - glaze.median.green));
   });
-  glaze.luma_sigma = std::max(params.min_luma_sigma, kMedianToSigma * luma_off.median());
   glaze.share_sigma = std::max(params.min_share_sigma, kMedianToSigma * share_off.median());
   glaze.texture = std::max(1.0, static_cast<double>(texture.median()));
   return true;
-}
-
-int texture_at(const DishRaster& raster, int x, int y, int radius) {
-  const int left = std::max(1, x - radius);
-  const int right = std::min(raster.width() - 2, x + radius);
-  const int top = std::max(1, y - radius);
-  const int bottom = std::min(raster.height() - 2, y + radius);
-  int sum = 0;
-  int count = 0;
-  for (int j = top; j <= bottom; ++j) {
-    const CellColour* above = raster.colours.row(j - 1);
-    const CellColour* row = raster.colours.row(j);
-    const CellColour* below = raster.colours.row(j + 1);
-    for (int i = left; i <= right; ++i) {
-      sum += std::abs(2 * row[i].luma - row[i - 1].luma - row[i + 1].luma) +
-             std::abs(2 * row[i].luma - above[i].luma - below[i].luma);
-      ++count;
-    }
-  }
-  return count == 0 ? 0 : 2 * sum / count;
-}
-
-void seed_food(const DishRaster& raster, const GlazeColour& glaze, const GlazeParams& params,
-               ImageView<std::uint8_t> seeds) {
-  for (int y = 0; y < raster.height(); ++y) {
-    for (int x = 0; x < raster.width(); ++x) {
-      std::uint8_t& seed = seeds.at(x, y);
-      const DishZone zone = raster.zones.at(x, y);
-      if (zone == DishZone::outside) {
-        seed = kBarred;
-        continue;
-      }
-      if (zone == DishZone::edge) {
-        seed = kGlazeSeed;
-        continue;
-      }
-      seed = kNoOwner;
-      const CellColour& colour = raster.colours.at(x, y);
-      const int red = colour.red - glaze.median.red;
-      const int green = colour.green - glaze.median.green;
-      const double off = std::sqrt(static_cast<double>(red * red + green * green)) / glaze.share_sigma;
-      const double light = static_cast<double>(colour.luma) / std::max<int>(1, glaze.median.luma);
-      const double texture = texture_at(raster, x, y, params.texture_radius) / glaze.texture;
-      const bool is_textured = texture >= params.food_texture_ratio;
-      if (off >= params.food_deviations || light < params.food_darkest ||
-          (is_textured && off >= params.textured_food_deviations)) {
-        seed = kFoodSeed;
-      } else if (off < params.glaze_deviations && light > params.darkest && light < params.brightest &&
-                 texture < params.texture_ratio) {
-        seed = kGlazeSeed;
-      }
-    }
-  }
 }
 
 }  // namespace traygauge

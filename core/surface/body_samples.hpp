@@ -27,8 +27,6 @@ class BodyPicture {
               double level_mm, std::span<OutlineChord> columns);
 
   double sample_mm2() const { return along_mm_.norm() * across_mm_.norm(); }
-  const SurfaceGrid& view() const { return view_; }
-  std::size_t index() const { return index_; }
 
   // action(BodySample), row by row.
   template <class Action>

@@ -67,10 +67,7 @@ struct InnerSurface {
   DishProfile profile;
   DishFrame place;
 
-  Vec2 to_dish(const Vec2& table_mm) const {
-    const Vec2 shift = table_mm - place.centre_mm;
-    return {place.axis.dot(shift), place.axis.x() * shift.y() - place.axis.y() * shift.x()};
-  }
+  Vec2 to_dish(const Vec2& table_mm) const { return turned_back_by(table_mm - place.centre_mm, place.axis); }
   double height_mm(const Vec2& table_mm) const { return profile.height_mm(to_dish(table_mm)); }
 };
 

@@ -4,62 +4,23 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/surface/rim_ballot.hpp"
 #include "core/surface/rim_reader.hpp"
+#include "core/surface/rim_votes.hpp"
 
 namespace traygauge {
 namespace {
 
-constexpr double kRoundMm = 0.5;  // axes that differ by less are a round dish's
-constexpr double kHold = 1e4;     // 1 / mm², of what is described
-constexpr std::size_t kMaxPeaks = 16;
-
-// A place that the edges vote for.
-struct Peak {
-  const DishModel* dish = nullptr;
-  DishPlace place;
-  int inside_sign = 1;  // 1: brighter inside the rim
-  double votes_per_mm = -1.0;
-};
-
-Vec2 direction_of(double azimuth_rad) {
-  return {std::cos(azimuth_rad), std::sin(azimuth_rad)};
-}
-
-class Level {
- public:
-  Level(const Pose& camera_from_table, double height_mm)
-      : table_from_camera_(camera_from_table.rotation.transpose()),
-        centre_mm_(camera_centre_mm(camera_from_table)),
-        height_mm_(height_mm) {}
-
-  bool meet(const Vec2& ray, Vec2& place_mm) const {
-    const Vec3 direction = table_from_camera_ * ray.homogeneous();
-    const double depth = (height_mm_ - centre_mm_.z()) / direction.z();
-    place_mm = centre_mm_.head<2>() + depth * direction.head<2>();
-    return depth > 0.0 && place_mm.allFinite();
-  }
-
-  bool meet(const RimEdge& edge, RimLevelEdge& at) const {
-    Vec2 along_mm;
-    if (!meet(edge.ray, at.place_mm) || !meet(edge.along, along_mm)) return false;
-    const Vec2 along = along_mm - at.place_mm;
-    // The picture of the table is seen from above, with y turned over: left in the one is right in the other.
-    at.brighter = Vec2(-along.y(), along.x()).normalized();
-    return at.brighter.allFinite();
-  }
-
- private:
-  Mat3 table_from_camera_;
-  Vec3 centre_mm_;
-  double height_mm_;
-};
+constexpr double kHold = 1e4;  // 1 / mm², of what is described
 
 class DishSearch {
  public:
-  DishSearch(const DishSearchViews& views, std::span<const FoundDish> taken, const DishSearchParams& params,
-             DishSearchWorkspace& workspace)
-      : views_(views), taken_(taken), params_(params), workspace_(workspace) {
+  DishSearch(const DishSearchViews& views, const RimEdges& edges, std::span<const FoundDish> taken,
+             const DishSearchParams& params, DishSearchWorkspace& workspace)
+      : views_(views), edges_(edges), taken_(taken), params_(params), workspace_(workspace) {
+    for (int i = 0; i < params_.outline_points; ++i) {
+      workspace_.angles[static_cast<std::size_t>(i)] =
+          direction_of(2.0 * std::numbers::pi * i / params_.outline_points);
+    }
     for (std::size_t v = 0; v < 2; ++v) {
       cameras_[v] = views[v].camera_from_table;
       focals_px_[v] = views[v].lens.pinhole.mean_focal_px();
@@ -67,11 +28,16 @@ class DishSearch {
   }
 
   Status run(std::span<const DishModel> candidates, FoundDish& found) {
-    for (const DishModel& dish : candidates) vote_for(dish);
+    const std::span<RimPeak> storage =
+        std::span(peaks_).first(std::min(kMaxPeaks, static_cast<std::size_t>(params_.max_peaks)));
+    const std::size_t count =
+        vote_for_places(views_, edges_, candidates, taken_, params_, workspace_, storage);
     Status status = StatusCode::rim_not_found;
-    for (const Peak& peak : peaks()) {
+    for (RimPeak& peak : storage.first(count)) {
       FoundDish tried;
-      if (!confirm(peak, tried).ok() || !(tried.support > found.support)) continue;
+      peak.place.edge_drop_mm = params_.placement.edge_drop_mm;
+      shift_to_edges(peak.inside_sign, peak.place);
+      if (is_repeated(peak) || !confirm(peak, tried).ok() || !(tried.support > found.support)) continue;
       found = tried;
       found.candidate = static_cast<int>(peak.dish - candidates.data());
       status = StatusCode::ok;
@@ -80,92 +46,23 @@ class DishSearch {
   }
 
  private:
-  std::span<const Peak> peaks() const { return std::span(peaks_).first(peak_count_); }
-
-  // The middle of what both views see of the table.
-  Vec2 middle_mm(double height_mm) const {
-    Vec2 sum = Vec2::Zero();
-    for (std::size_t v = 0; v < 2; ++v) {
-      Vec2 place = Vec2::Zero();
-      const LensModel& lens = views_[v].lens;
-      const Vec2 ray = lens.pinhole.ray(Vec2(0.5 * lens.width, 0.5 * lens.height));
-      if (Level(cameras_[v], height_mm).meet(ray, place)) sum += 0.5 * place;
-    }
-    return sum;
-  }
-
-  bool is_free(const Vec2& centre_mm, const DishModel& dish) const {
-    const double radius = 0.5 * std::min(dish.outer_size_mm[0], dish.outer_size_mm[1]);
-    return std::all_of(taken_.begin(), taken_.end(), [&](const FoundDish& other) {
-      const DishPlace& place = other.place;
-      const double sum = radius + 0.5 * std::min(place.size_mm[0], place.size_mm[1]);
-      return (centre_mm - place.centre_mm).norm() >= (1.0 - params_.max_overlap) * sum;
+  // Whether one of the peaks before was moved to the same place.
+  bool is_repeated(const RimPeak& peak) const {
+    return std::any_of(peaks_.data(), &peak, [&](const RimPeak& other) {
+      return other.dish == peak.dish && other.inside_sign == peak.inside_sign &&
+             (other.place.centre_mm - peak.place.centre_mm).norm() < params_.same_place_mm &&
+             std::abs(std::remainder(other.place.azimuth_rad - peak.place.azimuth_rad, std::numbers::pi)) *
+                     peak.place.size_mm[0] <
+                 2.0 * params_.same_place_mm;
     });
   }
 
-  void vote_for(const DishModel& dish) {
-    const double height_mm = edge_height_mm(dish);
-    const Vec2 semi(0.5 * dish.outer_size_mm[0], 0.5 * dish.outer_size_mm[1]);
-    const bool is_round = std::abs(semi.x() - semi.y()) < kRoundMm;
-    const int azimuths = is_round ? 1 : params_.azimuths;
-    Ballot ballot(middle_mm(height_mm), params_, workspace_.votes);
-    const double perimeter_mm = std::numbers::pi * (semi.x() + semi.y());
-    lay_edges(height_mm);
-    for (int a = 0; a < azimuths; ++a) {
-      const double azimuth_rad = std::numbers::pi * a / azimuths;
-      const Vec2 axis = direction_of(azimuth_rad);
-      for (const int inside_sign : {1, -1}) {
-        ballot.clear();
-        for (const RimLevelEdge& at : workspace_.level_edges) {
-          const Vec2 outward = -inside_sign * at.brighter;
-          const Vec2 normal(axis.dot(outward), axis.x() * outward.y() - axis.y() * outward.x());
-          const Vec2 on_axes = semi.cwiseAbs2().cwiseProduct(normal) / semi.cwiseProduct(normal).norm();
-          ballot.vote(at.place_mm - Vec2(axis.x() * on_axes.x() - axis.y() * on_axes.y(),
-                                         axis.y() * on_axes.x() + axis.x() * on_axes.y()));
-        }
-        Peak peak{&dish, {}, inside_sign, 0.0};
-        const int most =
-            ballot.most([&](const Vec2& centre) { return is_free(centre, dish); }, peak.place.centre_mm);
-        peak.place.azimuth_rad = azimuth_rad;
-        peak.place.edge_height_mm = height_mm;
-        peak.place.size_mm = dish.outer_size_mm;
-        peak.votes_per_mm = most / perimeter_mm;
-        keep(peak);
-      }
-    }
-  }
-
-  // The edges of both views on one level of the table frame.
-  void lay_edges(double height_mm) {
-    workspace_.level_edges.clear();
-    for (std::size_t v = 0; v < 2; ++v) {
-      const Level level(cameras_[v], height_mm);
-      for (const RimEdge& edge : workspace_.edges[v]) {
-        RimLevelEdge at;
-        if (level.meet(edge, at)) workspace_.level_edges.push_back(at);
-      }
-    }
-  }
-
-  // Keeps the best few, best first.
-  void keep(const Peak& peak) {
-    const auto limit = std::min(kMaxPeaks, static_cast<std::size_t>(std::max(params_.max_peaks, 1)));
-    std::size_t at = peak_count_;
-    while (at > 0 && peaks_[at - 1].votes_per_mm < peak.votes_per_mm) --at;
-    if (at >= limit) return;
-    peak_count_ = std::min(peak_count_ + 1, limit);
-    for (std::size_t i = peak_count_ - 1; i > at; --i) peaks_[i] = peaks_[i - 1];
-    peaks_[at] = peak;
-  }
-
-  Vec2 angle_at(int i) const { return direction_of(2.0 * std::numbers::pi * i / params_.outline_points); }
+  const Vec2& angle_at(int i) const { return workspace_.angles[static_cast<std::size_t>(i)]; }
 
   // Only place and azimuth are free. Whatever else stands parallel to the rim, a band of its decoration or
   // the foot of its shadow, has another size.
-  Status confirm(const Peak& peak, FoundDish& found) {
+  Status confirm(const RimPeak& peak, FoundDish& found) {
     DishPlace place = peak.place;
-    place.edge_drop_mm = params_.placement.edge_drop_mm;
-    shift_to_edges(peak, place);
     PlacePrior prior = prior_of(*peak.dish, place.azimuth_rad, params_.placement);
     prior.information.tail<kPlaceParameters - kPlaceHeight>().setConstant(kHold);
     LevenbergMarquardtParams search;
@@ -187,7 +84,7 @@ class DishSearch {
   }
 
   // Moves the place to where most of the rim lies on an edge, in both views together.
-  void shift_to_edges(const Peak& peak, DishPlace& place) {
+  void shift_to_edges(int inside_sign, DishPlace& place) {
     const int points = params_.outline_points;
     int offsets = 0;
     for (std::size_t v = 0; v < 2; ++v) {
@@ -195,12 +92,18 @@ class DishSearch {
       offsets = reader.offsets(params_.vote_reach_mm);
       for (int i = 0; i < points; ++i) {
         const std::span<float> steps = steps_of(v, i, offsets);
-        if (!reader.read_steps(place, angle_at(i), peak.inside_sign, steps))
+        if (!reader.read_steps(rim_normal(place, angle_at(i)), inside_sign, steps))
           std::fill(steps.begin(), steps.end(), 0.0F);
         for (float& step : steps) step = std::clamp(step, 0.0F, static_cast<float>(params_.sure_step));
       }
     }
-    const bool is_round = std::abs(place.size_mm[0] - place.size_mm[1]) < kRoundMm;
+    for (int i = 0; i < points; ++i) {
+      const std::span<float> both = steps_of(0, i, offsets);
+      const std::span<const float> second = steps_of(1, i, offsets);
+      for (std::size_t k = 0; k < both.size(); ++k) both[k] += second[k];
+    }
+    prepare_shifts(place);
+    const bool is_round = is_round_dish(place.size_mm);
     const int turns = is_round ? 0 : params_.azimuth_steps / 2;
     const double turn_step_rad = std::numbers::pi / params_.azimuths / std::max(1, params_.azimuth_steps - 1);
     const int shifts = static_cast<int>(0.8 * params_.vote_reach_mm / params_.shift_step_mm);
@@ -209,13 +112,12 @@ class DishSearch {
     for (int turn = -turns; turn <= turns; ++turn) {
       for (int dy = -shifts; dy <= shifts; ++dy) {
         for (int dx = -shifts; dx <= shifts; ++dx) {
-          DishPlace moved = place;
-          moved.centre_mm += params_.shift_step_mm * Vec2(dx, dy);
-          moved.azimuth_rad += turn * turn_step_rad;
-          const float sum = sum_steps(place, moved, offsets);
+          const Vec2 shift_mm = params_.shift_step_mm * Vec2(dx, dy);
+          const float sum = sum_steps(shift_mm, turn * turn_step_rad, offsets);
           if (sum <= most) continue;
           most = sum;
-          best = moved;
+          best.centre_mm = place.centre_mm + shift_mm;
+          best.azimuth_rad = place.azimuth_rad + turn * turn_step_rad;
         }
       }
     }
@@ -228,22 +130,33 @@ class DishSearch {
     return workspace_.steps.subspan(index * kMaxRimOffsets, static_cast<std::size_t>(offsets));
   }
 
-  // Of the steps that were read about `place`, those where the rim of `moved` lies, to first order.
-  float sum_steps(const DishPlace& place, const DishPlace& moved, int offsets) {
+  void prepare_shifts(const DishPlace& place) {
     const Vec2 axis = direction_of(place.azimuth_rad);
-    const Vec2 shift = moved.centre_mm - place.centre_mm;
-    const Vec2 on_axes(axis.dot(shift), axis.x() * shift.y() - axis.y() * shift.x());
-    const double turn = moved.azimuth_rad - place.azimuth_rad;
     const Vec2 semi(0.5 * place.size_mm[0], 0.5 * place.size_mm[1]);
-    float sum = 0.0F;
-    for (int i = 0; i < params_.outline_points; ++i) {
-      const Vec2 angle = angle_at(i);
+    for (std::size_t i = 0; i < workspace_.shifts.size(); ++i) {
+      const Vec2& angle = workspace_.angles[i];
       const Vec2 normal = Vec2(semi.y() * angle.x(), semi.x() * angle.y()).normalized();
       const Vec2 point = semi.cwiseProduct(angle);
-      const double beyond_mm = normal.dot(on_axes + turn * Vec2(-point.y(), point.x()));
-      const int at = offsets / 2 + static_cast<int>(std::lround(beyond_mm / params_.sample_mm));
-      if (at < 0 || at >= offsets) continue;
-      for (std::size_t v = 0; v < 2; ++v) sum += steps_of(v, i, offsets)[static_cast<std::size_t>(at)];
+      const Vec2 on_table = turned_by(normal, axis) / params_.sample_mm;
+      const double turn = normal.dot(Vec2(-point.y(), point.x())) / params_.sample_mm;
+      workspace_.shifts[i] = {static_cast<float>(on_table.x()), static_cast<float>(on_table.y()),
+                              static_cast<float>(turn)};
+    }
+  }
+
+  // Of the steps of both views that were read about a place, those where the rim lies once the dish is moved,
+  // to first order.
+  float sum_steps(const Vec2& shift_mm, double turn_rad, int offsets) const {
+    const Eigen::Vector3f moved(static_cast<float>(shift_mm.x()), static_cast<float>(shift_mm.y()),
+                                static_cast<float>(turn_rad));
+    // Rounds to the nearest by cutting off what is positive.
+    const float middle = static_cast<float>(offsets / 2) + 0.5F;
+    float sum = 0.0F;
+    for (std::size_t i = 0; i < workspace_.shifts.size(); ++i) {
+      const RimShift& shift = workspace_.shifts[i];
+      const float at = middle + moved.x() * shift.x + moved.y() * shift.y + moved.z() * shift.turn;
+      if (!(at >= 0.0F) || at >= static_cast<float>(offsets)) continue;
+      sum += workspace_.steps[i * kMaxRimOffsets + static_cast<std::size_t>(at)];
     }
     return sum;
   }
@@ -257,7 +170,7 @@ class DishSearch {
       const int offsets = reader.offsets(params_.vote_reach_mm);
       for (int i = 0; i < params_.outline_points; ++i) {
         const std::span<float> steps = steps_of(v, i, offsets);
-        if (!reader.read_steps(place, angle_at(i), inside_sign, steps)) continue;
+        if (!reader.read_steps(rim_normal(place, angle_at(i)), inside_sign, steps)) continue;
         for (int k = 0; k < offsets; ++k) {
           if (std::abs(reader.offset_mm(k, offsets)) < params_.edge_reach_mm + params_.band_mm) continue;
           const float step = std::abs(steps[static_cast<std::size_t>(k)]);
@@ -284,14 +197,14 @@ class DishSearch {
       workspace_.outlines[v].clear();
       for (int i = 0; i < params_.outline_points; ++i) {
         const std::span<float> steps = steps_of(v, i, offsets);
-        if (!reader.read_steps(place, angle_at(i), inside_sign, steps)) continue;
+        if (!reader.read_steps(rim_normal(place, angle_at(i)), inside_sign, steps)) continue;
         ++seen;
         double index = 0.0;
         if (static_cast<double>(peak_of(steps, index)) < min_step) continue;
         ++supported;
         const double beyond_mm = reader.offset_mm(index, offsets);
         squares_mm += beyond_mm * beyond_mm;
-        const Vec3 point = views_[v].camera_from_table * rim_point_mm(place, angle_at(i), beyond_mm);
+        const Vec3 point = views_[v].camera_from_table * rim_normal(place, angle_at(i)).beyond(beyond_mm);
         workspace_.outlines[v].push_back(point.hnormalized());
       }
     }
@@ -310,31 +223,33 @@ class DishSearch {
   }
 
   const DishSearchViews& views_;
+  const RimEdges& edges_;
   std::span<const FoundDish> taken_;
   const DishSearchParams& params_;
   DishSearchWorkspace& workspace_;
   TableCameras cameras_;
   FocalsPx focals_px_{};
-  std::array<Peak, kMaxPeaks> peaks_;
-  std::size_t peak_count_ = 0;
+  std::array<RimPeak, kMaxPeaks> peaks_;
 };
 
 }  // namespace
 
-Vec3 rim_point_mm(const DishPlace& place, const Vec2& cosine_sine, double beyond_mm) {
+RimNormal rim_normal(const DishPlace& place, const Vec2& cosine_sine) {
   const Vec2 semi(0.5 * place.size_mm[0], 0.5 * place.size_mm[1]);
-  const Vec2 normal = Vec2(semi.y() * cosine_sine.x(), semi.x() * cosine_sine.y()).normalized();
-  const Vec2 on_axes = semi.cwiseProduct(cosine_sine) + beyond_mm * normal;
   const Vec2 axis = direction_of(place.azimuth_rad);
-  return {place.centre_mm.x() + axis.x() * on_axes.x() - axis.y() * on_axes.y(),
-          place.centre_mm.y() + axis.y() * on_axes.x() + axis.x() * on_axes.y(), place.edge_height_mm};
+  const Vec2 normal = Vec2(semi.y() * cosine_sine.x(), semi.x() * cosine_sine.y()).normalized();
+  const Vec2 at_mm = place.centre_mm + turned_by(semi.cwiseProduct(cosine_sine), axis);
+  RimNormal rim;
+  rim.point_mm = {at_mm.x(), at_mm.y(), place.edge_height_mm};
+  rim.outward.head<2>() = turned_by(normal, axis);
+  return rim;
 }
 
-Status search_dish(const DishSearchViews& views, std::span<const DishModel> candidates,
+Status search_dish(const DishSearchViews& views, const RimEdges& edges, std::span<const DishModel> candidates,
                    std::span<const FoundDish> taken, const DishSearchParams& params,
                    DishSearchWorkspace& workspace, FoundDish& found) {
   found = {};
-  return DishSearch(views, taken, params, workspace).run(candidates, found);
+  return DishSearch(views, edges, taken, params, workspace).run(candidates, found);
 }
 
 }  // namespace traygauge

@@ -34,6 +34,7 @@ struct DishSearchParams {
   double vote_reach_mm = 10.0;  // of the search for the place at which most of the rim shows an edge
   double shift_step_mm = 1.0;
   int azimuth_steps = 7;       // between two azimuths that were voted for
+  double same_place_mm = 1.5;  // places that are nearer are one, of the centre and at the ends of an oval
   double sure_step = 20.0;     // of grey values: what is stronger counts no more
   double edge_reach_mm = 2.5;  // of the search for the edge itself, about that place
   double scale_px = 4.0;       // Geman and McClure's, for its points
@@ -68,39 +69,52 @@ struct RimLevelEdge {
   Vec2 brighter = Vec2::Zero();
 };
 
+// A point of the outer edge, in the table frame, with the unit normal there that leads away from the dish.
+struct RimNormal {
+  Vec3 point_mm = Vec3::Zero();
+  Vec3 outward = Vec3::Zero();
+
+  Vec3 beyond(double mm) const { return point_mm + mm * outward; }
+};
+
+// How far a point of the rim moves outward, in samples, where the dish moves.
+struct RimShift {
+  float x = 0.0F;  // by a mm
+  float y = 0.0F;
+  float turn = 0.0F;  // by a rad
+};
+
+using RimEdges = std::array<BoundedList<RimEdge>, 2>;
+
 struct DishSearchWorkspace {
-  RimEdgeWorkspace edge_search;
-  std::array<BoundedList<RimEdge>, 2> edges;
   BoundedList<RimLevelEdge> level_edges;
-  std::span<std::uint16_t> votes;
-  std::span<float> steps;  // over offsets from the rim, for each angle of both views
+  std::array<std::span<std::uint16_t>, 2> votes;  // for a dish brighter than the table, for a darker one
+  std::span<Vec2> angles;                         // cosine and sine
+  std::span<RimShift> shifts;                     // by angle
+  std::span<float> steps;                         // over offsets from the rim, for each angle of both views
   std::array<BoundedList<Vec2>, 2> outlines;
 
   template <class Allocator>
   constexpr void allocate(Allocator& arena, const DishSearchParams& params) {
-    edge_search.allocate(arena, params.edges);
-    for (BoundedList<RimEdge>& list : edges) {
-      list = BoundedList<RimEdge>(
-          arena.template take<RimEdge>(static_cast<std::size_t>(params.edges.max_edges)));
-    }
     level_edges = BoundedList<RimLevelEdge>(
         arena.template take<RimLevelEdge>(2 * static_cast<std::size_t>(params.edges.max_edges)));
     const auto side = static_cast<std::size_t>(params.cells);
-    votes = arena.template take<std::uint16_t>(side * side);
+    for (std::span<std::uint16_t>& sheet : votes) sheet = arena.template take<std::uint16_t>(side * side);
     const auto points = static_cast<std::size_t>(params.outline_points);
+    angles = arena.template take<Vec2>(points);
+    shifts = arena.template take<RimShift>(points);
     steps = arena.template take<float>(2 * points * kMaxRimOffsets);
     for (BoundedList<Vec2>& list : outlines) list = BoundedList<Vec2>(arena.template take<Vec2>(points));
   }
 };
 
-// The best place for one of the candidates, apart from `taken`, by `workspace.edges` of both views.
-// rim_not_found where none has enough edge along its rim.
-Status search_dish(const DishSearchViews& views, std::span<const DishModel> candidates,
+// The best place for one of the candidates, apart from `taken`, by the edges of both views. rim_not_found
+// where none has enough edge along its rim.
+Status search_dish(const DishSearchViews& views, const RimEdges& edges, std::span<const DishModel> candidates,
                    std::span<const FoundDish> taken, const DishSearchParams& params,
                    DishSearchWorkspace& workspace, FoundDish& found);
 
-// A point of the dish's outer edge in the table frame, at this angle from the first axis (of the ellipse's
-// parameter), `beyond_mm` outward along the normal.
-Vec3 rim_point_mm(const DishPlace& place, const Vec2& cosine_sine, double beyond_mm);
+// The dish's outer edge at this angle from the first axis (of the ellipse's parameter).
+RimNormal rim_normal(const DishPlace& place, const Vec2& cosine_sine);
 
 }  // namespace traygauge

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -9,6 +10,8 @@
 #include "core/surface/dish_search.hpp"
 
 namespace traygauge {
+
+inline constexpr std::size_t kMaxBallotCells = 2048;  // to a side
 
 // Votes for the centre of an ellipse of known axes.
 class Ballot {
@@ -26,17 +29,26 @@ class Ballot {
     ++votes_[index(static_cast<int>(cell.x()), static_cast<int>(cell.y()))];
   }
 
-  // The cell whose neighbourhood of 3 × 3 has most votes, among those that `may_stand` admits.
+  // The cell whose neighbourhood of 3 × 3 has most votes, among those that `may_stand` admits. Rows without
+  // such a cell are left after a pass that the compiler does in lanes.
   template <class MayStand>
   int most(MayStand&& may_stand, Vec2& centre_mm) const {
     int most = 0;
+    std::array<std::uint16_t, kMaxBallotCells> columns;  // sums of three rows
     for (int y = 1; y + 1 < cells_; ++y) {
+      const std::uint16_t* above = &votes_[index(0, y - 1)];
+      const std::uint16_t* row = &votes_[index(0, y)];
+      const std::uint16_t* below = &votes_[index(0, y + 1)];
+      std::uint16_t greatest = 0;
+      for (int x = 0; x < cells_; ++x) {
+        const auto at = static_cast<std::size_t>(x);
+        columns[at] = static_cast<std::uint16_t>(above[x] + row[x] + below[x]);
+        greatest = std::max(greatest, columns[at]);
+      }
+      if (3 * greatest <= most) continue;
       for (int x = 1; x + 1 < cells_; ++x) {
-        int sum = 0;
-        for (int dy = -1; dy <= 1; ++dy) {
-          const std::uint16_t* row = &votes_[index(x - 1, y + dy)];
-          sum += row[0] + row[1] + row[2];
-        }
+        const std::uint16_t* three = &columns[static_cast<std::size_t>(x - 1)];
+        const int sum = three[0] + three[1] + three[2];
         if (sum <= most) continue;
         const Vec2 place = corner_mm_ + cell_mm_ * Vec2(x + 0.5, y + 0.5);
         if (!may_stand(place)) continue;

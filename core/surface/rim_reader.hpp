@@ -59,17 +59,26 @@ class RimReader {
   }
   double offset_mm(double index, int count) const { return (index - count / 2) * params_.sample_mm; }
 
-  // Fills `steps`: how much brighter (or darker, sign −1) the picture is inside than outside of each offset
-  // from the rim, inward first. False where it leaves the picture.
-  bool read_steps(const DishPlace& place, const Vec2& angle, int inside_sign, std::span<float> steps) const {
+  // Fills `steps` along the normal: how much brighter (or darker, sign −1) the picture is inside than outside
+  // of each offset from the rim, inward first. False where it leaves the picture.
+  bool read_steps(const RimNormal& rim, int inside_sign, std::span<float> steps) const {
     const auto width = static_cast<std::size_t>(band());
     std::array<float, kMaxRimOffsets + 1> sums{};  // running
     const std::size_t size = steps.size() + 2 * width;
+    // Perspective and lens bend a line of some centimetres by less than a parabola leaves over.
+    const double reach_mm = offset_mm(static_cast<double>(size - 1), static_cast<int>(size));
+    std::array<Vec2, 3> pixels;
+    for (std::size_t k = 0; k < pixels.size(); ++k) {
+      const Vec3 in_camera = view_.camera_from_table * rim.beyond((static_cast<double>(k) - 1.0) * reach_mm);
+      if (!(in_camera.z() > 0.0)) return false;
+      pixels[k] = view_.lens.pixel(in_camera.hnormalized());
+    }
+    const Vec2 slope = 0.5 * (pixels[2] - pixels[0]);
+    const Vec2 bend = 0.5 * (pixels[2] + pixels[0]) - pixels[1];
     for (std::size_t i = 0; i < size; ++i) {
-      Vec2 pixel;
       float gray = 0.0F;
-      const double beyond_mm = offset_mm(static_cast<double>(i), static_cast<int>(size));
-      if (!pixel_of(rim_point_mm(place, angle, beyond_mm), pixel) || !gray_.sample(pixel, gray)) return false;
+      const double t = 2.0 * static_cast<double>(i) / static_cast<double>(size - 1) - 1.0;
+      if (!gray_.sample(pixels[1] + t * slope + t * t * bend, gray)) return false;
       sums[i + 1] = sums[i] + gray;
     }
     for (std::size_t i = 0; i < steps.size(); ++i) {
@@ -77,13 +86,6 @@ class RimReader {
       const float outside = sums[i + 2 * width + 1] - sums[i + width + 1];
       steps[i] = static_cast<float>(inside_sign) * (inside - outside) / static_cast<float>(width);
     }
-    return true;
-  }
-
-  bool pixel_of(const Vec3& point_mm, Vec2& pixel) const {
-    const Vec3 in_camera = view_.camera_from_table * point_mm;
-    if (!(in_camera.z() > 0.0)) return false;
-    pixel = view_.lens.pinhole.pixel(view_.lens.distort(in_camera.hnormalized()));
     return true;
   }
 

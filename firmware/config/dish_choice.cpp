@@ -1,5 +1,8 @@
 #include "firmware/config/dish_choice.hpp"
 
+#include <algorithm>
+
+#include "core/segmentation/label_regions.hpp"
 #include "firmware/config/dish_library.hpp"
 #include "simulator/capture/input_error.hpp"
 
@@ -20,6 +23,26 @@ void require_one_dish(const Capture& capture) {
 
 std::vector<DishDescription> choose_dishes(const Capture& capture, const std::string& config) {
   return capture.dishes.empty() ? read_dish_library(find_config_folder(config)) : capture.dishes;
+}
+
+std::vector<DishDescription> choose_tray_dishes(const StationFile& station,
+                                                const std::vector<DishDescription>& library) {
+  if (station.dishes.empty()) return library;
+  std::vector<DishDescription> dishes;
+  for (std::size_t i = 0; i < station.dishes.size(); ++i) {
+    const auto found = std::find_if(library.begin(), library.end(), [&](const DishDescription& dish) {
+      return dish.style == station.dishes[i];
+    });
+    if (found == library.end()) {
+      std::string styles;
+      for (const DishDescription& dish : library) styles += (styles.empty() ? "" : ", ") + dish.style;
+      throw InputError({station.file, "trays.dishes[" + std::to_string(i) + "]"}, "one of " + styles,
+                       printable(station.dishes[i]), "correct it, or describe the dish in dishes/");
+    }
+    dishes.push_back(*found);
+    dishes.back().label = i == 0 ? kDishLabel : kFirstFurtherDishLabel - 1 + static_cast<int>(i);
+  }
+  return dishes;
 }
 
 }  // namespace traygauge

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "firmware/config/station_file.hpp"
 #include "simulator/capture/capture.hpp"
 
 namespace traygauge {
@@ -16,5 +17,10 @@ void require_one_dish(const Capture& capture);
 // The capture's dishes, or where it names none, those of the library in the folder `config` (empty: the usual
 // one) as candidates for the only dish. Throws InputError.
 std::vector<DishDescription> choose_dishes(const Capture& capture, const std::string& config);
+
+// Those of `library` that stand on every tray of a station, each with a label of its own; all, as candidates
+// for the only dish, where the station names none. Throws InputError.
+std::vector<DishDescription> choose_tray_dishes(const StationFile& station,
+                                                const std::vector<DishDescription>& library);
 
 }  // namespace traygauge

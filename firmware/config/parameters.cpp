@@ -15,7 +15,7 @@
 namespace traygauge {
 namespace {
 
-constexpr std::size_t kNameWidth = 48;
+constexpr std::size_t kNameWidth = 64;
 
 // The shortest text without an exponent that reads back as the same number.
 template <class Number>
@@ -104,6 +104,12 @@ ParameterList parameters_of(Profile profile, Configuration& configuration) {
   return list;
 }
 
+ParameterList segmentation_parameters(Configuration& configuration) {
+  ParameterList list;
+  visit_segmentation_parameters(configuration.segmentation, list);
+  return list;
+}
+
 void append_lines(const std::string& title, const ParameterList& list, std::vector<std::string>& lines) {
   lines.push_back("# " + title);
   for (const Parameter& parameter : list.items()) {
@@ -121,7 +127,11 @@ void set_parameter(Configuration& configuration, const std::string& assignment) 
   const Profile other = configuration.profile == Profile::best ? Profile::paper : Profile::best;
   const ParameterList shared = shared_parameters(configuration);
   const ParameterList own = parameters_of(configuration.profile, configuration);
-  const Parameter* parameter = own.find(name) != nullptr ? own.find(name) : shared.find(name);
+  const ParameterList segmentation = segmentation_parameters(configuration);
+  const Parameter* parameter = nullptr;
+  for (const ParameterList* list : {&own, &shared, &segmentation}) {
+    if (parameter == nullptr) parameter = list->find(name);
+  }
   if (parameter == nullptr) {
     if (parameters_of(other, configuration).find(name) != nullptr) {
       throw UsageError("--set " + name + ": profile " + traygauge::name(configuration.profile) +
@@ -137,6 +147,7 @@ std::vector<std::string> list_parameters(const Configuration& configuration) {
   Configuration copy = configuration;
   std::vector<std::string> lines;
   append_lines("both profiles", shared_parameters(copy), lines);
+  append_lines("labels auto", segmentation_parameters(copy), lines);
   append_lines("profile best", parameters_of(Profile::best, copy), lines);
   append_lines("profile paper", parameters_of(Profile::paper, copy), lines);
   return lines;

@@ -5,6 +5,8 @@
 #include <nlohmann/json.hpp>
 #include <string_view>
 
+#include "core/estimator/measurement.hpp"
+#include "core/pose/joint_problem.hpp"
 #include "drivers/v4l2/device_finder.hpp"
 #include "firmware/base/text.hpp"
 #include "simulator/capture/json_node.hpp"
@@ -269,11 +271,24 @@ CardDescription read_card(const JsonNode& table, const fs::path& folder) {
   return card;
 }
 
-std::array<InputFile, 2> read_labels(const JsonNode& table, const fs::path& folder) {
-  expect(table, {"labels"});
-  const auto list = table.member("labels").elements(2, 2);
-  return {InputFile{folder / list[0].text(), list[0].key()},
-          InputFile{folder / list[1].text(), list[1].key()}};
+void read_trays(const JsonNode& table, const fs::path& folder, StationFile& station) {
+  expect(table, {"labels", "dishes", "items"});
+  const auto labels = table.find("labels");
+  if (labels && labels->is_text()) {
+    if (labels->text() != "automatic")
+      labels->fail("\"automatic\", or two label pictures, one for each view", "correct the value");
+  } else if (labels) {
+    const auto list = labels->elements(2, 2);
+    station.labels = {InputFile{folder / list[0].text(), list[0].key()},
+                      InputFile{folder / list[1].text(), list[1].key()}};
+  }
+  if (const auto dishes = table.find("dishes")) {
+    for (const JsonNode& dish : dishes->elements(1, kMaxPlacedDishes)) station.dishes.push_back(dish.text());
+  }
+  const auto items = table.find("items");
+  if (!items) return;
+  station.items = items->integer(1, static_cast<int>(kMaxItems));
+  if (station.labels) items->fail("no number beside label pictures, which say it", "remove one of the two");
 }
 
 }  // namespace
@@ -305,7 +320,7 @@ StationFile read_station_file(const fs::path& file) {
       station.second_lens = read_lens(*lens, *second, *station.second_camera);
   }
   if (const auto card = root.find("card")) station.card = read_card(*card, folder);
-  if (const auto trays = root.find("trays")) station.labels = read_labels(*trays, folder);
+  if (const auto trays = root.find("trays")) read_trays(*trays, folder, station);
   return station;
 }
 

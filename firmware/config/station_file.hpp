@@ -67,6 +67,9 @@ struct StationFile {
   std::optional<CardDescription> card;
   // Outlines of dish and food, the same for every tray; none: to be found.
   std::optional<std::array<InputFile, 2>> labels;
+  // Which dishes stand on every tray, by style, of those known; none: one, whichever it is.
+  std::vector<std::string> dishes;
+  int items = 0;  // on every tray; 0: not known
 };
 
 // Unknown keys are errors: they are typing mistakes. Paths in the file are relative to it. Throws InputError.

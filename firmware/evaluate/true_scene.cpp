@@ -53,7 +53,7 @@ std::optional<TrueSurface> TrueSurface::read(const Capture& capture, const Truth
 std::optional<double> TrueSurface::behind_mm(const Vec3& world_mm) const {
   const Vec3 point = camera_from_world_ * world_mm;
   if (!(point.z() > 0.0)) return {};
-  const Vec2 pixel = lens_.pinhole.pixel(lens_.distort(point.hnormalized()));
+  const Vec2 pixel = lens_.pixel(point.hnormalized());
   const double left = std::floor(pixel.x());
   const double top = std::floor(pixel.y());
   const ImageView<const std::uint16_t> depth = depth_.view();

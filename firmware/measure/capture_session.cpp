@@ -44,10 +44,13 @@ CaptureSession::CaptureSession(const Capture& capture, std::array<int, 2> pair,
 }
 
 void CaptureSession::draw_labels() {
-  drawn_ = label_pair(configuration_, setup_, views_);
+  drawer_.emplace(configuration_);
+  drawer_->configure(configuration_, estimator_);
+  // measure() reports the failure of a view, too; its labels stay empty.
+  for (std::size_t i = 0; i < 2; ++i) static_cast<void>(drawer_->add_view(input(i), estimator_));
   for (std::size_t i = 0; i < 2; ++i) {
     given_labels_[i] = std::move(views_[i].labels);
-    views_[i].labels = drawn_->labels[i];
+    views_[i].labels = drawer_->drawn().labels[i];
   }
 }
 
@@ -87,22 +90,13 @@ ViewInput CaptureSession::input(std::size_t i) const {
 }
 
 const Measurement& CaptureSession::measure(std::uint64_t seed, StageTap* tap) {
-  if (drawn_ && !drawn_->segmentation.status.ok()) {
-    measurement_ = {};
-    measurement_.status = drawn_->segmentation.status;
-    measurement_.total_ms = drawn_->segmentation.total_ms();
-    return measurement_;
-  }
+  if (drawer_) return drawer_->measure(estimator_, seed, tap);
   estimator_.reset();
   for (std::size_t i = 0; i < 2; ++i) {
     // estimate() reports the failure of a view, too.
     if (!estimator_.add_view(input(i)).ok()) break;
   }
-  const Measurement& measured = estimator_.estimate(seed, tap);
-  if (!drawn_) return measured;
-  measurement_ = measured;
-  measurement_.total_ms += drawn_->segmentation.total_ms();
-  return measurement_;
+  return estimator_.estimate(seed, tap);
 }
 
 }  // namespace traygauge

@@ -15,12 +15,6 @@
 
 namespace traygauge {
 
-// Where dish and food are outlined.
-enum class LabelSource : std::uint8_t {
-  given,      // by the capture's label pictures
-  automatic,  // by the segmentation
-};
-
 // Loads the pictures of the pair and builds the estimator for them; both live as long as the session. Throws
 // InputError.
 class CaptureSession {
@@ -40,8 +34,8 @@ class CaptureSession {
   const PairSetup& setup() const { return setup_; }
   const LoadedView& view(int i) const { return views_[static_cast<std::size_t>(i)]; }
   const LensModel& lens(int i) const { return setup_.lenses[static_cast<std::size_t>(i)]; }
-  // Of the segmentation, where that drew the labels.
-  const std::optional<PairLabels>& drawn() const { return drawn_; }
+  // Of the segmentation, where that drew the labels; else null.
+  const PairLabels* drawn() const { return drawer_ ? &drawer_->drawn() : nullptr; }
   // The capture's own labels where the segmentation drew others; else empty pictures.
   const std::array<Picture, 2>& given_labels() const { return given_labels_; }
   // Doubts about the input that do not stop a measurement.
@@ -58,9 +52,8 @@ class CaptureSession {
   Configuration configuration_;
   AlignedBlock block_;
   Estimator estimator_;
-  std::optional<PairLabels> drawn_;
+  std::optional<LabelDrawer> drawer_;
   std::array<Picture, 2> given_labels_;
-  Measurement measurement_;  // with the segmentation before it
 };
 
 }  // namespace traygauge

@@ -74,6 +74,7 @@ void add_measure_command(CLI::App& app, MeasureOptions& options) {
       "--labels", options.labels,
       "Where dish and food are outlined: given (label pictures) or auto (found in the pictures); default: "
       "given where the capture has label pictures");
+  add_items_option(*command, options.items);
   command->add_option("--profile", options.profile,
                       "best (default), or paper: every stage as the paper describes it");
   command->add_option("--seed", options.seed, "Seed of all randomness, default 0");
@@ -83,6 +84,18 @@ void add_measure_command(CLI::App& app, MeasureOptions& options) {
   command->add_option("--picture", options.picture, "Write a PNG with views, disparity and heights");
   command->add_option("--mesh", options.mesh,
                       "Write the food surface as PLY, in mm over the bottom of the dish");
+}
+
+void add_items_option(CLI::App& command, int& items) {
+  command
+      .add_option("--items", items,
+                  "How many food items there are, where they are found and not given; default: as found")
+      ->check(CLI::Range(1, static_cast<int>(kMaxItems)));
+}
+
+void check_hint(int items, LabelSource labels) {
+  if (items == 0 || labels == LabelSource::automatic) return;
+  throw UsageError("--items: the outlines that are given say how many there are; add --labels auto");
 }
 
 void check_label_source(const std::string& typed) {
@@ -151,6 +164,8 @@ int run_measure(const MeasureOptions& options, std::ostream& out, std::ostream& 
   const Capture capture = read_capture(options.capture);
   const std::array<int, 2> pair = choose_pair(options.pair, capture);
   const LabelSource labels = choose_labels(options.labels, capture, pair);
+  check_hint(options.items, labels);
+  parameters.segmentation.items = options.items;
   if (parameters.profile == Profile::paper) require_one_dish(capture);
   CaptureSession session(capture, pair, choose_dishes(capture, options.config), parameters, labels);
   const Measurement& measurement = session.measure(seed);

@@ -23,6 +23,7 @@ struct MeasureOptions {
   std::string config;
   std::string picture;
   std::string mesh;
+  int items = 0;  // as a menu says; 0: not known
   bool json = false;
 };
 
@@ -41,6 +42,12 @@ void require_labels(const Capture& capture, const std::array<int, 2>& pair);
 // What `typed` names: given or auto; empty: auto where neither view has a label picture, else given.
 // UsageError for anything else, InputError for labels that are to be given and are not.
 LabelSource choose_labels(const std::string& typed, const Capture& capture, const std::array<int, 2>& pair);
+
+// "--items N": how many items there are, for labels that are found.
+void add_items_option(CLI::App& command, int& items);
+
+// UsageError where so many items are said to lie in given outlines; 0: nothing is said.
+void check_hint(int items, LabelSource labels);
 
 // UsageError unless `typed` is given, auto or empty.
 void check_label_source(const std::string& typed);

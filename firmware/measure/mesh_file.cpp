@@ -39,7 +39,7 @@ Pose dish_from_camera(const FoodMesh& mesh, const Plane& bottom) {
 // The picture's nearest pixel where the lens shows the point.
 Colour colour_at(const Vec3& point, const Picture& picture, const LensModel& lens) {
   if (point.z() <= 0.0) return {};
-  const Vec2 pixel = lens.pinhole.pixel(lens.distort({point.x() / point.z(), point.y() / point.z()}));
+  const Vec2 pixel = lens.pixel({point.x() / point.z(), point.y() / point.z()});
   const Vec2 nearest(std::round(pixel.x()), std::round(pixel.y()));
   if (!(nearest.x() >= 0.0 && nearest.y() >= 0.0 && nearest.x() < picture.size.width &&
         nearest.y() < picture.size.height)) {

@@ -2,10 +2,12 @@
 
 #include <cstddef>
 #include <ostream>
+#include <span>
 #include <string>
 
 #include "core/estimator/estimator.hpp"
 #include "core/estimator/memory_report.hpp"
+#include "core/estimator/segmenter_memory.hpp"
 #include "firmware/base/exit_status.hpp"
 #include "firmware/base/text.hpp"
 #include "firmware/config/profile.hpp"
@@ -21,6 +23,11 @@ constexpr std::size_t kBytesPerPixel = 3 + 1;  // colour and label
 std::string row(const std::string& name, std::size_t bytes) {
   return pad_right(name, kNameWidth) + pad_left(std::to_string(bytes), 12) + pad_left(mebibytes(bytes), 10) +
          "\n";
+}
+
+void print_parts(std::span<const MemoryRow> parts, std::ostream& out) {
+  for (const MemoryRow& part : parts)
+    out << row(part.name + std::string(part.shared ? " *" : ""), part.bytes);
 }
 
 }  // namespace
@@ -43,10 +50,10 @@ int run_memory(const MemoryOptions& options, std::ostream& out) {
   configuration.limits = limits;
   out << "Frames of " << options.width << " x " << options.height << " pixels\n\n";
   out << pad_right("part", kNameWidth) << pad_left("bytes", 12) << pad_left("MiB", 10) << "\n";
-  for (const MemoryRow& part : describe_memory(configuration)) {
-    out << row(part.name + std::string(part.shared ? " *" : ""), part.bytes);
-  }
-  out << row("reserved at start", required_bytes(configuration))
+  print_parts(describe_memory(configuration), out);
+  out << row("reserved at start", required_bytes(configuration)) << "\nwhere labels are found, beside it\n";
+  print_parts(describe_segmenter(configuration), out);
+  out << row("reserved at start", segmenter_bytes(configuration))
       << "* one after the other in the same memory: the largest counts\n\n";
   const auto pixels = static_cast<std::size_t>(options.width) * static_cast<std::size_t>(options.height);
   out << row("beside it: frames, labels", kFrames * kBytesPerPixel * pixels);

@@ -1,27 +1,105 @@
 #include "firmware/segment/pair_labels.hpp"
 
-#include <memory>
-
-#include "firmware/base/aligned_block.hpp"
+#include "firmware/measure/measure_report.hpp"
 
 namespace traygauge {
+namespace {
 
-PairLabels label_pair(const Configuration& configuration, const PairSetup& setup,
-                      const std::array<LoadedView, 2>& views) {
-  PairLabels result;
-  result.reserved_bytes = segmenter_bytes(configuration);
-  AlignedBlock block(result.reserved_bytes);
-  const auto segmenter = std::make_unique<Segmenter>(block.bytes(), configuration);
-  std::array<SegmentedView, 2> segmented;
-  for (std::size_t i = 0; i < 2; ++i) {
-    Picture& labels = result.labels[i];
-    labels = Picture(views[i].picture.size, PixelFormat::gray8);
-    segmented[i].frame = views[i].picture.frame();
-    segmented[i].labels = {labels.pixels.data(), labels.size.width, labels.size.height};
-    segmented[i].lens = setup.lenses[i];
+PictureSize largest_frame(const Configuration& configuration) {
+  return {configuration.limits.max_frame_width, configuration.limits.max_frame_height};
+}
+
+// Within the memory that the picture has.
+ImageView<std::uint8_t> resized(Picture& picture, PictureSize size) {
+  picture.size = size;
+  picture.pixels.resize(Picture::area(size));
+  return {picture.pixels.data(), size.width, size.height};
+}
+
+bool fits(PictureSize size, const Picture& picture) {
+  return Picture::area(size) <= picture.pixels.capacity();
+}
+
+}  // namespace
+
+LabelDrawer::LabelDrawer(const Configuration& configuration) : block_(segmenter_bytes(configuration)) {
+  drawn_.reserved_bytes = block_.bytes().size();
+  for (Picture& labels : drawn_.labels) labels = Picture(largest_frame(configuration), PixelFormat::gray8);
+  if (configuration.profile == Profile::best) return;
+  for (Picture& gray : gray_) gray = Picture(largest_frame(configuration), PixelFormat::gray8);
+  ArenaPlan plan;
+  pattern_.allocate(plan, configuration.best.card.pattern);
+  pattern_block_.emplace(plan.high_water_bytes());
+}
+
+void LabelDrawer::configure(const Configuration& configuration, const Estimator& estimator) {
+  reset();
+  segmenter_.reset();
+  const CardPattern* pattern = estimator.card_pattern();
+  if (pattern == nullptr && pattern_block_) {
+    Arena arena(pattern_block_->bytes());
+    pattern_.allocate(arena, configuration.best.card.pattern);
+    const ReferenceCard& card = configuration.card;
+    const CardModelSize size{card.width_mm, card.height_mm, card.thickness_mm};
+    if (prepare_card_pattern(card.pattern, size, configuration.best.card.pattern, pattern_).ok())
+      pattern = &pattern_;
   }
-  result.segmentation = segmenter->segment(segmented);
-  return result;
+  if (pattern != nullptr) segmenter_.emplace(block_.bytes(), configuration, *pattern);
+}
+
+void LabelDrawer::reset() {
+  view_count_ = 0;
+  drawn_.segmentation = {};
+  if (segmenter_) segmenter_->reset();
+}
+
+Status LabelDrawer::add_view(const ViewInput& view, const Estimator& estimator) {
+  if (!segmenter_ || view_count_ == views_.size()) return StatusCode::invalid_configuration;
+  const std::size_t index = view_count_++;
+  const PictureSize size{view.frame.width, view.frame.height};
+  SegmentedView segmented;
+  segmented.frame = view.frame;
+  segmented.lens = view.lens;
+  if (fits(size, drawn_.labels[index])) {
+    segmented.labels = resized(drawn_.labels[index], size);
+    const ImageView<std::uint8_t> kept = estimator.gray_memory(index);
+    segmented.gray = kept.empty() ? resized(gray_[index], size)
+                                  : ImageView<std::uint8_t>{kept.data, size.width, size.height};
+  }
+  const Status status = segmenter_->add_view(segmented);
+  views_[index] = view;
+  views_[index].labels = segmented.labels;
+  views_[index].gray = segmented.gray;
+  views_[index].card = &segmenter_->card(index);
+  if (view_count_ < views_.size()) return status;
+  drawn_.segmentation = segmenter_->segment();
+  return drawn_.segmentation.status;
+}
+
+const Measurement& LabelDrawer::measure(Estimator& estimator, std::uint64_t seed, StageTap* tap) {
+  // After one view only: what it lacks, or that the other is missing.
+  if (segmenter_ && view_count_ < views_.size()) drawn_.segmentation = segmenter_->segment();
+  const Segmentation& segmentation = drawn_.segmentation;
+  measurement_ = {};
+  measurement_.status = segmenter_ ? segmentation.status : Status(StatusCode::invalid_configuration);
+  if (measurement_.status.ok()) {
+    estimator.reset();
+    for (const ViewInput& view : views_) {
+      // estimate() reports the failure of a view, too.
+      if (!estimator.add_view(view).ok()) break;
+    }
+    measurement_ = estimator.estimate(seed, tap);
+    measurement_.warn(Warning::dish_not_found, !segmentation.has_all_dishes());
+    if (segmentation.is_card_doubtful) {
+      measurement_.warn(Warning::card_partly_hidden, true);
+      // Outlines that were drawn after a card out of its place contradict each other; nobody else is to
+      // blame.
+      if (!is_measured(measurement_)) measurement_.status = StatusCode::card_hidden;
+    }
+  }
+  measurement_.segmentation_ms = segmentation.total_ms();
+  measurement_.total_ms += measurement_.segmentation_ms;
+  return measurement_;
 }
 
 }  // namespace traygauge

@@ -1,14 +1,23 @@
-// The label pictures of a pair, drawn by the segmentation.
+// The label pictures of a pair, drawn by the segmentation, and what is measured with them.
 #pragma once
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
+#include <optional>
 
+#include "core/estimator/estimator.hpp"
 #include "core/estimator/segmenter.hpp"
-#include "firmware/measure/pair_setup.hpp"
-#include "simulator/capture/capture.hpp"
+#include "firmware/base/aligned_block.hpp"
+#include "simulator/capture/picture.hpp"
 
 namespace traygauge {
+
+// Where dish and food are outlined.
+enum class LabelSource : std::uint8_t {
+  given,      // by label pictures
+  automatic,  // by the segmentation
+};
 
 struct PairLabels {
   std::array<Picture, 2> labels;
@@ -16,8 +25,37 @@ struct PairLabels {
   std::size_t reserved_bytes = 0;
 };
 
-// `configuration` as configure() gives it for `setup`. Where the segmentation fails, its status says why.
-PairLabels label_pair(const Configuration& configuration, const PairSetup& setup,
-                      const std::array<LoadedView, 2>& views);
+// Takes its memory once; nothing is allocated while it draws.
+class LabelDrawer {
+ public:
+  // For cameras, cards and dishes within the limits of `configuration`, and its parameters.
+  explicit LabelDrawer(const Configuration& configuration);
+
+  // What the next pairs show; `estimator` is to measure them and is of the same configuration.
+  void configure(const Configuration& configuration, const Estimator& estimator);
+  // Forgets both views.
+  void reset();
+  // Takes the first, then the second view, whose labels are not looked at, and draws after the second. Its
+  // grey picture goes to the estimator. What fails here is also what measure() reports.
+  Status add_view(const ViewInput& view, const Estimator& estimator);
+  // The segmentation's outcome after both views.
+  const PairLabels& drawn() const { return drawn_; }
+
+  // Measures both views with the labels drawn. Valid until the next call of any function.
+  const Measurement& measure(Estimator& estimator, std::uint64_t seed, StageTap* tap = nullptr);
+
+ private:
+  AlignedBlock block_;
+  // For estimators that keep none.
+  std::optional<AlignedBlock> pattern_block_;
+  CardPattern pattern_;
+  std::array<Picture, 2> gray_;
+
+  std::optional<Segmenter> segmenter_;
+  std::array<ViewInput, 2> views_;
+  std::size_t view_count_ = 0;
+  PairLabels drawn_;
+  Measurement measurement_;
+};
 
 }  // namespace traygauge

@@ -65,6 +65,7 @@ void add_segment_command(CLI::App& app, SegmentOptions& options) {
   command->add_option("--pair", options.pair, "The two views A,B; default: the first of the capture's pairs");
   command->add_option("--config", options.config, "Folder with dishes/, for captures that name no dish")
       ->envname("TRAYGAUGE_CONFIG");
+  add_items_option(*command, options.items);
   command->add_flag("--json", options.json, "Print one JSON document instead of a table");
   command->add_option("--picture", options.picture, "Write a PNG with the outlines, beside the given ones");
   command->add_option("--out", options.out,
@@ -75,12 +76,14 @@ int run_segment(const SegmentOptions& options, std::ostream& out) {
   check_output(options.picture);
   const Capture capture = read_capture(options.capture);
   const std::array<int, 2> pair = choose_pair(options.pair, capture);
-  const CaptureSession session(capture, pair, choose_dishes(capture, options.config), {},
+  Configuration parameters;
+  parameters.segmentation.items = options.items;
+  const CaptureSession session(capture, pair, choose_dishes(capture, options.config), parameters,
                                LabelSource::automatic);
   SegmentReport report;
   report.capture = options.capture;
   report.pair = pair;
-  report.drawn = &*session.drawn();
+  report.drawn = session.drawn();
   const auto& given = session.given_labels();
   if (!given[0].pixels.empty() && !given[1].pixels.empty()) {
     report.scores = {score_labels(report.drawn->labels[0], given[0]),

@@ -14,6 +14,7 @@ struct SegmentOptions {
   std::string config;
   std::string picture;
   std::string out;
+  int items = 0;  // as a menu says; 0: not known
   bool json = false;
 };
 

@@ -63,6 +63,9 @@ std::string compose_segment_document(const SegmentReport& report) {
   document["pair"] = report.pair;
   document["status"] = name(segmentation.status.code());
   document["message"] = sentence(segmentation.status.code());
+  document["cards"] = Json::array();
+  for (const CardAlignment& card : segmentation.cards)
+    document["cards"].push_back({{"correlation", number_or_null(card.correlation, card.correlation > 0.0)}});
   document["dishes"] = Json::array();
   for (std::size_t d = 0; d < segmentation.dish_count; ++d)
     document["dishes"].push_back(dish_of(segmentation.dishes[d]));
@@ -89,6 +92,9 @@ std::string compose_segment_table(const SegmentReport& report) {
                                          " and " + std::to_string(report.pair[1]));
   text += line("status",
                std::string(name(segmentation.status.code())) + ": " + sentence(segmentation.status.code()));
+  text += line("card", "print and pictures correlate by " + fixed(segmentation.cards[0].correlation, 3) +
+                           " and " + fixed(segmentation.cards[1].correlation, 3) +
+                           (segmentation.is_card_doubtful ? "; part of it is covered, or bent" : ""));
   for (std::size_t d = 0; d < segmentation.dish_count; ++d) {
     const SegmentedDish& dish = segmentation.dishes[d];
     const DishPlace& place = dish.found.place;

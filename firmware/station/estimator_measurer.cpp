@@ -8,10 +8,17 @@ EstimatorMeasurer::EstimatorMeasurer(Scene& scene, const EstimatorLimits& limits
       limits_(limits),
       profile_(profile),
       seed_(seed),
-      block_(required_bytes(limits, profile)) {}
+      block_(required_bytes(limits, profile)) {
+  if (!scene.needs_labels()) return;
+  Configuration configuration;
+  configuration.limits = limits;
+  configuration.profile = profile;
+  drawer_.emplace(configuration);
+}
 
 // The card's pattern is learned again only when the configuration is another one.
 void EstimatorMeasurer::begin_scan() {
+  is_drawing_ = false;
   const Configuration* configuration = scene_.configuration();
   if (configuration == nullptr) {
     estimator_.reset();
@@ -19,6 +26,7 @@ void EstimatorMeasurer::begin_scan() {
     configure(*configuration);
   } else {
     estimator_->reset();
+    if (drawer_) drawer_->reset();
   }
   configured_with_ = configuration;
   first_view_.reset();
@@ -29,14 +37,18 @@ void EstimatorMeasurer::configure(const Configuration& configuration) {
   own.limits = limits_;
   own.profile = profile_;
   estimator_.emplace(block_.bytes(), own);
+  if (drawer_) drawer_->configure(own, *estimator_);
 }
 
 Status EstimatorMeasurer::add_view(const StationView& view) {
   if (!estimator_) return StatusCode::invalid_configuration;
   if (!estimator_->status().ok()) return estimator_->status();
   const ViewInput input = scene_.describe(view);
-  if (!first_view_) first_view_ = input;
-  return estimator_->add_view(input);
+  if (!first_view_) {
+    first_view_ = input;
+    is_drawing_ = drawer_ && input.labels.empty();
+  }
+  return is_drawing_ ? drawer_->add_view(input, *estimator_) : estimator_->add_view(input);
 }
 
 // Looks for the card of the first view only here: who has an arm does not need it.
@@ -51,7 +63,8 @@ std::optional<double> EstimatorMeasurer::turned_deg(const FrameView& live) {
 }
 
 const Measurement& EstimatorMeasurer::measure() {
-  if (estimator_ && estimator_->status().ok()) return estimator_->estimate(seed_);
+  if (estimator_ && estimator_->status().ok())
+    return is_drawing_ ? drawer_->measure(*estimator_, seed_) : estimator_->estimate(seed_);
   unmeasured_.status = estimator_ ? estimator_->status() : Status(StatusCode::invalid_configuration);
   return unmeasured_;
 }

@@ -8,6 +8,7 @@
 #include "core/estimator/estimator.hpp"
 #include "firmware/base/aligned_block.hpp"
 #include "firmware/card/card_guide.hpp"
+#include "firmware/segment/pair_labels.hpp"
 #include "firmware/station/measurer.hpp"
 
 namespace traygauge {
@@ -23,12 +24,16 @@ class Scene {
   // Camera, card and dishes for the tray that lies there now, valid until the next call; the same address
   // means the same content. Null when nothing is known of it; its limits are not looked at.
   virtual const Configuration* configuration() = 0;
-  // The view with its labels and, where they are known, its own camera and the arm's angle.
+  // The view with its labels and, where they are known, its own camera and the arm's angle. Without labels
+  // they are drawn.
   virtual ViewInput describe(const StationView& view) = 0;
+  // Whether any tray's views come without labels.
+  virtual bool needs_labels() const = 0;
   virtual std::string_view tray_name() const = 0;
 };
 
-// Takes its memory once, for `limits` and `profile`; nothing is allocated during a scan.
+// Takes its memory once, for `limits` and `profile`, and where the scene needs it for drawing labels; nothing
+// is allocated during a scan.
 class EstimatorMeasurer final : public Measurer {
  public:
   EstimatorMeasurer(Scene& scene, const EstimatorLimits& limits, Profile profile, std::uint64_t seed);
@@ -39,7 +44,6 @@ class EstimatorMeasurer final : public Measurer {
   bool can_guide() const override { return true; }
   std::optional<double> turned_deg(const FrameView& live) override;
   std::string_view tray_name() const override { return scene_.tray_name(); }
-  std::size_t reserved_bytes() const { return block_.bytes().size(); }
 
  private:
   void configure(const Configuration& configuration);
@@ -51,7 +55,9 @@ class EstimatorMeasurer final : public Measurer {
   AlignedBlock block_;
   const Configuration* configured_with_ = nullptr;
   std::optional<Estimator> estimator_;
-  Measurement unmeasured_;  // where there is no estimator to ask
+  std::optional<LabelDrawer> drawer_;
+  bool is_drawing_ = false;  // this scan's labels
+  Measurement unmeasured_;   // where there is no estimator to ask
   CardGuide guide_;
   std::optional<ViewInput> first_view_;  // until guide_ knows it
 };

@@ -1,11 +1,13 @@
 #include "firmware/station/hardware_station.hpp"
 
 #include "firmware/base/exit_status.hpp"
+#include "firmware/config/dish_choice.hpp"
 #include "firmware/config/dish_library.hpp"
 #include "firmware/config/profile.hpp"
 #include "firmware/station/hardware.hpp"
 #include "firmware/station/scan_printer.hpp"
 #include "firmware/station/site_scene.hpp"
+#include "simulator/capture/input_error.hpp"
 
 namespace traygauge {
 namespace {
@@ -22,13 +24,17 @@ std::vector<DishDescription> read_dishes(const std::filesystem::path& file) {
 int run_hardware_station(const StationCommand& command, const std::filesystem::path& file,
                          const std::atomic<bool>& stop, std::ostream& out, std::ostream& log) {
   if (!command.faults.empty()) throw UsageError("--faults: only simulated devices fail as a script says");
+  if (!command.labels.source.empty() || command.labels.items > 0) {
+    throw UsageError("--labels, --items: for played captures; a station's are in " + file.string() +
+                     ", under [trays]");
+  }
   const Profile profile = choose_profile(command.profile);
   const StationFile station_file = read_station_file(file);
   if (command.by_hand && station_file.arm) {
     throw UsageError("--by-hand: " + station_file.file.string() + " has an [arm]; remove one of the two");
   }
   require_geometry(station_file);
-  SiteScene scene(station_file, read_dishes(file), profile);
+  SiteScene scene(station_file, choose_tray_dishes(station_file, read_dishes(file)), profile);
   EstimatorMeasurer measurer(scene, scene.limits(), profile, command.seed);
   ScanPrinter printer(out, log, command.json ? ScanPrinter::Format::json : ScanPrinter::Format::text);
   Hardware hardware(station_file);

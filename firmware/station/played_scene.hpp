@@ -17,6 +17,8 @@ class MeasurableCaptures : public CaptureSource {
   virtual std::optional<LensModel> lens(int view) const = 0;
   // Holds every capture.
   virtual EstimatorLimits limits() const = 0;
+  // Whether any capture is played without labels.
+  virtual bool needs_labels() const = 0;
 };
 
 // All outlive the scene.
@@ -43,6 +45,7 @@ class PlayedScene final : public Scene {
     }
     return input;
   }
+  bool needs_labels() const override { return captures_.needs_labels(); }
   std::string_view tray_name() const override {
     return player_.has_tray() ? captures_.capture_name() : std::string_view();
   }

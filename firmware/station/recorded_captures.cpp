@@ -7,11 +7,12 @@
 
 namespace traygauge {
 
-RecordedCaptures::RecordedCaptures(const std::vector<std::filesystem::path>& folders, Profile profile) {
-  for (const auto& folder : folders) add(folder, profile);
+RecordedCaptures::RecordedCaptures(const std::vector<std::filesystem::path>& folders, Profile profile,
+                                   const LabelChoice& labels) {
+  for (const auto& folder : folders) add(folder, profile, labels);
 }
 
-void RecordedCaptures::add(const std::filesystem::path& folder, Profile profile) {
+void RecordedCaptures::add(const std::filesystem::path& folder, Profile profile, const LabelChoice& labels) {
   const Capture capture = read_capture(folder);
   auto recording = std::make_unique<Recording>();
   recording->name = capture.file.parent_path().filename().string();
@@ -21,10 +22,14 @@ void RecordedCaptures::add(const std::filesystem::path& folder, Profile profile)
     largest_.width = std::max(largest_.width, recording->views[i].camera.size.width);
     largest_.height = std::max(largest_.height, recording->views[i].camera.size.height);
   }
+  recording->labels = choose_labels(labels.source, capture, pair);
+  check_hint(labels.items, recording->labels);
+  needs_labels_ = needs_labels_ || recording->labels == LabelSource::automatic;
   if (profile == Profile::paper) require_one_dish(capture);
   recording->setup = set_up_pair(capture, pair, choose_dishes(capture, ""));
   Configuration parameters;
   parameters.profile = profile;
+  parameters.segmentation.items = labels.items;
   recording->configuration = configure(recording->setup, parameters);
   recordings_.push_back(std::move(recording));
 }
@@ -35,7 +40,8 @@ bool RecordedCaptures::open(std::size_t index) {
   try {
     for (std::size_t i = 0; i < 2; ++i) {
       loaded_[i] = load_view(open_->views[i]);
-      pair_[i] = {loaded_[i].picture.frame(), loaded_[i].labels.gray(), open_->views[i].arm_angle_deg};
+      pair_[i] = {loaded_[i].picture.frame(), {}, open_->views[i].arm_angle_deg};
+      if (open_->labels == LabelSource::given) pair_[i].labels = loaded_[i].labels.gray();
     }
   } catch (const InputError& problem) {
     problem_ = problem.what();
@@ -51,8 +57,8 @@ EstimatorLimits RecordedCaptures::limits() const {
 }
 
 std::unique_ptr<MeasurableCaptures> open_recorded_captures(const std::vector<std::filesystem::path>& folders,
-                                                           Profile profile) {
-  return std::make_unique<RecordedCaptures>(folders, profile);
+                                                           Profile profile, const LabelChoice& labels) {
+  return std::make_unique<RecordedCaptures>(folders, profile, labels);
 }
 
 }  // namespace traygauge

@@ -8,16 +8,24 @@
 #include <vector>
 
 #include "firmware/measure/pair_setup.hpp"
+#include "firmware/segment/pair_labels.hpp"
 #include "firmware/station/played_scene.hpp"
 #include "simulator/capture/capture.hpp"
 
 namespace traygauge {
 
+// How captures are outlined, as typed.
+struct LabelChoice {
+  std::string source;  // given, auto, or empty: auto for captures without label pictures
+  int items = 0;       // on each tray, where they are found; 0: not known
+};
+
 class RecordedCaptures final : public MeasurableCaptures {
  public:
-  // Reads every capture.json and card pattern; throws InputError. Captures without a dish take those of the
-  // usual config folder.
-  RecordedCaptures(const std::vector<std::filesystem::path>& folders, Profile profile);
+  // Reads every capture.json and card pattern; throws InputError and UsageError. Captures without a dish take
+  // those of the usual config folder.
+  RecordedCaptures(const std::vector<std::filesystem::path>& folders, Profile profile,
+                   const LabelChoice& labels = {});
 
   std::size_t capture_count() const override { return recordings_.size(); }
   CameraFormat largest_frame() const override { return largest_; }
@@ -31,18 +39,21 @@ class RecordedCaptures final : public MeasurableCaptures {
     return open_->setup.lenses[static_cast<std::size_t>(view)];
   }
   EstimatorLimits limits() const override;
+  bool needs_labels() const override { return needs_labels_; }
 
  private:
   struct Recording {
     std::string name;
+    LabelSource labels = LabelSource::given;
     std::array<ViewDescription, 2> views;
     PairSetup setup;
     Configuration configuration;  // refers to the setup
   };
-  void add(const std::filesystem::path& folder, Profile profile);
+  void add(const std::filesystem::path& folder, Profile profile, const LabelChoice& labels);
 
   std::vector<std::unique_ptr<Recording>> recordings_;
   CameraFormat largest_{0, 0, PixelFormat::bgr8};
+  bool needs_labels_ = false;
   const Recording* open_ = nullptr;
   std::array<LoadedView, 2> loaded_;
   std::array<PlayedView, 2> pair_;
@@ -51,6 +62,6 @@ class RecordedCaptures final : public MeasurableCaptures {
 
 // A RecordedCaptures, for run_station.
 std::unique_ptr<MeasurableCaptures> open_recorded_captures(const std::vector<std::filesystem::path>& folders,
-                                                           Profile profile);
+                                                           Profile profile, const LabelChoice& labels);
 
 }  // namespace traygauge

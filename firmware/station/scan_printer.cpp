@@ -69,6 +69,7 @@ void add_measurement(const Measurement& measurement, Json& json) {
   for (std::size_t i = 0; i < kStageCount; ++i) {
     timing[name(static_cast<Stage>(i))] = measurement.stage_ms[i];
   }
+  if (measurement.segmentation_ms > 0.0) timing["segmentation"] = measurement.segmentation_ms;
   timing["total"] = measurement.total_ms;
   json["timing_ms"] = timing;
   for (std::size_t i = 0; i < kWarningCount; ++i) {

@@ -9,16 +9,10 @@ namespace traygauge {
 SiteScene::SiteScene(const StationFile& station, const std::vector<DishDescription>& dishes,
                      Profile profile) {
   require_geometry(station);
-  if (!station.labels) {
-    throw InputError(
-        {station.file, "trays.labels"}, "two label pictures, one for each view", "nothing",
-        "this version does not find the food by itself: outline where dish and food lie, the same "
-        "for every tray");
-  }
   const std::array<const LensConfig*, 2> lenses = {
       &*station.lens, station.second_lens ? &*station.second_lens : &*station.lens};
   for (std::size_t i = 0; i < 2; ++i) {
-    labels_[i] = read_label_picture((*station.labels)[i], lenses[i]->camera.size);
+    if (station.labels) labels_[i] = read_label_picture((*station.labels)[i], lenses[i]->camera.size);
     setup_.lenses[i] = lens_of(lenses[i]->camera);
   }
   setup_.card = *station.card;
@@ -26,6 +20,7 @@ SiteScene::SiteScene(const StationFile& station, const std::vector<DishDescripti
   for (const DishDescription& dish : dishes) setup_.dishes.push_back(dish_of(dish));
   Configuration parameters;
   parameters.profile = profile;
+  parameters.segmentation.items = station.items;
   configuration_ = configure(setup_, parameters);
 }
 
@@ -33,7 +28,7 @@ ViewInput SiteScene::describe(const StationView& view) {
   ViewInput input;
   input.frame = view.frame;
   const std::size_t i = std::min<std::size_t>(views_, 1);
-  input.labels = labels_[i].gray();
+  if (!needs_labels()) input.labels = labels_[i].gray();
   input.lens = setup_.lenses[i];
   input.arm_angle_deg = view.arm_angle_deg;
   ++views_;

@@ -12,8 +12,8 @@ namespace traygauge {
 
 class SiteScene final : public Scene {
  public:
-  // Reads the card's pattern and the labels; throws InputError, also where lens, card or labels are missing.
-  // `dishes`: candidates for the only dish of a tray.
+  // Reads the card's pattern and the labels, where there are any; throws InputError, also where lens or card
+  // are missing. `dishes`: those of a tray, or candidates for its only one.
   SiteScene(const StationFile& station, const std::vector<DishDescription>& dishes, Profile profile);
 
   const Configuration* configuration() override {
@@ -21,14 +21,15 @@ class SiteScene final : public Scene {
     return &configuration_;
   }
   ViewInput describe(const StationView& view) override;
+  bool needs_labels() const override { return labels_[0].pixels.empty(); }
   std::string_view tray_name() const override { return {}; }
   EstimatorLimits limits() const { return configuration_.limits; }
 
  private:
   PairSetup setup_;
-  std::array<Picture, 2> labels_;
-  Configuration configuration_;  // refers to the setup
-  std::size_t views_ = 0;        // of this scan
+  std::array<Picture, 2> labels_;  // empty where they are to be drawn
+  Configuration configuration_;    // refers to the setup
+  std::size_t views_ = 0;          // of this scan
 };
 
 }  // namespace traygauge

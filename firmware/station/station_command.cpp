@@ -5,6 +5,7 @@
 
 #include "firmware/base/exit_status.hpp"
 #include "firmware/config/profile.hpp"
+#include "firmware/measure/measure_command.hpp"
 #include "firmware/station/hardware_station.hpp"
 #include "firmware/station/scan_printer.hpp"
 #include "simulator/capture/input_error.hpp"
@@ -95,6 +96,11 @@ CLI::App* add_station_command(CLI::App& app, StationCommand& command) {
       ->capture_default_str();
   station->add_option("--profile", command.profile,
                       "best (default), or paper: every stage as the paper describes it");
+  station->add_option(
+      "--labels", command.labels.source,
+      "Where played captures are outlined: given (label pictures) or auto (found in the pictures); default: "
+      "given where a capture has label pictures. A real station's are in its station file");
+  add_items_option(*station, command.labels.items);
   station->add_option("--seed", command.seed, "Seed of the random samples")->capture_default_str();
   return station;
 }
@@ -119,7 +125,7 @@ int run_station(const StationCommand& command, const OpenCaptures& open_captures
   if (command.by_hand && !faults.of(SimulatedDevice::arm).empty()) {
     throw UsageError("--faults: the script has faults of the arm, and --by-hand plays none; remove one");
   }
-  const auto captures = open_captures(folders, profile);
+  const auto captures = open_captures(folders, profile, command.labels);
   return play(command, profile, faults, *captures, stop, out, log);
 }
 

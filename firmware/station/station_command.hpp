@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "firmware/station/played_scene.hpp"
+#include "firmware/station/recorded_captures.hpp"
 #include "firmware/station/station.hpp"
 
 namespace traygauge {
@@ -25,12 +26,13 @@ struct StationCommand {
   double second_view_deg = StationParams{}.second_view_deg;
   std::string profile;  // empty: the default
   std::uint64_t seed = 0;
+  LabelChoice labels;  // of captures
 };
 
 // Reads what belongs to these folders, of which there is at least one; throws where a file or key of it is
 // not as expected.
 using OpenCaptures = std::function<std::unique_ptr<MeasurableCaptures>(
-    const std::vector<std::filesystem::path>& folders, Profile)>;
+    const std::vector<std::filesystem::path>& folders, Profile, const LabelChoice&)>;
 
 // Adds the command to `app`; when it is given, parsing fills `command`.
 CLI::App* add_station_command(CLI::App& app, StationCommand& command);

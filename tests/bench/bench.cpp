@@ -9,6 +9,7 @@
 
 int main(int argc, char** argv) {
   using namespace traygauge::bench;
+  using traygauge::PixelFormat;
   using traygauge::Profile;
   cv::setNumThreads(1);
   std::vector<Scene> scenes;
@@ -42,6 +43,8 @@ int main(int argc, char** argv) {
   add(compare_sparse_stages(paper));
   add(compare_dense_stages(paper));
   for (const Scene& scene : scenes) {
+    const bool is_coloured = scene.frames[0].format == PixelFormat::bgr8;
+    if (is_coloured) comparisons.push_back(compare_segmentation(scene));
     for (const Profile profile : {Profile::best, Profile::paper})
       comparisons.push_back(compare_measurement(scene, profile));
   }

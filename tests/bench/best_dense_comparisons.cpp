@@ -19,7 +19,7 @@ std::array<cv::Mat, 2> sample_maps(const BestData& data, const PlaneRectificatio
     for (int row = 0; row < grid.rows(); ++row) {
       for (int column = 0; column < grid.columns(); ++column) {
         const Vec3 seen = data.views[i].camera_from_table * grid.plane_point(row, column);
-        const Vec2 pixel = data.scene.lens.pinhole.pixel(data.scene.lens.distort(seen.hnormalized()));
+        const Vec2 pixel = data.scene.lens.pixel(seen.hnormalized());
         maps[i].at<cv::Vec2f>(row, column) = {static_cast<float>(pixel.x()), static_cast<float>(pixel.y())};
       }
     }

@@ -14,6 +14,8 @@ std::vector<Comparison> compare_sparse_stages(const StageData& data);
 std::vector<Comparison> compare_dense_stages(const StageData& data);
 std::vector<Comparison> compare_best_sparse_stages(const BestData& data);
 std::vector<Comparison> compare_best_dense_stages(const BestData& data);
+// Labels drawn in two views.
+Comparison compare_segmentation(const Scene& scene);
 // From decoded frames to volumes.
 Comparison compare_measurement(const Scene& scene, Profile profile);
 

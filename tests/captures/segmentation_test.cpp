@@ -24,11 +24,15 @@ struct Expected {
 
 // A little below what is reached.
 constexpr std::array kExpected = {
-    Expected{"meals/m01", 0.99, 0.01, 0.90, 0.86, true},
+    Expected{"meals/m01", 0.99, 0.01, 0.96, 0.94, true},
+    Expected{"meals/m04", 0.99, 0.01, 0.91, 0.80, true},
+    Expected{"meals/m06", 0.99, 0.01, 0.92, 0.91, true},
     Expected{"meals/m08", 0.99, 0.01, 0.95, 0.93, true},
-    Expected{"angles/a01", 0.99, 0.01, 0.85, 0.80, true},
-    Expected{"plates/c1_oval", 0.99, 0.01, 0.93, 0.90, true},
-    Expected{"meals/m11", 0.99, 0.01, 0.70, 0.55, true},
+    Expected{"angles/a01", 0.99, 0.01, 0.90, 0.88, true},
+    Expected{"plates/c1_oval", 0.99, 0.01, 0.94, 0.93, true},
+    Expected{"plates/c1_soup", 0.99, 0.01, 0.93, 0.93, true},
+    Expected{"meals/m11", 0.99, 0.01, 0.87, 0.72, true},
+    Expected{"trays/t01", 0.99, 0.015, 0.95, 0.93, true},
 };
 
 class SegmentedCaptures : public testing::TestWithParam<Expected> {};
@@ -59,7 +63,8 @@ TEST_P(SegmentedCaptures, LabelsAgreeWithTheGivenOnes) {
   EXPECT_EQ(static_cast<int>(measurement.items.size()), session.drawn()->segmentation.items);
 }
 
-// The first view twice: the labels of both are the same, and nothing is taken from a run before.
+// The first view twice: without a baseline there is no height, and colour has to do. The labels of both are
+// the same but for the borders between items, which the second view gets from the first.
 TEST(SegmentedCapture, SameViewsGetTheSameLabels) {
   if (captures_folder().empty()) GTEST_SKIP() << "TRAYGAUGE_CAPTURES names no captures";
   const Capture capture = read_capture(captures_folder() / "meals/m01");
@@ -69,20 +74,17 @@ TEST(SegmentedCapture, SameViewsGetTheSameLabels) {
   const LabelScores scores = score_labels(drawn.labels[0], drawn.labels[1]);
   EXPECT_EQ(scores.card_iou, 1.0);
   EXPECT_GT(scores.food_iou, 0.999);
-  EXPECT_GT(scores.mean_item_iou(), 0.95);
+  EXPECT_GT(scores.mean_item_iou(), 0.92);
 }
 
-TEST(SegmentedCapture, AHiddenCardIsReported) {
+// Its print is 130 px long, blurred and noisy.
+TEST(SegmentedCapture, ASmallBlurredCardIsFound) {
   if (captures_folder().empty()) GTEST_SKIP() << "TRAYGAUGE_CAPTURES names no captures";
-  const Capture capture = read_capture(captures_folder() / "meals/m01");
-  const PairSetup setup = set_up_pair(capture, {0, 1}, capture.dishes);
-  std::array<LoadedView, 2> views = {load_view(capture.views[0]), load_view(capture.views[1])};
-  for (std::size_t i = 0; i < views[1].labels.pixels.size(); ++i) {
-    if (views[1].labels.pixels[i] != kCardLabel) continue;
-    for (std::size_t channel = 0; channel < 3; ++channel) views[1].picture.pixels[3 * i + channel] = 70;
-  }
-  const PairLabels drawn = label_pair(configure(setup), setup, views);
-  EXPECT_EQ(drawn.segmentation.status.code(), StatusCode::card_not_found);
+  const Capture capture = read_capture(captures_folder() / "trays/t04");
+  const CaptureSession session(capture, {0, 2}, capture.dishes, {}, LabelSource::automatic);
+  ASSERT_TRUE(session.drawn()->segmentation.status.ok());
+  for (std::size_t v = 0; v < 2; ++v)
+    EXPECT_GE(score_labels(session.drawn()->labels[v], session.given_labels()[v]).card_iou, 0.98) << v;
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 // Whatever value a parameter may have, a measurement ends: with numbers or with a status.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <iostream>
@@ -17,6 +18,7 @@
 #include "firmware/base/aligned_block.hpp"
 #include "firmware/config/profile.hpp"
 #include "firmware/measure/pair_setup.hpp"
+#include "firmware/segment/pair_labels.hpp"
 #include "simulator/capture/capture.hpp"
 
 namespace traygauge {
@@ -176,6 +178,59 @@ TEST_P(ParameterSweep, OneAtATime) {
     measure(changed, what);
   }
   EXPECT_GT(volumes_, tried);  // two items; most parameters alone spoil neither
+}
+
+// Labels that are found, one parameter at a time: they are drawn, or a status says why not.
+TEST_P(ParameterSweep, OfTheSegmentation) {
+  if (GetParam() != Profile::best) GTEST_SKIP() << "both profiles are given the same labels";
+  Random random(seed_);
+  const Configuration usual = configuration();
+  const AlignedBlock block(required_bytes(usual));
+  const Estimator estimator(block.bytes(), usual);
+  int drawn = 0;
+  int tried = 0;
+  int count = 0;
+  Configuration unchanged = usual;
+  Changer counter([&](const Slot& slot) {
+    ++count;
+    return slot.value;
+  });
+  visit_segmentation_parameters(unchanged.segmentation, counter);
+  for (int i = 0; i < count; ++i) {
+    if (random.uniform() >= share_) continue;
+    ++tried;
+    Configuration changed = usual;
+    int at = 0;
+    std::string what;
+    Changer changer([&](const Slot& slot) {
+      if (at++ != i) return slot.value;
+      const double value = draw(slot, random);
+      what = slot.name + "=" + std::to_string(value);
+      return value;
+    });
+    visit_segmentation_parameters(changed.segmentation, changer);
+    SCOPED_TRACE(what);
+    ASSERT_TRUE(validate(changed).ok());
+    LabelDrawer drawer(changed);
+    drawer.configure(changed, estimator);
+    for (const LoadedView& view : *views_) {
+      ViewInput input;
+      input.frame = view.picture.frame();
+      static_cast<void>(drawer.add_view(input, estimator));
+    }
+    const Segmentation& segmentation = drawer.drawn().segmentation;
+    if (!segmentation.status.ok()) continue;
+    ++drawn;
+    EXPECT_GT(segmentation.items, 0);
+    EXPECT_LE(segmentation.items, static_cast<int>(kMaxItems));
+    for (const Picture& labels : drawer.drawn().labels) {
+      EXPECT_TRUE(std::all_of(labels.pixels.begin(), labels.pixels.end(), [&](std::uint8_t label) {
+        return label == kBackgroundLabel || label == kCardLabel || label == kDishLabel ||
+               (label >= kFirstItemLabel && label < kFirstItemLabel + segmentation.items);
+      }));
+    }
+  }
+  EXPECT_GT(2 * drawn, tried);  // most parameters alone spoil nothing
 }
 
 TEST_P(ParameterSweep, SeveralAtOnce) {

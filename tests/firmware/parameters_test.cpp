@@ -71,8 +71,8 @@ TEST(Parameters, EachCanBeSetAndReadBackAndChangesNoOther) {
   for (const Profile profile : {Profile::best, Profile::paper}) {
     const auto before = read_list(of_profile(profile));
     const std::string own = profile == Profile::best ? "profile best" : "profile paper";
-    ASSERT_EQ(before.size(), 3U);
-    for (const std::string& group : {std::string("both profiles"), own}) {
+    ASSERT_EQ(before.size(), 4U);
+    for (const std::string& group : {std::string("both profiles"), std::string("labels auto"), own}) {
       for (const auto& [name, listed] : before.at(group)) {
         const std::string wanted = other_value(listed);
         Configuration configuration = of_profile(profile);
@@ -112,17 +112,37 @@ constexpr int field_count() {
   }
 }
 
-TEST(Parameters, EveryFieldOfProfileBestHasAName) {
-  // Names right below a prefix, and the structures below it that have names of their own.
-  const auto best = read_list({}).at("profile best");
-  const auto count = [&](const std::string& prefix) {
+// Names right below a prefix, and the structures below it that have names of their own.
+auto counter_of(const std::string& group) {
+  return [list = read_list({}).at(group)](const std::string& prefix) {
     std::set<std::string> fields;
-    for (const auto& [name, listed] : best) {
+    for (const auto& [name, listed] : list) {
       if (name.starts_with(prefix))
         fields.insert(name.substr(prefix.size(), name.find('.', prefix.size()) - prefix.size()));
     }
     return static_cast<int>(fields.size());
   };
+}
+
+TEST(Parameters, EveryFieldOfTheSegmentationHasAName) {
+  const auto count = counter_of("labels auto");
+  EXPECT_EQ(count("segmentation."), field_count<SegmenterParams>());
+  EXPECT_EQ(count("segmentation.card."), field_count<CardSearchParams>());
+  EXPECT_EQ(count("segmentation.card.corners."), field_count<CornerParams>() - 1);  // there are no labels yet
+  EXPECT_EQ(count("segmentation.dish."), field_count<DishSearchParams>());
+  EXPECT_EQ(count("segmentation.dish.edges."), field_count<RimEdgeParams>());
+  EXPECT_EQ(count("segmentation.relief."), field_count<DishReliefParams>());
+  EXPECT_EQ(count("segmentation.relief.surface."), field_count<TwoViewSurfaceParams>());
+  EXPECT_EQ(count("segmentation.food."), field_count<FoodOutlineParams>());
+  EXPECT_EQ(count("segmentation.food.raster."), field_count<DishRasterParams>());
+  EXPECT_EQ(count("segmentation.food.glaze."), field_count<GlazeParams>());
+  EXPECT_EQ(count("segmentation.food.geodesic."), field_count<GeodesicParams>());
+  EXPECT_EQ(count("segmentation.food.field."), field_count<FoodFieldParams>());
+  EXPECT_EQ(count("segmentation.food.split."), field_count<ItemSplitParams>());
+}
+
+TEST(Parameters, EveryFieldOfProfileBestHasAName) {
+  const auto count = counter_of("profile best");
   EXPECT_EQ(count("best."), field_count<BestParams>());
   EXPECT_EQ(count("best.card."), field_count<CardAlignmentParams>());
   EXPECT_EQ(count("best.card.pattern."), field_count<CardPatternParams>());

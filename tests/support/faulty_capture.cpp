@@ -163,8 +163,10 @@ void paint_items_flat(FaultyView& view) {
   }
 }
 
-void cover_card(FaultyView& view, double share) {
-  const cv::Mat card = view.labels == kCard;
+namespace {
+
+// Around the card's label, the longer side first, and the direction of that side.
+cv::RotatedRect card_box(const cv::Mat& card, cv::Point2d& along) {
   std::vector<cv::Point> pixels;
   cv::findNonZero(card, pixels);
   cv::RotatedRect box = cv::minAreaRect(pixels);
@@ -173,14 +175,50 @@ void cover_card(FaultyView& view, double share) {
     box.angle += 90.0F;
   }
   const double angle = box.angle * std::numbers::pi / 180.0;
-  const cv::Point2d along(std::cos(angle), std::sin(angle));
+  along = {std::cos(angle), std::sin(angle)};
+  return box;
+}
+
+}  // namespace
+
+void cover_card(FaultyView& view, double share) {
+  const cv::Mat card = view.labels == kCard;
+  cv::Point2d along;
+  const cv::RotatedRect box = card_box(card, along);
   const cv::Scalar table = colour_beside(view, card);
+  std::vector<cv::Point> pixels;
+  cv::findNonZero(card, pixels);
   for (const cv::Point& pixel : pixels) {
     const cv::Point2d offset = cv::Point2d(pixel) - cv::Point2d(box.center);
     if (offset.dot(along) < (0.5 - share) * box.size.width) continue;
     view.labels(pixel) = 0;
   }
   view.picture.setTo(table, grown(card & (view.labels == 0), 2) & (view.labels == 0));
+}
+
+void bend_card(FaultyView& view, double rise_px) {
+  const cv::Mat card = view.labels == kCard;
+  cv::Point2d along;
+  const cv::RotatedRect box = card_box(card, along);
+  const cv::Mat3b picture = view.picture.clone();
+  const cv::Scalar table = colour_beside(view, card);
+  view.picture.setTo(table, grown(card, 2));
+  view.labels.setTo(0, card);
+  cv::Mat1f from_x(picture.size());
+  cv::Mat1f from_y(picture.size());
+  for (int y = 0; y < picture.rows; ++y) {
+    for (int x = 0; x < picture.cols; ++x) {
+      const double u = (cv::Point2d(x, y) - cv::Point2d(box.center)).dot(along) / (0.5 * box.size.width);
+      from_x(y, x) = static_cast<float>(x);
+      from_y(y, x) = static_cast<float>(y + rise_px * std::min(u * u, 1.5));
+    }
+  }
+  cv::Mat3b bent;
+  cv::Mat1b bent_card;
+  cv::remap(picture, bent, from_x, from_y, cv::INTER_CUBIC, cv::BORDER_REPLICATE);
+  cv::remap(card, bent_card, from_x, from_y, cv::INTER_NEAREST, cv::BORDER_CONSTANT);
+  bent.copyTo(view.picture, bent_card);
+  view.labels.setTo(kCard, bent_card);
 }
 
 void shift_dish_out(FaultyView& view, int px) {

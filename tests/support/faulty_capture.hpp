@@ -42,6 +42,9 @@ void add_noise(FaultyView& view, double sigma, unsigned seed);
 void paint_items_flat(FaultyView& view);
 // Something of the table's colour lies over this share of the card, from one of its short sides.
 void cover_card(FaultyView& view, double share);
+// Both short ends of the card rise off the table: its print moves up the picture there by `rise_px`, between
+// them by less.
+void bend_card(FaultyView& view, double rise_px);
 // Moves the picture until the dish's box sticks out by `px` on the left.
 void shift_dish_out(FaultyView& view, int px);
 // The item is pushed over the dish.

@@ -90,7 +90,7 @@ StoredView Photograph::stored() const {
 }
 
 Vec2 Photograph::pixel_of(const Vec3& point_mm) const {
-  return view.lens.pinhole.pixel(view.lens.distort((view.camera_from_world * point_mm).hnormalized()));
+  return view.lens.pixel((view.camera_from_world * point_mm).hnormalized());
 }
 
 Photograph read_photograph(const TrueView& view, double mm_per_unit, const Pose& table_from_world) {

@@ -59,15 +59,23 @@ struct BestViewWorkspace {
   }
 };
 
+// A picture, and what a segmentation has made of it already: its grey values, with their exposure checked,
+// and where its card lies.
+struct GivenPicture {
+  FrameView frame;
+  ImageView<const std::uint8_t> gray = {};
+  const CardAlignment* card = nullptr;
+};
+
 // Checks sizes, labels and exposure, makes the grey pyramid, and finds the card. `view` has its lens and
 // labels.
-Status prepare_best_view(const FrameView& frame, const Configuration& configuration,
+Status prepare_best_view(const GivenPicture& picture, const Configuration& configuration,
                          const CardPattern& pattern, BestViewWorkspace& workspace, StageClock& clock,
                          BestView& view);
 
 // Its two halves, between which what is labelled may be checked: sizes and regions; all that follows.
 Status measure_labels(const FrameView& frame, const Configuration& configuration, BestView& view);
-Status prepare_labelled_view(const FrameView& frame, const Configuration& configuration,
+Status prepare_labelled_view(const GivenPicture& picture, const Configuration& configuration,
                              const CardPattern& pattern, BestViewWorkspace& workspace, StageClock& clock,
                              BestView& view);
 

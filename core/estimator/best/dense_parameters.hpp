@@ -3,69 +3,15 @@
 
 #include "core/base/parameter_range.hpp"
 #include "core/estimator/best/best_params.hpp"
-#include "core/stereo/median.hpp"
+#include "core/estimator/surface_parameters.hpp"
 
 namespace traygauge {
 
 // As in sparse_parameters.hpp.
 template <class Params, class Visit>
 void visit_surface_parameters(Params& best, Visit&& visit) {
-  auto& surface = best.surface;
-  auto& grid = surface.rectification;
-  using Range = ParameterRange;
-  visit("best.matte.gloss_share", best.matte.gloss_share, Range{0, 1});
-  visit("best.surface.rectification.max_samples", grid.max_samples, Range{4096, 1 << 20});
-  visit("best.surface.rectification.max_rows", grid.max_rows, Range{16, 4096});
-  visit("best.surface.rectification.aspect", grid.aspect, Range{0.1, 10});
-  visit("best.surface.rectification.margin_samples", grid.margin_samples, Range{0, 64});
-  visit("best.surface.rectification.max_fan", grid.max_fan, Range{1, 1000});
-  visit("best.surface.rectification.max_samples_per_axis", grid.max_samples_per_axis,
-        Range{1, kMaxSamplesPerAxis});
-  visit("best.surface.rectification.outline_step_px", grid.outline_step_px, Range{1, 64});
-  visit("best.surface.max_columns", surface.max_columns, Range{16, 4096});
-  visit("best.surface.levels", surface.levels, Range{1, kMaxSurfaceLevels});
-  visit("best.surface.finest_level", surface.finest_level, Range{0, kMaxSurfaceLevels - 1});
-  visit("best.surface.band_lanes", surface.band_lanes, Range{kBandLanes, kMaxBandLanes, kBandLanes});
-  visit("best.surface.min_height_mm", surface.min_height_mm, Range{-40, 0});
-  visit("best.surface.highest_mm", surface.highest_mm, Range{5, 400});
-  visit("best.surface.median_radius", surface.median_radius, Range{0, kMaxMedianRadius});
-  visit("best.surface.confirmed_px", surface.confirmed_px, Range{0, 100});
-}
-
-template <class Params, class Visit>
-void visit_matching_parameters(Params& best, Visit&& visit) {
-  auto& matching = best.surface.semi_global;
-  auto& consistency = best.surface.consistency;
-  auto& refinement = best.surface.refinement;
-  using Range = ParameterRange;
-  visit("best.surface.semi_global.small_step_penalty", matching.small_step_penalty,
-        Range{0, kMaxSmallStepPenalty});
-  visit("best.surface.semi_global.large_step_penalty", matching.large_step_penalty,
-        Range{0, kMaxLargePenalty});
-  visit("best.surface.semi_global.least_large_penalty", matching.least_large_penalty,
-        Range{0, kMaxLargePenalty});
-  visit("best.surface.semi_global.border_penalty", matching.border_penalty, Range{0, kMaxLargePenalty});
-  visit("best.surface.semi_global.edge_contrast", matching.edge_contrast, Range{1, 255});
-  visit("best.surface.semi_global.label_penalty", matching.label_penalty, Range{0, kMaxLabelPenalty});
-  visit("best.surface.semi_global.diagonal_paths", matching.diagonal_paths);
-  visit("best.surface.consistency.max_difference_px", consistency.max_difference_px, Range{0, 1000});
-  visit("best.surface.consistency.contact_share", consistency.contact_share, Range{0, 1});
-  visit("best.surface.consistency.limb_share", consistency.limb_share, Range{0, 1});
-  visit("best.surface.consistency.flank_run", consistency.flank_run, Range{-10, 10});
-  visit("best.surface.consistency.flank_run_spread", consistency.flank_run_spread, Range{1e-3, 10});
-  visit("best.surface.consistency.chord_share", consistency.chord_share, Range{0, 1});
-  visit("best.surface.consistency.same_surface_px", consistency.same_surface_px, Range{0, 1000});
-  visit("best.surface.refinement.iterations", refinement.iterations, Range{0, 50});
-  visit("best.surface.refinement.window_radius", refinement.window_radius, Range{1, kMaxRefinementRadius});
-  visit("best.surface.refinement.max_step_px", refinement.max_step_px, Range{0, 100});
-  visit("best.surface.refinement.stiffness", refinement.stiffness, Range{0, 1e6});
-  visit("best.surface.refinement.smoothings", refinement.smoothings, Range{0, 100});
-  visit("best.surface.refinement.smoothing_hold", refinement.smoothing_hold, Range{0, 1000});
-  visit("best.surface.refinement.relaxations", refinement.relaxations, Range{0, 100});
-  visit("best.surface.refinement.max_jump_px", refinement.max_jump_px, Range{0, 1000});
-  visit("best.surface.refinement.dish_weight", refinement.dish_weight, Range{0, 1});
-  visit("best.surface.refinement.outline_px", refinement.outline_px, Range{0, 1000});
-  visit("best.surface.refinement.border_tie", refinement.border_tie, Range{0, 1});
+  visit("best.matte.gloss_share", best.matte.gloss_share, ParameterRange{0, 1});
+  visit_two_view_surface(best.surface, PrefixedVisit("best.surface.", visit));
 }
 
 template <class Params, class Visit>

@@ -95,8 +95,8 @@ Status DishSurveyor::add_view(const ViewInput& input) {
   if (status.ok()) status = measure_labels(input.frame, configuration_, view);
   if (status.ok()) status = check_bare_dish(view);
   if (status.ok()) {
-    status =
-        prepare_labelled_view(input.frame, configuration_, memory_.pattern, memory_.preparation, clock, view);
+    status = prepare_labelled_view({input.frame}, configuration_, memory_.pattern, memory_.preparation, clock,
+                                   view);
   }
   if (views_status_.ok()) views_status_ = status;
   ++views_;

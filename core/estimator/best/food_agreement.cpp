@@ -14,7 +14,7 @@ struct Count {
 bool find_pixel(const Vec3& point_mm, const Pose& camera_from_table, const BestView& view, int& x, int& y) {
   const Vec3 seen = camera_from_table * point_mm;
   if (!(seen.z() > 0.0)) return false;
-  const Vec2 pixel = view.lens.pinhole.pixel(view.lens.distort(seen.hnormalized()));
+  const Vec2 pixel = view.lens.pixel(seen.hnormalized());
   if (!(std::abs(pixel.x()) < 1e6 && std::abs(pixel.y()) < 1e6)) return false;
   x = static_cast<int>(std::lround(pixel.x()));
   y = static_cast<int>(std::lround(pixel.y()));

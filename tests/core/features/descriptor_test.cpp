@@ -1,10 +1,15 @@
 #include <gtest/gtest.h>
 
+#include <array>
+#include <bit>
 #include <cmath>
 #include <numbers>
 #include <opencv2/features2d.hpp>
+#include <string>
 
+#include "core/base/random.hpp"
 #include "core/features/angle.hpp"
+#include "core/features/descriptor_block.hpp"
 #include "core/features/gaussian.hpp"
 #include "surf_on_picture.hpp"
 
@@ -126,6 +131,38 @@ TEST(Descriptor, TurnsWithThePicture) {
   std::size_t close = 0;
   for (std::size_t i = 0; i < keypoints.size(); ++i) close += distance(before.descriptors[i], after[i]) < 0.1;
   EXPECT_GT(static_cast<double>(close), 0.95 * static_cast<double>(keypoints.size()));
+}
+
+TEST(DescriptorBlock, CountsTheBitsThatDiffer) {
+  constexpr std::uint64_t kSeed = 31;
+  Random random(kSeed);
+  const auto draw = [&] {
+    BinaryDescriptor descriptor{};
+    const std::uint32_t share = random.below(33);  // of set bits, in 32nds: all, none, and between
+    for (std::uint64_t& word : descriptor) {
+      for (int bit = 0; bit < 64; ++bit) word = word << 1U | (random.below(32) < share ? 1U : 0U);
+    }
+    return descriptor;
+  };
+  for (int round = 0; round < 300; ++round) {
+    std::array<BinaryDescriptor, DescriptorBlock::kSide> others;
+    DescriptorBlock block;
+    for (std::size_t i = 0; i < others.size(); ++i) {
+      others[i] = draw();
+      block.set(i, others[i]);
+    }
+    const BinaryDescriptor descriptor = draw();
+    const DescriptorBlock::Distances distances = block.distances(DescriptorBlock::spread(descriptor));
+    for (std::size_t i = 0; i < others.size(); ++i) {
+      SCOPED_TRACE("seed " + std::to_string(kSeed) + " round " + std::to_string(round));
+      std::array<int, 4> differ{};
+      for (std::size_t word = 0; word < 4; ++word)
+        differ[word] = std::popcount(descriptor[word] ^ others[i][word]);
+      ASSERT_EQ(distances[i], differ[0] + differ[1]);
+      ASSERT_EQ(hamming_distance(descriptor, others[i], 2, 4), differ[2] + differ[3]);
+      ASSERT_EQ(hamming_distance(descriptor, others[i]), differ[0] + differ[1] + differ[2] + differ[3]);
+    }
+  }
 }
 
 }  // namespace

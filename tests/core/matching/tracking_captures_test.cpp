@@ -115,7 +115,7 @@ TEST_P(TracksOnCaptures, EndWhereTheTrueDepthHasThem) {
   const Pose motion = second_from_first(truth_);
   std::vector<double> errors_px;
   for (const PointTrack& track : tracks_) {
-    const Vec2 pixel = lenses_[0].pinhole.pixel(lenses_[0].distort(track.first));
+    const Vec2 pixel = lenses_[0].pixel(track.first);
     const cv::Rect around(static_cast<int>(pixel.x()) - 2, static_cast<int>(pixel.y()) - 2, 6, 6);
     if ((around & cv::Rect(0, 0, depth.cols, depth.rows)) != around) continue;
     double low = 0.0;
@@ -153,7 +153,7 @@ TEST_P(TracksOnCaptures, SurroundingsThatStayAreDropped) {
   ASSERT_TRUE(run({truth_[0], testing::perturbed(truth_[1], 0.3, 2.0, 5)}).ok());
   std::size_t standing = 0;
   for (const PointTrack& track : tracks_) {
-    const Vec2 second = lenses_[1].pinhole.pixel(lenses_[1].distort(track.second));
+    const Vec2 second = lenses_[1].pixel(track.second);
     if (kept(static_cast<int>(second.y()), static_cast<int>(second.x())) == 0) ++standing;
   }
   EXPECT_LE(standing, tracks_.size() / 20);

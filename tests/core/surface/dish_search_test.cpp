@@ -54,13 +54,13 @@ class Table {
         }
       }
       view.frame = {pixels_[v].data(), kWidth, kHeight, kWidth, PixelFormat::gray8};
-      collect_rim_edges({pixels_[v].data(), kWidth, kHeight}, lens, params_.edges,
-                        memory_.workspace.edge_search, memory_.workspace.edges[v]);
+      collect_rim_edges({pixels_[v].data(), kWidth, kHeight}, lens, params_.edges, edge_memory_.workspace,
+                        edges_[v]);
     }
   }
 
   Status search(std::span<const DishModel> candidates, std::span<const FoundDish> taken, FoundDish& found) {
-    return search_dish(views_, candidates, taken, params_, memory_.workspace, found);
+    return search_dish(views_, edges_, candidates, taken, params_, memory_.workspace, found);
   }
 
  private:
@@ -83,7 +83,10 @@ class Table {
   }
 
   DishSearchParams params_;
+  WithMemory<RimEdgeWorkspace> edge_memory_{RimEdgeParams{}};
   WithMemory<DishSearchWorkspace> memory_{DishSearchParams{}};
+  std::array<std::vector<RimEdge>, 2> edge_storage_{std::vector<RimEdge>(4000), std::vector<RimEdge>(4000)};
+  RimEdges edges_{BoundedList<RimEdge>(edge_storage_[0]), BoundedList<RimEdge>(edge_storage_[1])};
   DishSearchViews views_;
   std::array<std::vector<std::uint8_t>, 2> pixels_;
 };

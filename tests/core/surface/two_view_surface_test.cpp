@@ -97,7 +97,7 @@ class Truth {
       for (int x = 0; x < grid.points.width; ++x) {
         const SurfacePoint& p = grid.points.at(x, y);
         const Vec3 in_camera = view.camera_from_world * Vec3(p.x_mm, p.y_mm, p.z_mm);
-        const Vec2 pixel = view.lens.pinhole.pixel(view.lens.distort(in_camera.head<2>() / in_camera.z()));
+        const Vec2 pixel = view.lens.pixel(in_camera.head<2>() / in_camera.z());
         const auto column = static_cast<int>(std::lround(pixel.x()));
         const auto row = static_cast<int>(std::lround(pixel.y()));
         const bool inside = column >= 0 && row >= 0 && column < depth.cols && row < depth.rows;

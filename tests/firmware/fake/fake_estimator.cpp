@@ -99,6 +99,14 @@ TRAYGAUGE_FAKE const Measurement& Estimator::estimate(std::uint64_t seed, StageT
   return fake_estimator().measurement;
 }
 
+TRAYGAUGE_FAKE ImageView<std::uint8_t> Estimator::gray_memory(std::size_t) const {
+  return {};
+}
+
+TRAYGAUGE_FAKE const CardPattern* Estimator::card_pattern() const {
+  return nullptr;
+}
+
 TRAYGAUGE_FAKE void Estimator::reset() {
   fake_estimator().views.clear();
 }

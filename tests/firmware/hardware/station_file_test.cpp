@@ -5,6 +5,8 @@
 
 #include <random>
 
+#include "firmware/config/dish_choice.hpp"
+#include "firmware/config/dish_library.hpp"
 #include "simulator/capture/input_error.hpp"
 #include "tests/simulator/capture/temporary_capture.hpp"
 
@@ -146,6 +148,10 @@ TEST_F(StationFileTest, NamesTheKeyThatIsWrong) {
            {small + "[lamp]\nlines = [\"G\"]\nready = [\"B\"]\n", "lamp.ready[0]"},
            {small + "[lamp]\nlines = [\"G\"]\nready = [\"G\"]\n", "lamp.hold_still"},
            {small + "[trays]\nlabels = [\"a.png\"]\n", "trays.labels"},
+           {small + "[trays]\nlabels = \"given\"\n", "trays.labels"},
+           {small + "[trays]\ndishes = []\n", "trays.dishes"},
+           {small + "[trays]\nitems = 0\n", "trays.items"},
+           {small + "[trays]\nlabels = [\"a.png\", \"b.png\"]\nitems = 2\n", "trays.items"},
            {small + "[gps]\n", "gps"},
            {small + "[second_camera]\ndevice = \"serial:A1\"\n", "second_camera.device"},
            {small + kStepper + "[second_camera]\ndevice = \"serial:A2\"\n", "second_camera"},
@@ -154,6 +160,32 @@ TEST_F(StationFileTest, NamesTheKeyThatIsWrong) {
     EXPECT_NE(found.find(": " + expected + ":"), std::string::npos) << expected << " in \"" << found << "\"";
   }
   EXPECT_NE(problem("[camera\n").find("correct line 1"), std::string::npos);
+}
+
+TEST_F(StationFileTest, WithoutLabelPicturesTheyAreFound) {
+  for (const char* trays : {"", "[trays]\n", "[trays]\nlabels = \"automatic\"\n"})
+    EXPECT_FALSE(read(std::string(kSmallest) + trays).labels) << trays;
+  const StationFile station =
+      read(std::string(kSmallest) + "[trays]\ndishes = [\"dinner\", \"soup\", \"dinner\"]\nitems = 4\n");
+  EXPECT_EQ(station.items, 4);
+  const std::vector<DishDescription> library =
+      read_dish_library(std::filesystem::path(TRAYGAUGE_SOURCE_DIR) / "config");
+  const std::vector<DishDescription> dishes = choose_tray_dishes(station, library);
+  ASSERT_EQ(dishes.size(), 3U);
+  EXPECT_EQ(dishes[0].label, 1);
+  EXPECT_EQ(dishes[1].label, 201);
+  EXPECT_EQ(dishes[2].label, 202);
+  EXPECT_EQ(dishes[1].style, "soup");
+  EXPECT_EQ(dishes[2].outer_size_mm, dishes[0].outer_size_mm);
+  EXPECT_EQ(choose_tray_dishes(read(kSmallest), library).size(), library.size());
+  const StationFile unknown = read(std::string(kSmallest) + "[trays]\ndishes = [\"dinner\", \"wok\"]\n");
+  try {
+    choose_tray_dishes(unknown, library);
+    FAIL() << "took an unknown dish";
+  } catch (const InputError& error) {
+    EXPECT_EQ(error.problem().key, "trays.dishes[1]");
+    EXPECT_NE(std::string(error.what()).find("soup"), std::string::npos) << error.what();
+  }
 }
 
 TEST_F(StationFileTest, SurvivesAnyText) {

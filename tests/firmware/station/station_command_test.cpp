@@ -7,10 +7,13 @@
 #include <cstdlib>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <sstream>
 
 #include "firmware/base/exit_status.hpp"
+#include "firmware/measure/capture_session.hpp"
 #include "firmware/station/recorded_captures.hpp"
+#include "firmware/station/site_scene.hpp"
 #include "simulator/capture/input_error.hpp"
 
 namespace traygauge {
@@ -19,13 +22,8 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-class StationCommandOnCaptures : public testing::Test {
+class StationCommandRun : public testing::Test {
  protected:
-  void SetUp() override {
-    const char* const captures = std::getenv("TRAYGAUGE_CAPTURES");
-    if (captures == nullptr || !fs::is_directory(captures)) GTEST_SKIP() << "no captures";
-    captures_ = captures;
-  }
   int play(const fs::path& folder) {
     command_.devices = "simulator:" + folder.string();
     out_.str("");
@@ -38,12 +36,37 @@ class StationCommandOnCaptures : public testing::Test {
     return documents;
   }
 
-  fs::path captures_;
   StationCommand command_;
   std::atomic<bool> stop_ = false;
   std::ostringstream out_;
   std::ostringstream log_;
 };
+
+class StationCommandOnCaptures : public StationCommandRun {
+ protected:
+  void SetUp() override {
+    const char* const captures = std::getenv("TRAYGAUGE_CAPTURES");
+    if (captures == nullptr || !fs::is_directory(captures)) GTEST_SKIP() << "no captures";
+    captures_ = captures;
+  }
+
+  fs::path captures_;
+};
+
+const fs::path kDemo = TRAYGAUGE_SOURCE_DIR "/simulator/demo";
+
+// What a scan says of each item, and what the measurement of the same files says, in bits.
+void expect_same_items(const json& scan, const Measurement& measurement) {
+  ASSERT_EQ(scan["items"].size(), measurement.items.size()) << scan["message"];
+  for (std::size_t i = 0; i < measurement.items.size(); ++i) {
+    const ItemResult& item = measurement.items[i];
+    EXPECT_EQ(scan["items"][i]["label"], item.label);
+    EXPECT_EQ(scan["items"][i]["dish"], item.dish);
+    EXPECT_EQ(scan["items"][i]["status"], name(item.status));
+    if (item.status != StatusCode::ok) continue;
+    EXPECT_EQ(scan["items"][i]["volume_ml"], item.volume_ml);
+  }
+}
 
 // A loose bound: what is tested is that each result belongs to its tray, not how good it is.
 void expect_volumes(const json& document, const json& truth) {
@@ -125,10 +148,100 @@ TEST_F(StationCommandOnCaptures, ProfilePaperRefusesATrayWithSeveralDishes) {
   EXPECT_TRUE(out_.str().empty());
 }
 
+TEST_F(StationCommandRun, FindsTheFoodOfTraysThatNobodyOutlined) {
+  command_.json = true;
+  command_.scans = 3;
+  command_.labels.source = "auto";
+  EXPECT_EQ(play(kDemo), kExitMeasured) << out_.str();
+  const auto scans = documents();
+  ASSERT_EQ(scans.size(), 3U);
+  for (const json& scan : scans) {
+    const Capture capture = read_capture(kDemo / scan["tray"].get<std::string>());
+    CaptureSession session(capture, {0, 1}, capture.dishes, {}, LabelSource::automatic);
+    expect_same_items(scan, session.measure(0));
+    EXPECT_GT(scan["timing_ms"]["segmentation"], 0.0);
+  }
+  EXPECT_EQ(scans[0]["items"], scans[2]["items"]) << "the demo has two trays";
+}
+
+TEST_F(StationCommandRun, CapturesWithoutLabelsAreOutlinedByDefault) {
+  const fs::path folder = fs::path(testing::TempDir()) / ("no_labels_" + std::to_string(std::rand()));
+  fs::copy(kDemo / "mash_and_meatballs", folder);
+  std::ifstream file(folder / "capture.json");
+  json document = json::parse(file);
+  for (json& view : document["views"]) view.erase("labels");
+  std::ofstream(folder / "capture.json") << document;
+  command_.json = true;
+  EXPECT_EQ(play(folder), kExitMeasured) << out_.str();
+  const auto found = documents();
+  command_.labels.source = "given";
+  EXPECT_THROW(play(folder), InputError);
+  fs::remove_all(folder);
+  command_.labels.source = "auto";
+  play(kDemo / "mash_and_meatballs");
+  EXPECT_EQ(found[0]["items"], documents()[0]["items"]);
+}
+
+TEST_F(StationCommandRun, CountsWhatTheMenuSays) {
+  command_.json = true;
+  command_.labels = {"auto", 1};
+  EXPECT_EQ(play(kDemo / "mash_and_meatballs"), kExitMeasured);
+  EXPECT_EQ(documents()[0]["items"].size(), 1U);
+  command_.labels = {"", 1};
+  EXPECT_THROW(play(kDemo / "mash_and_meatballs"), UsageError);
+}
+
+// Every dish is measured over its own planes in one go; items say on which they lie.
+TEST_F(StationCommandOnCaptures, MeasuresAllDishesOfATrayInOneGo) {
+  command_.json = true;
+  command_.labels.source = "auto";
+  for (const char* tray : {"t01", "t05"}) {
+    SCOPED_TRACE(tray);
+    play(captures_ / "trays" / tray);
+    const Capture capture = read_capture(captures_ / "trays" / tray);
+    ASSERT_GT(capture.dishes.size(), 1U);
+    CaptureSession session(capture, capture.pairs.front(), capture.dishes, {}, LabelSource::automatic);
+    const json scan = documents().at(0);
+    expect_same_items(scan, session.measure(0));
+    std::set<int> dishes;
+    for (const json& item : scan["items"]) dishes.insert(item["dish"].get<int>());
+    EXPECT_EQ(dishes.size(), capture.dishes.size()) << scan;
+  }
+}
+
 TEST_F(StationCommandOnCaptures, DoesNothingWhenAskedToStop) {
   stop_ = true;
   EXPECT_EQ(play(captures_ / "plates"), kExitMeasured);
   EXPECT_EQ(out_.str(), "");
+}
+
+// A real station, of whose trays only lens, card and dishes are known.
+TEST(SiteWithoutLabels, MeasuresWhatItFinds) {
+  const Capture capture = read_capture(kDemo / "fish_and_potatoes");
+  const std::array<LoadedView, 2> views = {load_view(capture.views[0]), load_view(capture.views[1])};
+  StationFile station;
+  station.lens.emplace();
+  station.lens->camera = capture.views[0].camera;
+  station.card = capture.card;
+  SiteScene scene(station, capture.dishes, Profile::best);
+  EstimatorMeasurer measurer(scene, scene.limits(), Profile::best, 0);
+  CaptureSession session(capture, {0, 1}, capture.dishes, {}, LabelSource::automatic);
+  for (int scan = 0; scan < 2; ++scan) {
+    measurer.begin_scan();
+    for (const LoadedView& view : views) EXPECT_TRUE(measurer.add_view({view.picture.frame(), 0, {}}).ok());
+    const Measurement& measured = measurer.measure();
+    const Measurement& expected = session.measure(0);
+    ASSERT_TRUE(measured.status.ok()) << name(measured.status.code());
+    ASSERT_EQ(measured.items.size(), expected.items.size());
+    for (std::size_t i = 0; i < measured.items.size(); ++i)
+      EXPECT_EQ(measured.items[i].volume_ml, expected.items[i].volume_ml);
+  }
+  // A bare table: no card; said after the first view.
+  const Picture bare(views[0].picture.size, PixelFormat::bgr8);
+  measurer.begin_scan();
+  const Status refused = measurer.add_view({bare.frame(), 0, {}});
+  EXPECT_FALSE(refused.ok());
+  EXPECT_EQ(measurer.measure().status.code(), refused.code());
 }
 
 TEST(StationCommandUse, SaysWhatIsWrong) {
@@ -137,6 +250,10 @@ TEST(StationCommandUse, SaysWhatIsWrong) {
   StationCommand command;
   command.devices = "camera";
   EXPECT_THROW(run_station(command, open_recorded_captures, stop, out, out), UsageError);
+  command.devices = "hardware:station.toml";
+  command.labels.source = "auto";
+  EXPECT_THROW(run_station(command, open_recorded_captures, stop, out, out), UsageError);
+  command.labels = {};
   command.devices = "simulator:/nowhere/at/all";
   EXPECT_THROW(run_station(command, open_recorded_captures, stop, out, out), InputError);
   command.devices = "simulator:" TRAYGAUGE_SOURCE_DIR "/simulator/demo";
@@ -157,8 +274,11 @@ TEST(StationCommandUse, TakesItsOptions) {
     app.parse(words);
     return command;
   };
-  const StationCommand command = parse({"station", "--devices", "simulator:x", "--scans", "3", "--json",
-                                        "--by-hand", "--second-view", "15", "--faults", "f.toml"});
+  const StationCommand command =
+      parse({"station", "--devices", "simulator:x", "--scans", "3", "--json", "--by-hand", "--second-view",
+             "15", "--faults", "f.toml", "--labels", "auto", "--items", "4"});
+  EXPECT_EQ(command.labels.source, "auto");
+  EXPECT_EQ(command.labels.items, 4);
   EXPECT_EQ(command.devices, "simulator:x");
   EXPECT_EQ(command.faults, "f.toml");
   EXPECT_EQ(command.scans, 3U);
@@ -167,6 +287,7 @@ TEST(StationCommandUse, TakesItsOptions) {
   EXPECT_EQ(command.second_view_deg, 15.0);
   EXPECT_EQ(parse({"station", "--devices", "simulator:x", "--once"}).scans, 1U);
   EXPECT_THROW(parse({"station"}), CLI::ParseError);
+  EXPECT_THROW(parse({"station", "--devices", "simulator:x", "--items", "0"}), CLI::ParseError);
   EXPECT_THROW(parse({"station", "--devices", "simulator:x", "--scans", "0"}), CLI::ParseError);
   EXPECT_THROW(parse({"station", "--devices", "simulator:x", "--scans", "2", "--once"}), CLI::ParseError);
 }

@@ -1,0 +1,41 @@
+// The parameters of labels that nobody drew.
+#pragma once
+
+#include <array>
+
+#include "core/scale/card_search.hpp"
+#include "core/segmentation/dish_relief.hpp"
+#include "core/segmentation/food_outline.hpp"
+#include "core/surface/dish_search.hpp"
+
+namespace traygauge {
+
+struct SegmenterParams {
+  CardSearchParams card;
+  DishSearchParams dish;
+  DishReliefParams relief;
+  FoodOutlineParams food;
+  // Items on the tray, as a menu says; 0: not known.
+  int items = 0;
+  // Where more items are known than were found, borders count that differ less than food.split asks for, in
+  // steps, down to this share of it: weaker ones lie within an item.
+  double weakest_border = 0.5;
+  double border_step = 0.85;
+  // Insets from the outer edge between which a flange counts as such, and the depth below it where the well
+  // begins.
+  double flange_begin_mm = 2.5;
+  double flange_depth_mm = 6.0;
+  double min_flange_mm = 4.0;
+  // Over the bottom of the dish, between which food is seen; what is carried to the other view counts where
+  // both lead to the same item.
+  std::array<double, 2> food_heights_mm{3.0, 22.0};
+  double min_confirmed_share = 0.2;  // of an item's pixels in one view over the other's
+  int max_alignments = 3;            // of the card, each from the outline that the last one gave
+  // Of print and picture, where the card lies flat and free: 0.954 and more in pictures without a fault. A
+  // fifth of the card covered leaves 0.7, ends bent up by a fiftieth of its length 0.92.
+  double sure_card_correlation = 0.94;
+  // From which the card's place is sure, and need not be aligned again.
+  double sure_correlation = 0.9;
+};
+
+}  // namespace traygauge

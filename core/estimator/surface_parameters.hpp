@@ -1,0 +1,86 @@
+// The parameters of dense matching, by name and with the values that they may have; more than one stage has
+// them.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <string_view>
+
+#include "core/base/parameter_range.hpp"
+#include "core/stereo/median.hpp"
+#include "core/surface/two_view_surface.hpp"
+
+namespace traygauge {
+
+// Hands every parameter on with `prefix` before its name, which is valid during the call alone.
+template <class Visit>
+class PrefixedVisit {
+ public:
+  PrefixedVisit(std::string_view prefix, Visit& visit) : prefix_(prefix), visit_(visit) {}
+
+  template <class Field, class... Domain>
+  void operator()(std::string_view name, Field& field, const Domain&... domain) const {
+    std::array<char, 96> full{};
+    const std::size_t kept = std::min(prefix_.size(), full.size() - 1);
+    char* end = std::copy_n(prefix_.begin(), kept, full.begin());
+    std::copy_n(name.begin(), std::min(name.size(), full.size() - 1 - kept), end);
+    visit_(full.data(), field, domain...);
+  }
+
+ private:
+  std::string_view prefix_;
+  Visit& visit_;
+};
+
+// `Params` is TwoViewSurfaceParams, const or not.
+template <class Params, class Visit>
+void visit_two_view_surface(Params& surface, Visit&& visit) {
+  auto& grid = surface.rectification;
+  auto& matching = surface.semi_global;
+  auto& consistency = surface.consistency;
+  auto& refinement = surface.refinement;
+  using Range = ParameterRange;
+  visit("rectification.max_samples", grid.max_samples, Range{4096, 1 << 20});
+  visit("rectification.max_rows", grid.max_rows, Range{16, 4096});
+  visit("rectification.aspect", grid.aspect, Range{0.1, 10});
+  visit("rectification.margin_samples", grid.margin_samples, Range{0, 64});
+  visit("rectification.max_fan", grid.max_fan, Range{1, 1000});
+  visit("rectification.max_samples_per_axis", grid.max_samples_per_axis, Range{1, kMaxSamplesPerAxis});
+  visit("rectification.outline_step_px", grid.outline_step_px, Range{1, 64});
+  visit("max_columns", surface.max_columns, Range{16, 4096});
+  visit("levels", surface.levels, Range{1, kMaxSurfaceLevels});
+  visit("finest_level", surface.finest_level, Range{0, kMaxSurfaceLevels - 1});
+  visit("band_lanes", surface.band_lanes, Range{kBandLanes, kMaxBandLanes, kBandLanes});
+  visit("min_height_mm", surface.min_height_mm, Range{-40, 0});
+  visit("highest_mm", surface.highest_mm, Range{5, 400});
+  visit("median_radius", surface.median_radius, Range{0, kMaxMedianRadius});
+  visit("confirmed_px", surface.confirmed_px, Range{0, 100});
+  visit("semi_global.small_step_penalty", matching.small_step_penalty, Range{0, kMaxSmallStepPenalty});
+  visit("semi_global.large_step_penalty", matching.large_step_penalty, Range{0, kMaxLargePenalty});
+  visit("semi_global.least_large_penalty", matching.least_large_penalty, Range{0, kMaxLargePenalty});
+  visit("semi_global.border_penalty", matching.border_penalty, Range{0, kMaxLargePenalty});
+  visit("semi_global.edge_contrast", matching.edge_contrast, Range{1, 255});
+  visit("semi_global.label_penalty", matching.label_penalty, Range{0, kMaxLabelPenalty});
+  visit("semi_global.diagonal_paths", matching.diagonal_paths);
+  visit("consistency.max_difference_px", consistency.max_difference_px, Range{0, 1000});
+  visit("consistency.contact_share", consistency.contact_share, Range{0, 1});
+  visit("consistency.limb_share", consistency.limb_share, Range{0, 1});
+  visit("consistency.flank_run", consistency.flank_run, Range{-10, 10});
+  visit("consistency.flank_run_spread", consistency.flank_run_spread, Range{1e-3, 10});
+  visit("consistency.chord_share", consistency.chord_share, Range{0, 1});
+  visit("consistency.same_surface_px", consistency.same_surface_px, Range{0, 1000});
+  visit("refinement.iterations", refinement.iterations, Range{0, 50});
+  visit("refinement.window_radius", refinement.window_radius, Range{1, kMaxRefinementRadius});
+  visit("refinement.max_step_px", refinement.max_step_px, Range{0, 100});
+  visit("refinement.stiffness", refinement.stiffness, Range{0, 1e6});
+  visit("refinement.smoothings", refinement.smoothings, Range{0, 100});
+  visit("refinement.smoothing_hold", refinement.smoothing_hold, Range{0, 1000});
+  visit("refinement.relaxations", refinement.relaxations, Range{0, 100});
+  visit("refinement.max_jump_px", refinement.max_jump_px, Range{0, 1000});
+  visit("refinement.dish_weight", refinement.dish_weight, Range{0, 1});
+  visit("refinement.outline_px", refinement.outline_px, Range{0, 1000});
+  visit("refinement.border_tie", refinement.border_tie, Range{0, 1});
+}
+
+}  // namespace traygauge

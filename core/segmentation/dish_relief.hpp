@@ -1,0 +1,81 @@
+// How high what either view shows stands over the dish's own surface, by dense matching of the two views: the
+// one cue that shadows, highlights, decoration and tinted glaze do not share with food.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+
+#include "core/base/arena.hpp"
+#include "core/base/status.hpp"
+#include "core/segmentation/dish_raster.hpp"
+#include "core/segmentation/relief_sample.hpp"
+#include "core/surface/dish_profile.hpp"
+#include "core/surface/two_view_surface.hpp"
+
+namespace traygauge {
+
+// What is asked of it is a step of some millimetres, not a volume: a coarse grid, and no refinement.
+constexpr TwoViewSurfaceParams coarse_surface_params() {
+  TwoViewSurfaceParams params;
+  params.rectification.max_samples = 40'000;
+  params.rectification.max_rows = 384;
+  params.max_columns = 448;
+  params.levels = 2;
+  params.refinement.iterations = 0;
+  return params;
+}
+
+struct DishReliefParams {
+  TwoViewSurfaceParams surface = coarse_surface_params();
+  double highest_mm = 60.0;  // over the bottom, that is looked for
+  // Windows of so many samples to either side, over which the census of the two views is compared.
+  int window_radius = 2;
+  int node_step = 4;  // samples between those at which the dish's own disparity is worked out
+};
+
+struct DishReliefWorkspace {
+  std::array<std::span<ReliefSample>, 2> samples;
+  std::span<PlaneRow> rows;
+  TwoViewSurfaceWorkspace surface;
+  std::array<std::span<std::uint32_t>, 2> codes;
+  std::array<std::span<std::uint8_t>, 2> costs;  // on the surface found and on the dish's own
+  std::span<std::uint16_t> sums;
+  std::span<float> nodes;
+
+  // What a DishRelief refers to.
+  template <class Allocator>
+  constexpr void allocate_kept(Allocator& arena, const DishReliefParams& params) {
+    for (auto& view : samples)
+      view = arena.template take<ReliefSample>(
+          static_cast<std::size_t>(params.surface.rectification.max_samples));
+    rows = arena.template take<PlaneRow>(static_cast<std::size_t>(params.surface.rectification.max_rows));
+  }
+  // Used by measure_relief alone.
+  template <class Allocator>
+  constexpr void allocate_scratch(Allocator& arena, const DishReliefParams& params) {
+    const auto count = static_cast<std::size_t>(params.surface.rectification.max_samples);
+    surface.allocate(arena, params.surface);
+    for (auto& view : codes) view = arena.template take<std::uint32_t>(count);
+    for (auto& cost : costs) cost = arena.template take<std::uint8_t>(count);
+    sums = arena.template take<std::uint16_t>(count);
+    nodes = arena.template take<float>(static_cast<std::size_t>(params.surface.max_columns) + 2);
+  }
+};
+
+// Both views' samples over the dish; they and the grid's rows live in the workspace.
+struct DishRelief {
+  PlaneRectification grid;
+  std::array<ImageView<ReliefSample>, 2> views;
+};
+
+// Fails where reconstruct_surface does.
+Status measure_relief(const std::array<StoredView, 2>& views, const LabelTable& kept,
+                      const InnerSurface& dish, const DishReliefParams& params,
+                      DishReliefWorkspace& workspace, DishRelief& relief);
+
+// Lays one view's samples into the cells of its raster; cells without any are not known.
+void lay_relief(const DishRelief& relief, std::size_t view, const StoredView& stored,
+                const DishRaster& raster, ImageView<ReliefSample> cells);
+
+}  // namespace traygauge

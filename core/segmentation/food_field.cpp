@@ -1,0 +1,201 @@
+#include "core/segmentation/food_field.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/segmentation/geodesic.hpp"
+
+namespace traygauge {
+namespace {
+
+constexpr float kOutside = -1e3F;  // no food beside the dish
+constexpr float kStep = 0.35F;  // of both variables; its square is less than one over the 8 of the gradient
+
+struct Field {
+  int width = 0;
+  int height = 0;
+
+  std::size_t at(int x, int y) const {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
+  }
+};
+
+class FoodField {
+ public:
+  FoodField(const DishRaster& raster, ImageView<const ReliefSample> relief, const GlazeColour& glaze,
+            const FoodFieldParams& params, FoodFieldWorkspace& workspace)
+      : raster_(raster),
+        relief_(relief),
+        glaze_(glaze),
+        params_(params),
+        workspace_(workspace),
+        field_{raster.width() / params.fold, raster.height() / params.fold} {}
+
+  void weigh() {
+    for (int y = 0; y < field_.height; ++y) {
+      for (int x = 0; x < field_.width; ++x) fold(x, y);
+    }
+    for (int y = 0; y < field_.height; ++y) {
+      for (int x = 0; x < field_.width; ++x) add_colour(x, y);
+    }
+    for (int y = 0; y < field_.height; ++y) {
+      for (int x = 0; x < field_.width; ++x) limit_flow(x, y);
+    }
+  }
+
+  void solve() {
+    const std::size_t count = field_.at(0, field_.height);
+    for (std::size_t i = 0; i < count; ++i) {
+      workspace_.share[i] = workspace_.leading[i] = workspace_.evidence[i] > 0.0F ? 1.0F : 0.0F;
+      workspace_.right[i] = workspace_.below[i] = 0.0F;
+    }
+    for (int sweep = 0; sweep < params_.sweeps; ++sweep) {
+      for (int y = 0; y < field_.height; ++y) push_row(y);
+      for (int y = 0; y < field_.height; ++y) settle_row(y);
+    }
+  }
+
+  void write(ImageView<std::uint8_t> cells) const {
+    for (int y = 0; y < cells.height; ++y) {
+      for (int x = 0; x < cells.width; ++x) {
+        const std::size_t at = field_.at(std::min(x / params_.fold, field_.width - 1),
+                                         std::min(y / params_.fold, field_.height - 1));
+        cells.at(x, y) = raster_.zones.at(x, y) == DishZone::outside ? kBarred
+                         : workspace_.share[at] > 0.5F               ? kFoodSeed
+                                                                     : kGlazeSeed;
+      }
+    }
+  }
+
+ private:
+  // Means over a cell of the field; its evidence by relief alone.
+  void fold(int x, int y) {
+    const int fold = params_.fold;
+    int luma = 0;
+    int red = 0;
+    int green = 0;
+    int bends = 0;
+    double lift = 0.0;
+    bool is_outside = false;
+    for (int j = y * fold; j < (y + 1) * fold; ++j) {
+      for (int i = x * fold; i < (x + 1) * fold; ++i) {
+        const CellColour& colour = raster_.colours.at(i, j);
+        luma += colour.luma;
+        red += colour.red;
+        green += colour.green;
+        bends += bend_at(raster_.colours, i, j);
+        const double told = lift_of(relief_.at(i, j), params_.relief);
+        lift += told * (told > 0.0 ? params_.lift_weight : params_.against_weight);
+        const DishZone zone = raster_.zones.at(i, j);
+        is_outside |= zone == DishZone::outside || zone == DishZone::edge;
+      }
+    }
+    const int count = fold * fold;
+    const std::size_t at = field_.at(x, y);
+    workspace_.colours[at] = {static_cast<std::uint8_t>(luma / count), static_cast<std::uint8_t>(red / count),
+                              static_cast<std::uint8_t>(green / count)};
+    workspace_.bends[at] = static_cast<std::uint8_t>(std::min(255, 2 * bends / count));
+    workspace_.evidence[at] = is_outside ? kOutside : static_cast<float>(params_.prior + lift / count);
+  }
+
+  void add_colour(int x, int y) {
+    const std::size_t at = field_.at(x, y);
+    if (!(workspace_.evidence[at] > kOutside)) return;
+    const CellColour& colour = workspace_.colours[at];
+    const int red = colour.red - glaze_.median.red;
+    const int green = colour.green - glaze_.median.green;
+    const double off = std::sqrt(static_cast<double>(red * red + green * green)) / glaze_.share_sigma;
+    int bends = 0;
+    int seen = 0;
+    for (int j = std::max(0, y - 1); j <= std::min(field_.height - 1, y + 1); ++j) {
+      for (int i = std::max(0, x - 1); i <= std::min(field_.width - 1, x + 1); ++i, ++seen)
+        bends += workspace_.bends[field_.at(i, j)];
+    }
+    const double texture = static_cast<double>(bends) / seen / glaze_.texture;
+    const double told = std::clamp(
+        (off - params_.neutral_deviations) / (params_.full_deviations - params_.neutral_deviations),
+        params_.least_colour, params_.most_colour);
+    const double rough = std::clamp(
+        (texture - params_.neutral_texture) / (params_.full_texture - params_.neutral_texture), 0.0, 1.0);
+    const double like_glaze = told < 0.0 ? (1.0 - rough) * told / params_.least_colour : 0.0;
+    float& evidence = workspace_.evidence[at];
+    if (evidence > 0.0F) evidence *= static_cast<float>(1.0 - (1.0 - params_.plain_share) * like_glaze);
+    evidence += static_cast<float>(params_.colour_weight * (told < 0.0 ? (1.0 - rough) * told : told));
+  }
+
+  float limit_between(std::size_t a, std::size_t b) const {
+    const CellColour& p = workspace_.colours[a];
+    const CellColour& q = workspace_.colours[b];
+    const int luma = p.luma - q.luma;
+    const int red = 2 * (p.red - q.red);
+    const int green = 2 * (p.green - q.green);
+    const double contrast = luma * luma + red * red + green * green;
+    const double kept = 1.0 / (1.0 + contrast / (params_.edge_contrast * params_.edge_contrast));
+    return static_cast<float>(params_.outline *
+                              (params_.least_outline + (1.0 - params_.least_outline) * kept));
+  }
+
+  void limit_flow(int x, int y) {
+    const std::size_t at = field_.at(x, y);
+    workspace_.right_limit[at] = x + 1 < field_.width ? limit_between(at, field_.at(x + 1, y)) : 0.0F;
+    workspace_.below_limit[at] = y + 1 < field_.height ? limit_between(at, field_.at(x, y + 1)) : 0.0F;
+  }
+
+  void push_row(int y) {
+    const std::size_t row = field_.at(0, y);
+    const auto width = static_cast<std::size_t>(field_.width);
+    const float* leading = &workspace_.leading[row];
+    const float* next = y + 1 < field_.height ? leading + width : leading;
+    float* right = &workspace_.right[row];
+    float* below = &workspace_.below[row];
+    const float* right_limit = &workspace_.right_limit[row];
+    const float* below_limit = &workspace_.below_limit[row];
+    for (std::size_t x = 0; x + 1 < width; ++x)
+      right[x] =
+          std::clamp(right[x] + kStep * (leading[x + 1] - leading[x]), -right_limit[x], right_limit[x]);
+    for (std::size_t x = 0; x < width; ++x)
+      below[x] = std::clamp(below[x] + kStep * (next[x] - leading[x]), -below_limit[x], below_limit[x]);
+  }
+
+  void settle_row(int y) {
+    const std::size_t row = field_.at(0, y);
+    const auto width = static_cast<std::size_t>(field_.width);
+    float* share = &workspace_.share[row];
+    float* leading = &workspace_.leading[row];
+    const float* right = &workspace_.right[row];
+    const float* below = &workspace_.below[row];
+    const float* above = y > 0 ? below - width : nullptr;
+    const float* evidence = &workspace_.evidence[row];
+    const auto settle = [&](std::size_t x, float flow) {
+      const float before = share[x];
+      share[x] = std::clamp(before + kStep * (flow + evidence[x]), 0.0F, 1.0F);
+      leading[x] = 2.0F * share[x] - before;
+    };
+    const auto from_above = [&](std::size_t x) { return above == nullptr ? 0.0F : above[x]; };
+    settle(0, right[0] + below[0] - from_above(0));
+    if (above == nullptr) {
+      for (std::size_t x = 1; x < width; ++x) settle(x, right[x] - right[x - 1] + below[x]);
+    } else {
+      for (std::size_t x = 1; x < width; ++x) settle(x, right[x] - right[x - 1] + below[x] - above[x]);
+    }
+  }
+
+  const DishRaster& raster_;
+  ImageView<const ReliefSample> relief_;
+  const GlazeColour& glaze_;
+  const FoodFieldParams& params_;
+  FoodFieldWorkspace& workspace_;
+  Field field_;
+};
+
+}  // namespace
+
+void find_food(const DishRaster& raster, ImageView<const ReliefSample> relief, const GlazeColour& glaze,
+               const FoodFieldParams& params, FoodFieldWorkspace& workspace, ImageView<std::uint8_t> cells) {
+  FoodField field(raster, relief, glaze, params, workspace);
+  field.weigh();
+  field.solve();
+  field.write(cells);
+}
+
+}  // namespace traygauge

@@ -1,0 +1,69 @@
+// Where on a dish food lies: every cell's own evidence, by relief, colour and texture, weighed against the
+// length of the outline, which is cheap where the picture has an edge. The binary labelling of least energy
+// (Boykov & Jolly, Interactive graph cuts, ICCV 2001) as its convex relaxation, by the primal-dual iterations
+// of A. Chambolle, T. Pock, J. Math. Imaging Vis. 40 (2011): a fixed number of sweeps in fixed memory.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "core/base/arena.hpp"
+#include "core/image_view/image_view.hpp"
+#include "core/segmentation/dish_raster.hpp"
+#include "core/segmentation/glaze.hpp"
+#include "core/segmentation/relief_sample.hpp"
+
+namespace traygauge {
+
+struct FoodFieldParams {
+  int fold = 2;  // cells of the raster to a side of a cell of the field
+  ReliefEvidenceParams relief;
+  // Evidence for food of a whole cell of the field, to be compared with `outline`.
+  double lift_weight = 3.0;
+  double against_weight = 1.2;  // of lift below zero: food ends low
+  double colour_weight = 2.6;
+  // Of a lift's weight where colour and texture are the glaze's: reflections move between the views as if
+  // they stood above it.
+  double plain_share = 0.75;
+  double prior = -0.2;
+  // Deviations of the colour from the glaze's that speak neither way, and those that count once. Others count
+  // in proportion, up to `most_colour`.
+  double neutral_deviations = 7.0;
+  double full_deviations = 10.0;
+  double most_colour = 3.0;
+  double least_colour = -0.25;   // of the glaze's own colour: white food has it, too
+  double neutral_texture = 1.5;  // over the glaze's
+  double full_texture = 4.0;
+  double outline = 2.2;         // for each side of a cell
+  double edge_contrast = 12.0;  // of luma and twice the colour shares, that halves it
+  double least_outline = 0.1;   // share that is left at the strongest edge
+  int sweeps = 40;
+};
+
+struct FoodFieldWorkspace {
+  std::span<CellColour> colours;
+  std::span<std::uint8_t> bends;
+  std::span<float> evidence;
+  std::span<float> share;    // of food, 0 to 1
+  std::span<float> leading;  // extrapolated
+  std::span<float> right;    // flow across each cell's right side
+  std::span<float> below;
+  std::span<float> right_limit;
+  std::span<float> below_limit;
+
+  template <class Allocator>
+  constexpr void allocate(Allocator& arena, int max_cells) {
+    const auto cells = static_cast<std::size_t>(max_cells);
+    colours = arena.template take<CellColour>(cells);
+    bends = arena.template take<std::uint8_t>(cells);
+    for (std::span<float>* span : {&evidence, &share, &leading, &right, &below, &right_limit, &below_limit})
+      *span = arena.template take<float>(cells);
+  }
+};
+
+// `cells`, of the raster's size: kFoodSeed or kGlazeSeed within the dish, kBarred outside. `relief` has the
+// raster's size; cells not known in it are told by colour alone.
+void find_food(const DishRaster& raster, ImageView<const ReliefSample> relief, const GlazeColour& glaze,
+               const FoodFieldParams& params, FoodFieldWorkspace& workspace, ImageView<std::uint8_t> cells);
+
+}  // namespace traygauge
