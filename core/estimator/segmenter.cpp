@@ -8,39 +8,16 @@
 #include "core/estimator/view_input.hpp"
 #include "core/image/exposure.hpp"
 #include "core/image/resample.hpp"
-#include "core/scale/card_hypotheses.hpp"
+#include "core/scale/card_location.hpp"
 #include "core/segmentation/convex_fill.hpp"
 #include "core/surface/dish_profile.hpp"
 
 namespace traygauge {
 namespace {
 
-constexpr double kMostFlange = 0.3;          // of the smaller axis
-constexpr int kSeedStep = 2;                 // cells, a power of two
-constexpr std::size_t kRimCorners = 180;     // of the polygon that an ellipse is drawn as
-constexpr std::size_t kCardSideCorners = 8;  // on each side, which a lens bends
-
-CardModelSize size_of(const ReferenceCard& card) {
-  return {card.width_mm, card.height_mm, card.thickness_mm};
-}
-
-// Four straight sides through the lens.
-std::array<Vec2, 4 * kCardSideCorners> outline_of(const std::array<Vec2, 4>& corners, const LensModel& lens) {
-  std::array<Vec2, 4 * kCardSideCorners> outline;
-  for (std::size_t i = 0; i < outline.size(); ++i) {
-    const std::size_t side = i / kCardSideCorners;
-    const double t = static_cast<double>(i % kCardSideCorners) / kCardSideCorners;
-    outline[i] = lens.pixel((1.0 - t) * corners[side] + t * corners[(side + 1) % 4]);
-  }
-  return outline;
-}
-
-std::array<Vec2, 4> corners_of(const Pose& camera_from_table, const CardModelSize& size) {
-  std::array<Vec2, 4> corners = print_corners_mm(size);
-  for (Vec2& corner : corners)
-    corner = (camera_from_table * print_point_mm(corner, size.thickness_mm)).hnormalized();
-  return corners;
-}
+constexpr double kMostFlange = 0.3;       // of the smaller axis
+constexpr int kSeedStep = 2;              // cells, a power of two
+constexpr std::size_t kRimCorners = 180;  // of the polygon that an ellipse is drawn as
 
 bool is_within(const FrameView& frame, std::span<const Vec2> outline_px) {
   return std::all_of(outline_px.begin(), outline_px.end(), [&](const Vec2& corner) {
@@ -146,30 +123,16 @@ Status Segmenter::find_card(const SegmentedView& view, const LensModel& lens, st
   const ImageView<const std::uint8_t> gray = view.gray;
   clear(view.labels);
   collect_rim_edges(gray, lens, params_.dish.edges, memory_.card.edges, memory_.edges[index]);
-  const CardModelSize size = size_of(configuration_.card);
-  std::array<Vec2, 4> corners;
-  const Status status = search_card(gray, lens, size, memory_.print, params_.card, configuration_.card_search,
-                                    memory_.card.search, corners);
-  if (!status.ok()) return status;
-  // An outline that is off by some pixels may end in a print half aligned, which a second start mends.
   CardAlignment& card = result_.cards[index];
-  for (int round = 0; round < params_.max_alignments; ++round) {
-    clear(view.labels);
-    fill_convex(view.labels, outline_of(corners, lens), kCardLabel);
-    CardAlignment aligned;
-    const Status reached = align_card(gray, view.labels, measure_regions(view.labels).card, lens, pattern_,
-                                      configuration_.best.card, memory_.card.alignment, aligned);
-    if (!reached.ok() && round == 0) return reached;
-    if (!reached.ok() || aligned.correlation <= card.correlation) break;
-    card = aligned;
-    corners = corners_of(card.camera_from_table, size);
-    if (card.correlation >= params_.sure_correlation) break;
-  }
-  clear(view.labels);
-  const auto outline = outline_of(corners, lens);
-  fill_convex(view.labels, outline, kCardLabel);
+  CardPolygon outline_px;
+  const Status status = locate_card(
+      gray, view.labels, lens,
+      {pattern_, memory_.print, params_.card, configuration_.card_search, configuration_.best.card,
+       params_.max_alignments, params_.sure_correlation, memory_.card.search, memory_.card.alignment},
+      card, outline_px);
+  if (!status.ok()) return status;
   if (card.correlation < params_.sure_card_correlation) result_.is_card_doubtful = true;
-  return is_within(view.frame, outline) ? StatusCode::ok : StatusCode::card_hidden;
+  return is_within(view.frame, outline_px) ? StatusCode::ok : StatusCode::card_hidden;
 }
 
 Status Segmenter::find_dishes(const DishSearchViews& views) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <span>
 
 #include "core/scale/card_hypotheses.hpp"
 #include "core/scale/print_plane.hpp"
@@ -11,17 +12,27 @@
 namespace traygauge {
 namespace {
 
-constexpr std::size_t kSideCorners = 8;  // on each side, which a lens bends
-
-void draw_card(const std::array<Vec2, 4>& corners, const LensModel& lens, ImageView<std::uint8_t> labels) {
-  for (int y = 0; y < labels.height; ++y) std::fill_n(labels.row(y), labels.width, kBackgroundLabel);
-  std::array<Vec2, 4 * kSideCorners> outline;
+// Four straight sides through the lens.
+CardPolygon outline_of(const std::array<Vec2, 4>& corners, const LensModel& lens) {
+  CardPolygon outline;
   for (std::size_t i = 0; i < outline.size(); ++i) {
-    const std::size_t side = i / kSideCorners;
-    const double t = static_cast<double>(i % kSideCorners) / kSideCorners;
-    outline[i] = lens.pinhole.pixel(lens.distort((1.0 - t) * corners[side] + t * corners[(side + 1) % 4]));
+    const std::size_t side = i / kCardSideCorners;
+    const double t = static_cast<double>(i % kCardSideCorners) / kCardSideCorners;
+    outline[i] = lens.pixel((1.0 - t) * corners[side] + t * corners[(side + 1) % 4]);
   }
-  fill_convex(labels, outline, kCardLabel);
+  return outline;
+}
+
+std::array<Vec2, 4> corners_of(const Pose& camera_from_table, const CardModelSize& size) {
+  std::array<Vec2, 4> corners = print_corners_mm(size);
+  for (Vec2& corner : corners)
+    corner = (camera_from_table * print_point_mm(corner, size.thickness_mm)).hnormalized();
+  return corners;
+}
+
+void draw_card(std::span<const Vec2> outline_px, ImageView<std::uint8_t> labels) {
+  for (int y = 0; y < labels.height; ++y) std::fill_n(labels.row(y), labels.width, kBackgroundLabel);
+  fill_convex(labels, outline_px, kCardLabel);
 }
 
 }  // namespace
@@ -36,31 +47,38 @@ Status learn_card(ImageView<const std::uint8_t> picture, const CardModelSize& si
 // The search gives the outline to a pixel or two. One that is off by more may end in a print half aligned,
 // which a second start mends.
 Status locate_card(ImageView<const std::uint8_t> gray, ImageView<std::uint8_t> labels, const LensModel& lens,
-                   const CardLocationParams& params, CardLocationWorkspace& workspace,
-                   CardAlignment& alignment) {
+                   const CardLocator& locator, CardAlignment& alignment, CardPolygon& outline_px) {
   alignment = {};
-  const CardModelSize& size = workspace.pattern.size;
-  CardParams card;
-  card.detection = params.detection;
   std::array<Vec2, 4> corners;
-  const Status found =
-      search_card(gray, lens, size, workspace.print, params.search, card, workspace.search, corners);
+  const Status found = search_card(gray, lens, locator.pattern.size, locator.print, locator.search,
+                                   locator.detection, locator.search_space, corners);
   if (!found.ok()) return found;
-  for (int round = 0; round < params.max_alignments; ++round) {
-    draw_card(corners, lens, labels);
+  outline_px = outline_of(corners, lens);
+  for (int round = 0; round < locator.max_alignments; ++round) {
+    draw_card(outline_px, labels);
     CardAlignment aligned;
-    const Status reached = align_card(gray, labels, measure_regions(labels).card, lens, workspace.pattern,
-                                      params.alignment, workspace.alignment, aligned);
+    const Status reached = align_card(gray, labels, measure_regions(labels).card, lens, locator.pattern,
+                                      locator.alignment, locator.alignment_space, aligned);
     if (!reached.ok() && round == 0) return reached;
     if (!reached.ok() || aligned.correlation <= alignment.correlation) break;
     alignment = aligned;
-    corners = print_corners_mm(size);
-    for (Vec2& corner : corners)
-      corner = (aligned.camera_from_table * print_point_mm(corner, size.thickness_mm)).hnormalized();
-    if (aligned.correlation >= params.sure_correlation) break;
+    outline_px = outline_of(corners_of(aligned.camera_from_table, locator.pattern.size), lens);
+    if (aligned.correlation >= locator.sure_correlation) break;
   }
-  draw_card(corners, lens, labels);
+  draw_card(outline_px, labels);
   return StatusCode::ok;
+}
+
+Status locate_card(ImageView<const std::uint8_t> gray, ImageView<std::uint8_t> labels, const LensModel& lens,
+                   const CardLocationParams& params, CardLocationWorkspace& workspace,
+                   CardAlignment& alignment) {
+  CardParams detection;
+  detection.detection = params.detection;
+  CardPolygon outline_px;
+  return locate_card(gray, labels, lens,
+                     {workspace.pattern, workspace.print, params.search, detection, params.alignment,
+                      params.max_alignments, params.sure_correlation, workspace.search, workspace.alignment},
+                     alignment, outline_px);
 }
 
 }  // namespace traygauge

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 
 #include "core/base/geometry.hpp"
@@ -46,8 +47,29 @@ struct CardLocationWorkspace {
 Status learn_card(ImageView<const std::uint8_t> picture, const CardModelSize& size,
                   const CardLocationParams& params, CardLocationWorkspace& workspace);
 
-// `gray` as stored, of the lens's size; `labels` of the same size is scratch, and shows the card afterwards.
-// card_not_found where no print is beyond chance, or the place found does not show it.
+inline constexpr std::size_t kCardSideCorners = 8;  // on each side of an outline, which a lens bends
+using CardPolygon = std::array<Vec2, 4 * kCardSideCorners>;
+
+// What the place of a card is found with, by whoever keeps it.
+struct CardLocator {
+  const CardPattern& pattern;
+  const PrintCorners& print;
+  const CardSearchParams& search;
+  const CardParams& detection;
+  const CardAlignmentParams& alignment;
+  int max_alignments;
+  double sure_correlation;
+  CardSearchWorkspace& search_space;
+  CardAlignmentWorkspace& alignment_space;
+};
+
+// `gray` as stored, of the lens's size; `labels` of the same size is scratch, and shows the card and nothing
+// else afterwards, within `outline_px`. card_not_found where no print is beyond chance, or the place found
+// does not show it.
+Status locate_card(ImageView<const std::uint8_t> gray, ImageView<std::uint8_t> labels, const LensModel& lens,
+                   const CardLocator& locator, CardAlignment& alignment, CardPolygon& outline_px);
+
+// The same with what learn_card() left in `workspace`.
 Status locate_card(ImageView<const std::uint8_t> gray, ImageView<std::uint8_t> labels, const LensModel& lens,
                    const CardLocationParams& params, CardLocationWorkspace& workspace,
                    CardAlignment& alignment);
