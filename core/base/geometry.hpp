@@ -3,6 +3,8 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <cmath>
+#include <numbers>
 
 namespace traygauge {
 
@@ -43,6 +45,11 @@ inline Mat3 rotation_about(const Vec3& turn) {
   const double angle = turn.norm();
   if (!(angle > 0.0)) return Mat3::Identity();
   return Eigen::AngleAxisd(angle, turn / angle).toRotationMatrix();
+}
+
+// By how much a rotation turns, whichever way.
+inline double rotation_angle_deg(const Mat3& rotation) {
+  return 180.0 / std::numbers::pi * std::abs(Eigen::AngleAxisd(rotation).angle());
 }
 
 // A turn in the plane is a unit vector, its cosine and sine; the products are those of complex numbers.

@@ -2,7 +2,10 @@
 // print, x along the print's upper edge, y against its rows, z up from the table. Heights are z.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cmath>
+#include <numbers>
 
 #include "core/base/geometry.hpp"
 
@@ -23,6 +26,13 @@ inline Pose second_from_first(const TableCameras& camera_from_table) {
 // The camera's centre in the table frame.
 inline Vec3 camera_centre_mm(const Pose& camera_from_table) {
   return -(camera_from_table.rotation.transpose() * camera_from_table.translation);
+}
+
+// Between the lines of sight to a point of the table frame.
+inline double angle_between_views_deg(const TableCameras& camera_from_table, const Vec3& point_mm) {
+  const Vec3 first = (camera_centre_mm(camera_from_table[0]) - point_mm).normalized();
+  const Vec3 second = (camera_centre_mm(camera_from_table[1]) - point_mm).normalized();
+  return std::acos(std::clamp(first.dot(second), -1.0, 1.0)) * 180.0 / std::numbers::pi;
 }
 
 // A step of six parameters, turn (radians) and shift (mm): every refinement moves a pose this way, so that

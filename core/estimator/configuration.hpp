@@ -69,6 +69,8 @@ struct ReferenceCard {
   double height_mm = 53.98;
   double thickness_mm = 0.8;  // the print lies that much above the table
   ImageView<const std::uint8_t> pattern;
+
+  CardModelSize size() const { return {width_mm, height_mm, thickness_mm}; }
 };
 
 // How the views may lie to each other.

@@ -71,8 +71,7 @@ std::size_t required_bytes(const EstimatorLimits& limits, Profile profile) {
 void EstimatorState::place_pattern(int width_px) {
   const ReferenceCard& card = configuration.card;
   for (std::size_t i = 0; i < memory.pattern.keypoints.size(); ++i) {
-    memory.pattern.positions_mm[i] = pattern_mm(memory.pattern.keypoints[i].pixel, width_px,
-                                                {card.width_mm, card.height_mm, card.thickness_mm});
+    memory.pattern.positions_mm[i] = pattern_mm(memory.pattern.keypoints[i].pixel, width_px, card.size());
   }
 }
 
@@ -108,8 +107,8 @@ Estimator::Estimator(std::span<std::byte> block, const Configuration& configurat
   state.used_bytes = arena.high_water_bytes();
   if (is_best) {
     const ReferenceCard& card = configuration.card;
-    status_ = prepare_card_pattern(card.pattern, {card.width_mm, card.height_mm, card.thickness_mm},
-                                   configuration.best.card.pattern, state.best.pattern);
+    status_ =
+        prepare_card_pattern(card.pattern, card.size(), configuration.best.card.pattern, state.best.pattern);
     if (!status_.ok()) return;
   } else {
     state.set_up_pattern(configuration.card.pattern);

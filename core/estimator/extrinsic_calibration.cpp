@@ -3,7 +3,6 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "core/pose/epipolar.hpp"
 #include "core/pose/model_search.hpp"
@@ -20,10 +19,6 @@ namespace {
 
 bool has_given(const ExtrinsicInput& input) {
   return !input.given->matches.empty();
-}
-
-CardModelSize size_of(const ReferenceCard& card) {
-  return {card.width_mm, card.height_mm, card.thickness_mm};
 }
 
 // Matches of the two views, and of each view with the card; returns the rays of the former.
@@ -136,8 +131,7 @@ Status explain_closeness(const ExtrinsicInput& input, std::span<const RayMatch> 
 }
 
 double rotation_between_deg(const Pose& a, const Pose& b) {
-  constexpr double kDegrees = 180.0 / std::numbers::pi;
-  return kDegrees * std::abs(Eigen::AngleAxisd(a.rotation.transpose() * b.rotation).angle());
+  return rotation_angle_deg(a.rotation.transpose() * b.rotation);
 }
 
 // Table, dish and card lie near one plane, where five points allow a second, twisted motion that cheirality
@@ -167,7 +161,7 @@ Status check_against_card(std::span<const RayMatch> rays, double focal_px, const
 Status scale_by_card(const CardFit& fit, const Pose& pose, const Configuration& configuration, Random& random,
                      ExtrinsicWorkspace& workspace, MeasurementReport& report, Extrinsics& extrinsics) {
   const auto tracks = workspace.tracks.items();
-  const double length_mm = size_of(configuration.card).length_mm();
+  const double length_mm = configuration.card.size().length_mm();
   ScaleEstimate scale;
   Status status = estimate_scale(tracks, fit.inliers, length_mm, configuration.card_search, random,
                                  workspace.card, scale);
@@ -209,7 +203,7 @@ Status calibrate_extrinsics(const ExtrinsicInput& input, const Configuration& co
   if (!status.ok()) return status;
 
   clock.enter(Stage::scale);
-  const CardModelSize card = size_of(configuration.card);
+  const CardModelSize card = configuration.card.size();
   CardFit fit;
   collect_tracks(input, rays, focal_px, pose, configuration.card_search.tracks, workspace);
   report.card_tracks = static_cast<int>(workspace.tracks.size());

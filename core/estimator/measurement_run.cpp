@@ -104,8 +104,7 @@ Status calibrate(EstimatorState& state, Random& random, StageClock& clock, Measu
   measurement.has_pose = true;
   const Pose& motion = state.extrinsics.second_from_first;
   measurement.second_from_first = state.works_in_reverse() ? motion.inverse() : motion;
-  measurement.rotation_angle_deg =
-      kDegrees * std::abs(Eigen::AngleAxisd(measurement.second_from_first.rotation).angle());
+  measurement.rotation_angle_deg = rotation_angle_deg(measurement.second_from_first.rotation);
   return StatusCode::ok;
 }
 

@@ -93,7 +93,7 @@ const Segmentation& Segmenter::segment() {
   if (!result_.status.ok()) return result_;
   StageClock clock;
   clock.enter(Stage::surface);
-  result_.status = find_dishes(cameras_);
+  result_.status = find_dishes();
   if (result_.status.ok()) {
     clock.enter(Stage::volume);
     draw_items(params_.food);
@@ -135,7 +135,7 @@ Status Segmenter::find_card(const SegmentedView& view, const LensModel& lens, st
   return is_within(view.frame, outline_px) ? StatusCode::ok : StatusCode::card_hidden;
 }
 
-Status Segmenter::find_dishes(const DishSearchViews& views) {
+Status Segmenter::find_dishes() {
   std::array<FoundDish, kMaxPlacedDishes> taken;
   result_.dish_count = 0;
   std::size_t taken_count = 0;
@@ -150,13 +150,13 @@ Status Segmenter::find_dishes(const DishSearchViews& views) {
     if (result_.dish_count == kMaxPlacedDishes) return StatusCode::too_many_dishes;
     SegmentedDish& dish = result_.dishes[result_.dish_count++];
     dish.label = label;
-    dish.status = search_dish(views, memory_.edges, candidates, std::span(taken).first(taken_count),
+    dish.status = search_dish(cameras_, memory_.edges, candidates, std::span(taken).first(taken_count),
                               params_.dish, memory_.dish, dish.found);
     if (!dish.status.ok()) continue;
     dish.model = candidates[static_cast<std::size_t>(dish.found.candidate)];
     taken[taken_count++] = dish.found;
-    for (const DishSearchView& view : views) {
-      if (!is_within(view.frame, rim_outline(dish.found.place, view, 0.0, 0.0)))
+    for (const DishSearchView& camera : cameras_) {
+      if (!is_within(camera.frame, rim_outline(dish.found.place, camera, 0.0, 0.0)))
         dish.status = StatusCode::dish_cut_off;
     }
     if (dish.status.ok()) ++found_count;
@@ -165,25 +165,24 @@ Status Segmenter::find_dishes(const DishSearchViews& views) {
   return taken_count > 0 ? StatusCode::dish_cut_off : StatusCode::rim_not_found;
 }
 
-void Segmenter::draw_dishes(const std::array<SegmentedView, 2>& views, const DishSearchViews& cameras) {
+void Segmenter::draw_dishes() const {
   for (std::size_t d = 0; d < result_.dish_count; ++d) {
     const SegmentedDish& dish = result_.dishes[d];
     if (!dish.status.ok()) continue;
     for (std::size_t v = 0; v < 2; ++v)
-      fill_convex(views[v].labels, rim_outline(dish.found.place, cameras[v], 0.0, 0.0), dish.label);
+      fill_convex(views_[v].labels, rim_outline(dish.found.place, cameras_[v], 0.0, 0.0), dish.label);
   }
 }
 
 void Segmenter::draw_items(const FoodOutlineParams& params) {
   result_.items = 0;
-  draw_dishes(views_, cameras_);
-  draw_food(views_, cameras_, params);
+  draw_dishes();
+  draw_food(params);
 }
 
-void Segmenter::draw_food(const std::array<SegmentedView, 2>& views, const DishSearchViews& cameras,
-                          const FoodOutlineParams& params) {
-  const std::array<LabelRegions, 2> regions = {measure_regions(views[0].labels),
-                                               measure_regions(views[1].labels)};
+void Segmenter::draw_food(const FoodOutlineParams& params) {
+  const std::array<LabelRegions, 2> regions = {measure_regions(views_[0].labels),
+                                               measure_regions(views_[1].labels)};
   for (std::size_t d = 0; d < result_.dish_count; ++d) {
     SegmentedDish& dish = result_.dishes[d];
     dish.items = 0;
@@ -194,8 +193,8 @@ void Segmenter::draw_food(const std::array<SegmentedView, 2>& views, const DishS
     scene.inner.place = frame_of(dish.found.place);
     if (!scene.inner.profile.set(dish.model).ok()) continue;
     for (std::size_t v = 0; v < 2; ++v) {
-      scene.stored[v] = {views[v].gray, views[v].labels, regions[v].boxes[dish.label], cameras[v].lens,
-                         cameras[v].camera_from_table};
+      scene.stored[v] = {views_[v].gray, views_[v].labels, regions[v].boxes[dish.label], cameras_[v].lens,
+                         cameras_[v].camera_from_table};
     }
     LabelTable kept{};
     kept[dish.label] = kDishLabel;
@@ -204,31 +203,32 @@ void Segmenter::draw_food(const std::array<SegmentedView, 2>& views, const DishS
              .ok())
       scene.relief = {};
     DishRaster raster;
+    ImageView<const ReliefSample> relief;
     ImageView<std::uint8_t> cells;
-    if (!outline_view(views[0].frame, cameras[0], dish, scene, 0, raster, cells)) continue;
-    const ImageView<const ReliefSample> laid{memory_.food.outline.relief.data(), raster.width(),
-                                             raster.height()};
-    const int items = label_items(raster, laid, params, memory_.food.outline, first, room, cells);
-    draw_cells(raster, cells, dish.label, views[0].labels);
-    if (!outline_view(views[1].frame, cameras[1], dish, scene, 1, raster, cells)) continue;
-    carry_labels(raster, cameras, views[0].labels, dish, cells);
+    if (!outline_view(dish, scene, 0, raster, relief, cells)) continue;
+    const int items = label_items(raster, relief, params, memory_.food.outline, first, room, cells);
+    draw_cells(raster, cells, dish.label, views_[0].labels);
+    if (!outline_view(dish, scene, 1, raster, relief, cells)) continue;
+    carry_labels(raster, dish, cells);
     spread_items(raster, params, memory_.food.outline, cells);
-    draw_cells(raster, cells, dish.label, views[1].labels);
-    dish.items = keep_confirmed(views, first, items, dish.label);
+    draw_cells(raster, cells, dish.label, views_[1].labels);
+    dish.items = keep_confirmed(first, items, dish.label);
     result_.items += dish.items;
   }
 }
 
 // Food and glaze of one dish in one view, as outline_food marks them.
-bool Segmenter::outline_view(const FrameView& frame, const DishSearchView& camera, const SegmentedDish& dish,
-                             const DishInViews& scene, std::size_t v, DishRaster& raster,
+bool Segmenter::outline_view(const SegmentedDish& dish, const DishInViews& scene, std::size_t v,
+                             DishRaster& raster, ImageView<const ReliefSample>& relief,
                              ImageView<std::uint8_t>& cells) {
+  const DishSearchView& camera = cameras_[v];
   const DishPlace& place = dish.found.place;
   const DishProfile& profile = scene.inner.profile;
   RimOutline outline = rim_outline(place, camera, 0.0, 0.0);
   const Vec3 middle = camera.camera_from_table * Vec3(place.centre_mm.x(), place.centre_mm.y(), 0.0);
   const double px_per_mm = camera.lens.pinhole.mean_focal_px() / middle.z();
-  if (!load_dish_raster(frame, outline, px_per_mm, params_.food.raster, memory_.food.outline.raster, raster))
+  if (!load_dish_raster(views_[v].frame, outline, px_per_mm, params_.food.raster, memory_.food.outline.raster,
+                        raster))
     return false;
   mark_zone(raster, outline, DishZone::edge);
   const double edge_mm = profile.height_at_inset_mm(0.0);
@@ -246,14 +246,15 @@ bool Segmenter::outline_view(const FrameView& frame, const DishSearchView& camer
   cells = {memory_.food.cells.data(), raster.width(), raster.height()};
   const ImageView<ReliefSample> laid{memory_.food.outline.relief.data(), raster.width(), raster.height()};
   lay_relief(scene.relief, v, scene.stored[v], raster, laid);
-  return outline_food(raster, laid, params_.food, memory_.food.outline, cells);
+  relief = laid;
+  return outline_food(raster, relief, params_.food, memory_.food.outline, cells);
 }
 
 // Seeds for the second view: food that lies on the same item in the first view, whether it is low or high.
-void Segmenter::carry_labels(const DishRaster& raster, const DishSearchViews& cameras,
-                             ImageView<const std::uint8_t> first_labels, const SegmentedDish& dish,
+void Segmenter::carry_labels(const DishRaster& raster, const SegmentedDish& dish,
                              ImageView<std::uint8_t> cells) const {
-  const Pose table_from_second = cameras[1].camera_from_table.inverse();
+  const ImageView<const std::uint8_t> first_labels = views_[0].labels;
+  const Pose table_from_second = cameras_[1].camera_from_table.inverse();
   const double bottom_mm = dish.model.bottom_height_mm;
   for (int y = 0; y < raster.height(); ++y) {
     for (int x = 0; x < raster.width(); ++x) {
@@ -261,13 +262,14 @@ void Segmenter::carry_labels(const DishRaster& raster, const DishSearchViews& ca
       if (cell != kFoodSeed) continue;
       cell = kUnlabelled;
       Vec2 ray;
-      if ((x | y) % kSeedStep != 0 || !cameras[1].lens.undistort_pixel(raster.pixel_of(x, y), ray)) continue;
+      if ((x | y) % kSeedStep != 0 || !cameras_[1].lens.undistort_pixel(raster.pixel_of(x, y), ray)) continue;
       const Vec3 direction = table_from_second.rotation * ray.homogeneous();
       std::uint8_t label = kBackgroundLabel;
       for (const double height_mm : params_.food_heights_mm) {
         const double depth = (bottom_mm + height_mm - table_from_second.translation.z()) / direction.z();
-        const Vec3 point = cameras[0].camera_from_table * (table_from_second.translation + depth * direction);
-        const Vec2 pixel = cameras[0].lens.pixel(point.hnormalized());
+        const Vec3 point =
+            cameras_[0].camera_from_table * (table_from_second.translation + depth * direction);
+        const Vec2 pixel = cameras_[0].lens.pixel(point.hnormalized());
         const int px = static_cast<int>(std::lround(pixel.x()));
         const int py = static_cast<int>(std::lround(pixel.y()));
         const std::uint8_t seen = first_labels.contains(px, py) ? first_labels.at(px, py) : kBackgroundLabel;
@@ -298,10 +300,9 @@ void Segmenter::draw_cells(const DishRaster& raster, ImageView<const std::uint8_
 }
 
 // What only one view takes for food is a shadow or a highlight. Labels stay in a row.
-int Segmenter::keep_confirmed(const std::array<SegmentedView, 2>& views, std::uint8_t first, int items,
-                              std::uint8_t dish) const {
-  const std::array<LabelRegions, 2> regions = {measure_regions(views[0].labels),
-                                               measure_regions(views[1].labels)};
+int Segmenter::keep_confirmed(std::uint8_t first, int items, std::uint8_t dish) const {
+  const std::array<LabelRegions, 2> regions = {measure_regions(views_[0].labels),
+                                               measure_regions(views_[1].labels)};
   std::array<std::uint8_t, 256> renamed{};
   int kept = 0;
   for (int i = 0; i < items; ++i) {

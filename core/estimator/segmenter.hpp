@@ -89,21 +89,16 @@ class Segmenter {
 
   Status check_view(const SegmentedView& view, const LensModel& lens) const;
   Status find_card(const SegmentedView& view, const LensModel& lens, std::size_t index);
-  Status find_dishes(const DishSearchViews& views);
-  void draw_dishes(const std::array<SegmentedView, 2>& views, const DishSearchViews& cameras);
+  Status find_dishes();
+  void draw_dishes() const;
   void draw_items(const FoodOutlineParams& params);
   void meet_hint();
   bool join_most_alike();
-  void draw_food(const std::array<SegmentedView, 2>& views, const DishSearchViews& cameras,
-                 const FoodOutlineParams& params);
-  bool outline_view(const FrameView& frame, const DishSearchView& camera, const SegmentedDish& dish,
-                    const DishInViews& scene, std::size_t v, DishRaster& raster,
-                    ImageView<std::uint8_t>& cells);
-  void carry_labels(const DishRaster& raster, const DishSearchViews& cameras,
-                    ImageView<const std::uint8_t> first_labels, const SegmentedDish& dish,
-                    ImageView<std::uint8_t> cells) const;
-  int keep_confirmed(const std::array<SegmentedView, 2>& views, std::uint8_t first, int items,
-                     std::uint8_t dish) const;
+  void draw_food(const FoodOutlineParams& params);
+  bool outline_view(const SegmentedDish& dish, const DishInViews& scene, std::size_t v, DishRaster& raster,
+                    ImageView<const ReliefSample>& relief, ImageView<std::uint8_t>& cells);
+  void carry_labels(const DishRaster& raster, const SegmentedDish& dish, ImageView<std::uint8_t> cells) const;
+  int keep_confirmed(std::uint8_t first, int items, std::uint8_t dish) const;
   void rename_items(std::uint8_t first, int items, const std::array<std::uint8_t, 256>& renamed) const;
   static void draw_cells(const DishRaster& raster, ImageView<const std::uint8_t> cells, std::uint8_t dish,
                          ImageView<std::uint8_t> labels);

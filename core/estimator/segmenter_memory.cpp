@@ -10,11 +10,8 @@ std::array<MemoryRow, kSegmenterRowCount> describe_segmenter(const Configuration
   return {{
       {"corners of the print", bytes_of([&](ArenaPlan& plan) { memory.print.allocate(plan, params.card); }),
        false},
-      {"edges of both views", bytes_of([&](ArenaPlan& plan) {
-         const auto count = static_cast<std::size_t>(params.dish.edges.max_edges);
-         for (std::size_t v = 0; v < memory.edges.size(); ++v) plan.take<RimEdge>(count);
-       }),
-       false},
+      {"edges of both views",
+       bytes_of([&](ArenaPlan& plan) { memory.allocate_edges(plan, params.dish.edges); }), false},
       {"card search", bytes_of([&](ArenaPlan& plan) { memory.card.allocate(plan, configuration); }), true},
       {"dish search", bytes_of([&](ArenaPlan& plan) { memory.dish.allocate(plan, params.dish); }), true},
       {"food and its relief", bytes_of([&](ArenaPlan& plan) { memory.food.allocate(plan, params); }), true},

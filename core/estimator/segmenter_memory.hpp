@@ -54,10 +54,12 @@ struct SegmenterMemory {
   template <class Allocator>
   constexpr void allocate_kept(Allocator& arena, const SegmenterParams& params) {
     print.allocate(arena, params.card);
-    for (BoundedList<RimEdge>& list : edges) {
-      list = BoundedList<RimEdge>(
-          arena.template take<RimEdge>(static_cast<std::size_t>(params.dish.edges.max_edges)));
-    }
+    allocate_edges(arena, params.dish.edges);
+  }
+  template <class Allocator>
+  constexpr void allocate_edges(Allocator& arena, const RimEdgeParams& params) {
+    for (BoundedList<RimEdge>& list : edges)
+      list = BoundedList<RimEdge>(arena.template take<RimEdge>(static_cast<std::size_t>(params.max_edges)));
   }
   template <class Allocator>
   constexpr void allocate(Allocator& arena, const Configuration& configuration) {

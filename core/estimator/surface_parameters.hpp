@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
-#include <string_view>
+#include <cstring>
 
 #include "core/base/parameter_range.hpp"
 #include "core/stereo/median.hpp"
@@ -17,19 +17,21 @@ namespace traygauge {
 template <class Visit>
 class PrefixedVisit {
  public:
-  PrefixedVisit(std::string_view prefix, Visit& visit) : prefix_(prefix), visit_(visit) {}
+  PrefixedVisit(const char* prefix, Visit& visit) : prefix_(prefix), visit_(visit) {}
 
   template <class Field, class... Domain>
-  void operator()(std::string_view name, Field& field, const Domain&... domain) const {
+  void operator()(const char* name, Field& field, const Domain&... domain) const {
     std::array<char, 96> full{};
-    const std::size_t kept = std::min(prefix_.size(), full.size() - 1);
-    char* end = std::copy_n(prefix_.begin(), kept, full.begin());
-    std::copy_n(name.begin(), std::min(name.size(), full.size() - 1 - kept), end);
+    char* end = full.data();
+    for (const char* part : {prefix_, name}) {
+      const auto room = static_cast<std::size_t>(full.data() + full.size() - 1 - end);
+      end = std::copy_n(part, std::min(std::strlen(part), room), end);
+    }
     visit_(full.data(), field, domain...);
   }
 
  private:
-  std::string_view prefix_;
+  const char* prefix_;
   Visit& visit_;
 };
 

@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 
+#include "core/segmentation/square_sums.hpp"
 #include "core/stereo/symmetric_census.hpp"
 #include "core/surface/known_dish.hpp"
 
@@ -43,33 +44,18 @@ class GlazeDisparity {
   int step_;
 };
 
-// Twice the mean over the square about each sample, by running sums along rows, then columns; the picture's
-// border is repeated.
+// Calls take(sample, mean) with twice the mean over the square about each sample.
 template <class Take>
-void average(ImageView<const std::uint8_t> costs, int radius, std::span<std::uint16_t> sums, Take&& take) {
-  const int width = costs.width;
-  const int height = costs.height;
+void average(std::span<const std::uint8_t> costs, int width, int height, int radius,
+             DishReliefWorkspace& workspace, Take&& take) {
   const int area = (2 * radius + 1) * (2 * radius + 1);
   const auto index = [&](int x, int y) {
     return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
   };
-  for (int y = 0; y < height; ++y) {
-    const std::uint8_t* row = costs.row(y);
-    const auto cost = [&](int x) { return row[std::clamp(x, 0, width - 1)]; };
-    int sum = 0;
-    for (int x = -radius; x <= radius; ++x) sum += cost(x);
-    for (int x = 0; x < width; ++x) {
-      sums[index(x, y)] = static_cast<std::uint16_t>(sum);
-      sum += cost(x + radius + 1) - cost(x - radius);
-    }
-  }
-  for (int y = 0; y < height; ++y) {
-    for (int x = 0; x < width; ++x) {
-      int sum = 0;
-      for (int j = -radius; j <= radius; ++j) sum += sums[index(x, std::clamp(y + j, 0, height - 1))];
-      take(index(x, y), static_cast<std::uint8_t>(2 * sum / area));
-    }
-  }
+  for_each_square_sum(
+      width, height, radius, workspace.sums, workspace.column_sums,
+      [&](int x, int y) { return costs[index(x, y)]; },
+      [&](int x, int y, int sum) { take(index(x, y), static_cast<std::uint8_t>(2 * sum / area)); });
 }
 
 // The costs of one view's samples on the surface found and on the dish's own, and their heights.
@@ -110,9 +96,9 @@ void compare_view(std::size_t v, const std::array<SurfaceGrid, 2>& grids, const 
     }
   }
   const std::span<ReliefSample> all = workspace.samples[v];
-  average({workspace.costs[0].data(), width, samples.height}, params.window_radius, workspace.sums,
+  average(workspace.costs[0], width, samples.height, params.window_radius, workspace,
           [&](std::size_t at, std::uint8_t cost) { all[at].food_cost = cost; });
-  average({workspace.costs[1].data(), width, samples.height}, params.window_radius, workspace.sums,
+  average(workspace.costs[1], width, samples.height, params.window_radius, workspace,
           [&](std::size_t at, std::uint8_t cost) { all[at].glaze_cost = cost; });
 }
 

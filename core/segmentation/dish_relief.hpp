@@ -41,6 +41,7 @@ struct DishReliefWorkspace {
   std::array<std::span<std::uint32_t>, 2> codes;
   std::array<std::span<std::uint8_t>, 2> costs;  // on the surface found and on the dish's own
   std::span<std::uint16_t> sums;
+  std::span<std::int32_t> column_sums;
   std::span<float> nodes;
 
   // What a DishRelief refers to.
@@ -59,6 +60,7 @@ struct DishReliefWorkspace {
     for (auto& view : codes) view = arena.template take<std::uint32_t>(count);
     for (auto& cost : costs) cost = arena.template take<std::uint8_t>(count);
     sums = arena.template take<std::uint16_t>(count);
+    column_sums = arena.template take<std::int32_t>(static_cast<std::size_t>(params.surface.max_columns));
     nodes = arena.template take<float>(static_cast<std::size_t>(params.surface.max_columns) + 2);
   }
 };

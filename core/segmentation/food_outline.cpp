@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/segmentation/neighbours.hpp"
+#include "core/segmentation/square_sums.hpp"
 
 namespace traygauge {
 namespace {
@@ -66,39 +67,16 @@ void drop_small(ImageView<std::uint8_t> cells, std::uint8_t from, std::uint8_t t
 }
 
 // Calls decide(cell, food) for every cell within the dish, with the number of cells of food in the square
-// about it; cells beyond the border are like the nearest. Running sums along the rows, of which those of
-// 2 radius + 1 rows are summed by column.
+// about it.
 template <class Decide>
 void for_each_square(ImageView<std::uint8_t> cells, int radius, FoodOutlineWorkspace& workspace,
                      Decide&& decide) {
-  const int width = cells.width;
-  const int height = cells.height;
-  const ImageView<std::uint8_t> sums{workspace.sums.data(), width, height};
-  for (int y = 0; y < height; ++y) {
-    const std::uint8_t* row = cells.row(y);
-    const auto is_food = [&](int x) { return row[std::clamp(x, 0, width - 1)] == kFoodSeed ? 1 : 0; };
-    int sum = 0;
-    for (int x = -radius; x <= radius; ++x) sum += is_food(x);
-    for (int x = 0; x < width; ++x) {
-      sums.at(x, y) = static_cast<std::uint8_t>(sum);
-      sum += is_food(x + radius + 1) - is_food(x - radius);
-    }
-  }
-  const std::span<std::int32_t> columns = workspace.column_sums.first(static_cast<std::size_t>(width));
-  std::fill(columns.begin(), columns.end(), 0);
-  const auto add_row = [&](int y, int sign) {
-    const std::uint8_t* row = sums.row(std::clamp(y, 0, height - 1));
-    for (int x = 0; x < width; ++x) columns[static_cast<std::size_t>(x)] += sign * row[x];
-  };
-  for (int y = -radius; y <= radius; ++y) add_row(y, 1);
-  for (int y = 0; y < height; ++y) {
-    std::uint8_t* row = cells.row(y);
-    for (int x = 0; x < width; ++x) {
-      if (row[x] != kBarred) decide(row[x], columns[static_cast<std::size_t>(x)]);
-    }
-    add_row(y + radius + 1, 1);
-    add_row(y - radius, -1);
-  }
+  for_each_square_sum(
+      cells.width, cells.height, radius, workspace.sums, workspace.column_sums,
+      [&](int x, int y) { return cells.at(x, y) == kFoodSeed ? 1 : 0; },
+      [&](int x, int y, int food) {
+        if (cells.at(x, y) != kBarred) decide(cells.at(x, y), food);
+      });
 }
 
 // Food where at least `least_share` of the square about a cell is.

@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <numbers>
 
-#include "firmware/card/card_finder.hpp"
-
 namespace traygauge {
 namespace {
 
@@ -45,8 +43,9 @@ bool calibrate_arm(const std::vector<SeenMove>& moves, const ArmCalibrationParam
   double commanded_spread_deg = 0.0;
   for (const SeenMove& move : moves) {
     commanded_spread_deg = std::max(commanded_spread_deg, std::abs(move.commanded_deg - commanded_deg));
-    calibration.angle_spread_deg = std::max(
-        calibration.angle_spread_deg, turn_deg(mean.rotation.transpose() * move.second_from_first.rotation));
+    calibration.angle_spread_deg =
+        std::max(calibration.angle_spread_deg,
+                 rotation_angle_deg(mean.rotation.transpose() * move.second_from_first.rotation));
     calibration.shift_spread_mm =
         std::max(calibration.shift_spread_mm, (move.second_from_first.translation - mean.translation).norm());
   }

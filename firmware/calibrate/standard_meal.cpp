@@ -76,7 +76,7 @@ bool look(const LensModel& actual, const LensModel& assumed, const Pose& camera,
           Vec2& ray) {
   const Vec3 seen = camera * point_mm;
   if (!(seen.z() > 0.0)) return false;
-  const Vec2 pixel = actual.pinhole.pixel(actual.distort(seen.hnormalized()));
+  const Vec2 pixel = actual.pixel(seen.hnormalized());
   return assumed.undistort_pixel(pixel, ray);
 }
 

@@ -1,17 +1,8 @@
 #include "firmware/card/card_finder.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <numbers>
-
 #include "core/image/resample.hpp"
 
 namespace traygauge {
-namespace {
-
-constexpr double kDegrees = 180.0 / std::numbers::pi;
-
-}  // namespace
 
 template <class Allocator>
 void CardFinder::Memory::allocate(Allocator& arena, int width, int height, const CardLocationParams& params) {
@@ -34,7 +25,7 @@ CardFinder::CardFinder(int max_frame_width, int max_frame_height)
 }
 
 Status CardFinder::learn(const ReferenceCard& card) {
-  return learn_card(card.pattern, {card.width_mm, card.height_mm, card.thickness_mm}, params_, memory_.card);
+  return learn_card(card.pattern, card.size(), params_, memory_.card);
 }
 
 Status CardFinder::find(const FrameView& frame, const LensModel& lens, CardAlignment& card) {
@@ -46,16 +37,6 @@ Status CardFinder::find(const FrameView& frame, const LensModel& lens, CardAlign
   const ImageView<std::uint8_t> labels{memory_.labels.data, frame.width, frame.height};
   convert_to_gray(frame, gray);
   return locate_card(gray, labels, lens, params_, memory_.card, card);
-}
-
-double angle_of_sight_deg(const Pose& first, const Pose& second, const Vec3& point_mm) {
-  const Vec3 to_first = (camera_centre_mm(first) - point_mm).normalized();
-  const Vec3 to_second = (camera_centre_mm(second) - point_mm).normalized();
-  return kDegrees * std::acos(std::clamp(to_first.dot(to_second), -1.0, 1.0));
-}
-
-double turn_deg(const Mat3& rotation) {
-  return kDegrees * std::abs(Eigen::AngleAxisd(rotation).angle());
 }
 
 }  // namespace traygauge

@@ -40,10 +40,4 @@ class CardFinder {
   AlignedBlock block_;
 };
 
-// Between the lines of sight from a point to two cameras, given by their camera_from_table.
-double angle_of_sight_deg(const Pose& first, const Pose& second, const Vec3& point_mm);
-
-// By how much a rotation turns, whichever way.
-double turn_deg(const Mat3& rotation);
-
 }  // namespace traygauge

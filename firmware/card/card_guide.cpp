@@ -26,7 +26,7 @@ void CardGuide::begin(const ReferenceCard& card, const LensModel& lens, const Fr
 std::optional<double> CardGuide::turned_deg(const FrameView& live) {
   CardAlignment found;
   if (!first_ || !finder_->find(live, lens_, found).ok()) return std::nullopt;
-  return angle_of_sight_deg(*first_, found.camera_from_table, aim_mm_);
+  return angle_between_views_deg({*first_, found.camera_from_table}, aim_mm_);
 }
 
 }  // namespace traygauge

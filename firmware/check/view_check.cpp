@@ -40,7 +40,7 @@ CheckResult check_card(const FrameView& picture, const LensModel& lens, const Re
 CheckResult check_move(const Pose& second_from_first, double commanded_deg,
                        const std::optional<ArmGeometry>& geometry, const MoveCheckParams& params) {
   CheckResult result{"arm and card", true, ""};
-  const double seen_deg = turn_deg(second_from_first.rotation);
+  const double seen_deg = rotation_angle_deg(second_from_first.rotation);
   result.text = "the camera turned by " + fixed(seen_deg, 2) + " degrees where " +
                 fixed(std::abs(commanded_deg), 2) + " were commanded";
   if (!geometry) {
@@ -54,7 +54,8 @@ CheckResult check_move(const Pose& second_from_first, double commanded_deg,
   }
   const Vec3 turn(geometry->turn_deg[0], geometry->turn_deg[1], geometry->turn_deg[2]);
   const Vec3 shift(geometry->shift_mm[0], geometry->shift_mm[1], geometry->shift_mm[2]);
-  const double off_deg = turn_deg(rotation_about(kRadians * turn).transpose() * second_from_first.rotation);
+  const double off_deg =
+      rotation_angle_deg(rotation_about(kRadians * turn).transpose() * second_from_first.rotation);
   const double off_mm = (shift - second_from_first.translation).norm();
   result.text += "; " + fixed(off_deg, 2) + " degrees and " + fixed(off_mm, 1) +
                  " mm from where it was when the arm was calibrated";

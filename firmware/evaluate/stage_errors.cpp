@@ -13,10 +13,6 @@ double angle_deg(const Vec3& a, const Vec3& b) {
   return kDegrees * std::atan2(a.cross(b).norm(), a.dot(b));
 }
 
-double rotation_angle_deg(const Mat3& rotation) {
-  return kDegrees * std::acos(std::clamp(0.5 * (rotation.trace() - 1.0), -1.0, 1.0));
-}
-
 // Height error of `plane` (camera coordinates) against the world's plane z = height, over the world's origin,
 // along the world's vertical.
 double offset_mm(const Plane& plane, const Pose& camera_from_world, double height_mm) {

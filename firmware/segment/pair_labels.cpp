@@ -40,8 +40,7 @@ void LabelDrawer::configure(const Configuration& configuration, const Estimator&
     Arena arena(pattern_block_->bytes());
     pattern_.allocate(arena, configuration.best.card.pattern);
     const ReferenceCard& card = configuration.card;
-    const CardModelSize size{card.width_mm, card.height_mm, card.thickness_mm};
-    if (prepare_card_pattern(card.pattern, size, configuration.best.card.pattern, pattern_).ok())
+    if (prepare_card_pattern(card.pattern, card.size(), configuration.best.card.pattern, pattern_).ok())
       pattern = &pattern_;
   }
   if (pattern != nullptr) segmenter_.emplace(block_.bytes(), configuration, *pattern);

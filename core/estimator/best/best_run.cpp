@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "core/estimator/best/dish_views.hpp"
 #include "core/estimator/view_input.hpp"
@@ -35,8 +34,7 @@ void report_pose(const SceneGeometry& geometry, bool reversed, Measurement& meas
   const Pose motion = second_from_first(geometry.joint.camera_from_table);
   measurement.has_pose = true;
   measurement.second_from_first = reversed ? motion.inverse() : motion;
-  measurement.rotation_angle_deg =
-      std::abs(Eigen::AngleAxisd(motion.rotation).angle()) * 180.0 / std::numbers::pi;
+  measurement.rotation_angle_deg = rotation_angle_deg(motion.rotation);
   measurement.relative_angle_deg =
       angle_between_views_deg(geometry.joint.camera_from_table, dish_on_table(geometry));
   const Pose& reference = geometry.joint.camera_from_table[0];

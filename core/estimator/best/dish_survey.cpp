@@ -79,8 +79,8 @@ DishSurveyor::DishSurveyor(std::span<std::byte> block, const Configuration& conf
     return;
   }
   const ReferenceCard& card = configuration_.card;
-  status_ = prepare_card_pattern(card.pattern, {card.width_mm, card.height_mm, card.thickness_mm},
-                                 configuration_.best.card.pattern, memory_.pattern);
+  status_ =
+      prepare_card_pattern(card.pattern, card.size(), configuration_.best.card.pattern, memory_.pattern);
 }
 
 Status DishSurveyor::add_view(const ViewInput& input) {

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "core/scale/card.hpp"
 #include "core/surface/dish_outline.hpp"
@@ -116,12 +115,6 @@ Status refine_geometry(const ViewPair& views, const ReferenceCard& card, const J
   }
   return refine_jointly(join(views, card, geometry.tracks, std::span(dishes).first(geometry.dish_count)),
                         params, workspace.joint, geometry.joint);
-}
-
-double angle_between_views_deg(const TableCameras& camera_from_table, const Vec3& point_mm) {
-  const Vec3 first = (camera_centre_mm(camera_from_table[0]) - point_mm).normalized();
-  const Vec3 second = (camera_centre_mm(camera_from_table[1]) - point_mm).normalized();
-  return std::acos(std::clamp(first.dot(second), -1.0, 1.0)) * 180.0 / std::numbers::pi;
 }
 
 }  // namespace traygauge

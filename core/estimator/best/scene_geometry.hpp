@@ -66,7 +66,4 @@ Status find_geometry(const ViewPair& views, const Configuration& configuration, 
 Status refine_geometry(const ViewPair& views, const ReferenceCard& card, const JointParams& params,
                        SceneGeometryWorkspace& workspace, SceneGeometry& geometry);
 
-// Between the lines of sight to a point of the table frame.
-double angle_between_views_deg(const TableCameras& camera_from_table, const Vec3& point_mm);
-
 }  // namespace traygauge

@@ -28,7 +28,7 @@ Pose kept_in_view(const Chessboard& board, const LensModel& lens, Pose pose) {
     Vec2 high = -low;
     for (const double x : {-1.0, static_cast<double>(board.columns)}) {
       for (const double y : {-1.0, static_cast<double>(board.rows)}) {
-        const Vec2 pixel = lens.pinhole.pixel(lens.distort((pose * Vec3(x, y, 0.0)).hnormalized()));
+        const Vec2 pixel = lens.pixel((pose * Vec3(x, y, 0.0)).hnormalized());
         low = low.cwiseMin(pixel);
         high = high.cwiseMax(pixel);
       }
@@ -77,7 +77,7 @@ BoardSighting project_board(const Chessboard& board, const LensModel& lens, cons
     const Vec2 place = board.corner_place(i);
     const Vec2 ray = (camera_from_board * Vec3(place.x(), place.y(), 0.0)).hnormalized();
     const Vec2 noise(normal(random), normal(random));
-    sighting.corners_px.emplace_back(lens.pinhole.pixel(lens.distort(ray)) + noise_px * noise);
+    sighting.corners_px.emplace_back(lens.pixel(ray) + noise_px * noise);
   }
   return sighting;
 }

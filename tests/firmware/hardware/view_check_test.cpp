@@ -61,8 +61,8 @@ TEST_P(CardInDemo, GuidesAHand) {
   const Vec3 centre = camera_centre_mm(truth_[0]);
   const Vec3 axis = truth_[0].rotation.row(2);
   const Vec3 aim = centre - axis * (centre.z() / axis.z());
-  EXPECT_NEAR(guide.turned_deg(pictures_[1].frame()).value(), angle_of_sight_deg(truth_[0], truth_[1], aim),
-              0.2);
+  EXPECT_NEAR(guide.turned_deg(pictures_[1].frame()).value(),
+              angle_between_views_deg({truth_[0], truth_[1]}, aim), 0.2);
   EXPECT_FALSE(guide.turned_deg(Picture(capture_.views[0].camera.size, PixelFormat::rgb8).frame()));
   EXPECT_FALSE(guide.turned_deg(Picture({64, 64}, PixelFormat::rgb8).frame()));
   guide.begin(card_, lens(0), Picture(capture_.views[0].camera.size, PixelFormat::rgb8).frame());
