@@ -5,8 +5,8 @@
 namespace traygauge {
 namespace {
 
-constexpr double kMinNormal =
-    1e-9;  // of an epipolar line, mm; a point that near the epipole has no direction
+// Of an epipolar line; a point that near the epipole has no direction.
+constexpr double kMinNormalMm = 1e-9;
 
 struct EpipolarLine {
   Vec3 line = Vec3::Zero();  // in the second view
@@ -16,7 +16,7 @@ struct EpipolarLine {
 bool find_line(const Mat3& essential, const PointTrack& track, EpipolarLine& epipolar) {
   epipolar.line = essential * track.first.homogeneous();
   epipolar.normal = epipolar.line.head<2>().norm();
-  return epipolar.normal > kMinNormal;
+  return epipolar.normal > kMinNormalMm;
 }
 
 }  // namespace

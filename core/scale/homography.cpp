@@ -61,7 +61,7 @@ bool basis_of(const std::array<Vec2, 4>& points, Mat3& basis) {
   return true;
 }
 
-struct NormalEquations {
+struct LinearEquations {
   Mat8 matrix = Mat8::Zero();
   Vec8 right = Vec8::Zero();
 
@@ -80,7 +80,7 @@ Vec8 coefficients(const Vec2& ray, double w, double coordinate, int row) {
   return a;
 }
 
-bool solve(const NormalEquations& equations, Vec8& solution) {
+bool solve(const LinearEquations& equations, Vec8& solution) {
   const Eigen::LDLT<Mat8> factors(equations.matrix);
   const double largest = factors.vectorD().maxCoeff();
   if (!(factors.vectorD().minCoeff() > kMinPivot * largest)) return false;
@@ -118,7 +118,7 @@ bool fit_homography(std::span<const CardTrack> tracks, std::span<const std::uint
   }
   Vec8 h = Vec8::Zero();
   for (int step = 0; step <= kGaussNewtonSteps; ++step) {
-    NormalEquations equations;
+    LinearEquations equations;
     for (std::size_t i = 0; i < tracks.size(); ++i) {
       if (inliers[i] == 0) continue;
       const Vec2 ray = of_rays * (tracks[i].*view);

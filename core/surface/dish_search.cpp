@@ -10,7 +10,7 @@
 namespace traygauge {
 namespace {
 
-constexpr double kHold = 1e4;  // 1 / mm², of what is described
+constexpr double kDescribedInformation = 1e4;  // 1 / mm², of what is described
 
 class DishSearch {
  public:
@@ -64,7 +64,7 @@ class DishSearch {
   Status confirm(const RimPeak& peak, FoundDish& found) {
     DishPlace place = peak.place;
     PlacePrior prior = prior_of(*peak.dish, place.azimuth_rad, params_.placement);
-    prior.information.tail<kPlaceParameters - kPlaceHeight>().setConstant(kHold);
+    prior.information.tail<kPlaceParameters - kPlaceHeight>().setConstant(kDescribedInformation);
     LevenbergMarquardtParams search;
     search.max_iterations = params_.iterations;
     double unused = 0.0;

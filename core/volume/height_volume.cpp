@@ -4,12 +4,12 @@
 #include <array>
 #include <cmath>
 
+#include "core/base/units.hpp"
 #include "core/segmentation/label_regions.hpp"
 
 namespace traygauge {
 namespace {
 
-constexpr double kMm3PerMl = 1000.0;
 constexpr double kBinMm = 0.5;
 
 bool is_border(const HeightMap& map, int x, int y) {

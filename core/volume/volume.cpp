@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/units.hpp"
+
 namespace traygauge {
 namespace {
-
-constexpr double kMm3PerMl = 1000.0;
 
 // Area of the triangle's shadow on the plane; negative where the surface is folded over. Corners run
 // clockwise in the picture, so their cross product points away from the camera.

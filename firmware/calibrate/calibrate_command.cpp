@@ -1,5 +1,7 @@
 #include "firmware/calibrate/calibrate_command.hpp"
 
+#include <CLI/CLI.hpp>
+
 #include "firmware/base/exit_status.hpp"
 
 namespace traygauge {

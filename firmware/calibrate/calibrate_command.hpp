@@ -1,10 +1,13 @@
 // `traygauge calibrate`: the lens from pictures of a chessboard, the arm from captures of the card.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <iosfwd>
 #include <string>
 #include <vector>
+
+namespace CLI {
+class App;
+}
 
 namespace traygauge {
 

@@ -1,3 +1,4 @@
+#include <CLI/CLI.hpp>
 #include <iostream>
 
 #include "firmware/calibrate/calibrate_command.hpp"

@@ -21,7 +21,7 @@ enum class Known : std::uint8_t {
   place,    // card
 };
 
-struct SeenPoint {
+struct MealPoint {
   Vec3 point_mm = Vec3::Zero();
   Known known = Known::nothing;
   double share_mm2 = 0.0;  // of the table that the point stands for; of food
@@ -41,15 +41,15 @@ Pose camera_above(double distance_mm, double tilt_rad) {
   return camera;
 }
 
-std::vector<SeenPoint> lay_meal(const StandardMealParams& params) {
-  std::vector<SeenPoint> points;
+std::vector<MealPoint> lay_meal(const StandardMealParams& params) {
+  std::vector<MealPoint> points;
   const CardModelSize card;
   const int reach = static_cast<int>(params.table_radius_mm / params.grid_mm);
   for (int row = -reach; row <= reach; ++row) {
     for (int column = -reach; column <= reach; ++column) {
       const Vec2 place(params.grid_mm * column, params.grid_mm * row);
       const double from_middle = place.norm() / params.radius_mm;
-      SeenPoint point;
+      MealPoint point;
       point.point_mm << place, 0.0;
       point.known = Known::height;
       if (from_middle < 1.0) {
@@ -62,7 +62,7 @@ std::vector<SeenPoint> lay_meal(const StandardMealParams& params) {
   }
   for (int row = -1; row <= 1; ++row) {
     for (int column = -2; column <= 2; ++column) {
-      SeenPoint point;
+      MealPoint point;
       point.known = Known::place;
       point.point_mm = {params.card_from_middle_mm + 0.5 * card.height_mm * row,
                         0.25 * card.width_mm * column, card.thickness_mm};
@@ -84,7 +84,7 @@ bool look(const LensModel& actual, const LensModel& assumed, const Pose& camera,
 // card. Derivatives by differences: there are a few hundred points, and this is done a few times.
 class CameraProblem {
  public:
-  CameraProblem(std::span<const SeenPoint> points, double focal_px) : points_(points), focal_px_(focal_px) {}
+  CameraProblem(std::span<const MealPoint> points, double focal_px) : points_(points), focal_px_(focal_px) {}
 
   double cost(const TableCameras& cameras) const {
     double sum = 0.0;
@@ -117,7 +117,7 @@ class CameraProblem {
     const Pose motion = second_from_first(cameras);
     const Mat3 essential = skew(motion.translation) * motion.rotation;
     std::vector<double> off_px;
-    for (const SeenPoint& point : points_) {
+    for (const MealPoint& point : points_) {
       if (point.known == Known::place) {
         for (std::size_t v = 0; v < 2; ++v) {
           const Vec2 off =
@@ -139,7 +139,7 @@ class CameraProblem {
     return off_px;
   }
 
-  std::span<const SeenPoint> points_;
+  std::span<const MealPoint> points_;
   double focal_px_;
 };
 
@@ -151,9 +151,9 @@ std::optional<double> volume_deviation(const LensModel& actual, const LensModel&
   TableCameras cameras = {
       camera_above(distance_mm, kRadians * params.first_tilt_deg),
       camera_above(distance_mm, kRadians * (params.first_tilt_deg + params.second_view_deg))};
-  std::vector<SeenPoint> points = lay_meal(params);
+  std::vector<MealPoint> points = lay_meal(params);
   double true_mm3 = 0.0;
-  for (SeenPoint& point : points) {
+  for (MealPoint& point : points) {
     if (!look(actual, assumed, cameras[0], point.point_mm, point.rays.first) ||
         !look(actual, assumed, cameras[1], point.point_mm, point.rays.second)) {
       return std::nullopt;
@@ -166,7 +166,7 @@ std::optional<double> volume_deviation(const LensModel& actual, const LensModel&
   double column_mm3 = 0.0;
   double spread_mm2 = 0.0;
   double true_spread_mm2 = 0.0;
-  for (const SeenPoint& point : points) {
+  for (const MealPoint& point : points) {
     if (point.known != Known::nothing) continue;
     Vec3 found;
     if (!triangulate(point.rays, second_from_first(cameras), found)) return std::nullopt;

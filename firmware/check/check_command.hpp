@@ -1,9 +1,12 @@
 // `traygauge check`: every device of a station, tried.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <iosfwd>
 #include <string>
+
+namespace CLI {
+class App;
+}
 
 namespace traygauge {
 

@@ -1,5 +1,6 @@
 #include "firmware/command/program.hpp"
 
+#include <CLI/CLI.hpp>
 #include <exception>
 #include <ostream>
 #include <string>

@@ -1,9 +1,12 @@
 // What our programs share: reading the command line, and errors told once on one line.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <functional>
 #include <iosfwd>
+
+namespace CLI {
+class App;
+}
 
 namespace traygauge {
 

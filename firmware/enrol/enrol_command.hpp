@@ -1,9 +1,12 @@
 // `traygauge enrol-dish`.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <iosfwd>
 #include <string>
+
+namespace CLI {
+class App;
+}
 
 namespace traygauge {
 

@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "firmware/base/json_number.hpp"
+#include "firmware/base/percent.hpp"
 #include "firmware/base/text.hpp"
 #include "simulator/capture/input_error.hpp"
 
@@ -12,7 +13,6 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr int kVersion = 1;
-constexpr double kPercent = 100.0;
 constexpr std::size_t kTitleWidth = 9;
 constexpr std::size_t kNumberWidth = 10;
 
@@ -49,7 +49,7 @@ std::string profile_rows(const DishDescription& dish) {
   return text + "\n";
 }
 
-Json dish_of(const DishDescription& dish) {
+Json to_json(const DishDescription& dish) {
   Json profile = Json::array();
   for (const ProfilePoint& point : dish.profile) profile.push_back({point.inset_mm, point.height_mm});
   return {{"style", dish.style},
@@ -88,7 +88,7 @@ std::string compose_enrol_document(const EnrolReport& report) {
   document["status"] = name(survey.status.code());
   document["message"] = compose_enrol_message(report);
   document["file"] = measured ? Json(report.file) : Json(nullptr);
-  document["dish"] = measured ? dish_of(report.dish) : Json(nullptr);
+  document["dish"] = measured ? to_json(report.dish) : Json(nullptr);
   document["edge"] = edge ? Json{{"outer_size_mm", survey.fitted.dish.outer_size_mm},
                                  {"height_mm", survey.place.edge_height_mm}}
                           : Json(nullptr);

@@ -4,12 +4,12 @@
 #include <cmath>
 #include <map>
 
+#include "firmware/base/percent.hpp"
 #include "firmware/evaluate/statistics.hpp"
 
 namespace traygauge {
 namespace {
 
-constexpr double kPercent = 100.0;
 constexpr double kTwoSided95 = 1.96;  // of the normal distribution
 
 std::vector<double> volumes_of(const ItemSeries& series) {

@@ -2,14 +2,12 @@
 // percentages; what is not defined (no estimate, or a spread of one) is NaN.
 #pragma once
 
-#include <limits>
 #include <vector>
 
 #include "firmware/evaluate/item_series.hpp"
+#include "firmware/evaluate/statistics.hpp"
 
 namespace traygauge {
-
-inline constexpr double kUndefined = std::numeric_limits<double>::quiet_NaN();
 
 // Of one item, over its pairs and seeds.
 struct ItemFigures {

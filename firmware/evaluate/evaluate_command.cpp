@@ -1,6 +1,7 @@
 #include "firmware/evaluate/evaluate_command.hpp"
 
 #include <unistd.h>
+#include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <filesystem>

@@ -1,10 +1,13 @@
 // `traygauge evaluate`.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <iosfwd>
 #include <string>
 #include <vector>
+
+namespace CLI {
+class App;
+}
 
 namespace traygauge {
 

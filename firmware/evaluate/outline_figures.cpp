@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "firmware/base/percent.hpp"
 #include "firmware/base/text.hpp"
 #include "firmware/evaluate/csv_fields.hpp"
 #include "firmware/evaluate/protocol.hpp"
@@ -10,8 +11,6 @@
 
 namespace traygauge {
 namespace {
-
-constexpr double kPercent = 100.0;
 
 struct Collected {
   std::vector<double> food_iou;

@@ -1,9 +1,12 @@
 // Statistics of plain numbers. What is not defined (a median of nothing, say) is NaN.
 #pragma once
 
+#include <limits>
 #include <vector>
 
 namespace traygauge {
+
+inline constexpr double kUndefined = std::numeric_limits<double>::quiet_NaN();
 
 double mean(const std::vector<double>& values);
 

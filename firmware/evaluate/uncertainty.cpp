@@ -4,12 +4,12 @@
 #include <cmath>
 #include <numeric>
 
+#include "firmware/base/percent.hpp"
 #include "firmware/evaluate/statistics.hpp"
 
 namespace traygauge {
 namespace {
 
-constexpr double kPercent = 100.0;
 constexpr double kSigmas = 2.0;
 
 // A column a quantity, a row an estimate that states a sigma.

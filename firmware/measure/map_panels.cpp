@@ -14,7 +14,7 @@ namespace traygauge {
 namespace {
 
 constexpr double kOutlierShare = 0.005;  // at each end of the colour scale
-constexpr int kMarginPx = 8;
+constexpr int kPanelMarginPx = 8;
 constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();
 
 cv::Mat draw_unreached(const char* what, const MeasureReport& report, cv::Size size) {
@@ -52,8 +52,8 @@ cv::Mat heights_mm(const MeasurementViews& views) {
 // The known part, with a margin.
 cv::Rect known_part(const cv::Mat& values) {
   cv::Rect box = cv::boundingRect(known_pixels(values));
-  box -= cv::Point(kMarginPx, kMarginPx);
-  box += cv::Size(2 * kMarginPx, 2 * kMarginPx);
+  box -= cv::Point(kPanelMarginPx, kPanelMarginPx);
+  box += cv::Size(2 * kPanelMarginPx, 2 * kPanelMarginPx);
   return box & cv::Rect({0, 0}, values.size());
 }
 

@@ -1,5 +1,6 @@
 #include "firmware/measure/measure_command.hpp"
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <charconv>
 #include <filesystem>

@@ -1,7 +1,6 @@
 // `traygauge measure`.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <array>
 #include <cstdint>
 #include <iosfwd>
@@ -10,6 +9,10 @@
 
 #include "firmware/measure/capture_session.hpp"
 #include "simulator/capture/capture.hpp"
+
+namespace CLI {
+class App;
+}
 
 namespace traygauge {
 

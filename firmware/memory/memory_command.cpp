@@ -1,5 +1,6 @@
 #include "firmware/memory/memory_command.hpp"
 
+#include <CLI/CLI.hpp>
 #include <cstddef>
 #include <ostream>
 #include <span>

@@ -1,5 +1,6 @@
 #include "firmware/record/record_command.hpp"
 
+#include <CLI/CLI.hpp>
 #include <ostream>
 
 #include "firmware/base/exit_status.hpp"

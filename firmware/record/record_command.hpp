@@ -1,11 +1,14 @@
 // `traygauge record`: captures from a station's devices.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <atomic>
 #include <cstdint>
 #include <iosfwd>
 #include <string>
+
+namespace CLI {
+class App;
+}
 
 namespace traygauge {
 

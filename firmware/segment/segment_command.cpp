@@ -1,5 +1,6 @@
 #include "firmware/segment/segment_command.hpp"
 
+#include <CLI/CLI.hpp>
 #include <filesystem>
 #include <opencv2/core.hpp>
 #include <ostream>

@@ -1,5 +1,6 @@
 #include "firmware/station/station_command.hpp"
 
+#include <CLI/CLI.hpp>
 #include <ostream>
 #include <string_view>
 

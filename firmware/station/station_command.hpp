@@ -1,7 +1,6 @@
 // `traygauge station`: the loop from the button to the result.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <atomic>
 #include <cstdint>
 #include <filesystem>
@@ -14,6 +13,10 @@
 #include "firmware/station/played_scene.hpp"
 #include "firmware/station/recorded_captures.hpp"
 #include "firmware/station/station.hpp"
+
+namespace CLI {
+class App;
+}
 
 namespace traygauge {
 

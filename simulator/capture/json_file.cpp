@@ -14,25 +14,24 @@ namespace {
 
 constexpr std::size_t kMaxBytes = std::size_t{1} << 20U;
 constexpr int kMaxDepth = 32;
-constexpr const char* kExpected = "a JSON document";
+constexpr const char* kJson = "a JSON document";
 
 }  // namespace
 
 nlohmann::json read_json(const std::filesystem::path& file) {
   const InputFile input{file, ""};
-  const std::vector<std::uint8_t> bytes = read_bytes(input, kMaxBytes, kExpected);
+  const std::vector<std::uint8_t> bytes = read_bytes(input, kMaxBytes, kJson);
   const auto limit_depth = [&](int depth, nlohmann::json::parse_event_t, nlohmann::json&) {
-    if (depth > kMaxDepth)
-      throw InputError(input, kExpected, "more than 32 levels of nesting", "store it flat");
+    if (depth > kMaxDepth) throw InputError(input, kJson, "more than 32 levels of nesting", "store it flat");
     return true;
   };
   try {
     return nlohmann::json::parse(bytes.begin(), bytes.end(), limit_depth);
   } catch (const nlohmann::json::parse_error& error) {
-    throw InputError(input, kExpected, "an error at byte " + std::to_string(error.byte),
+    throw InputError(input, kJson, "an error at byte " + std::to_string(error.byte),
                      bytes.empty() ? "the file is empty" : "check commas, quotes and brackets there");
   } catch (const nlohmann::json::out_of_range&) {
-    throw InputError(input, kExpected, "a number that is too large", "numbers must be finite");
+    throw InputError(input, kJson, "a number that is too large", "numbers must be finite");
   }
 }
 

@@ -10,7 +10,7 @@
 namespace traygauge {
 namespace {
 
-constexpr const char* kExpected = "a JPEG or PNG picture";
+constexpr const char* kPictures = "a JPEG or PNG picture";
 
 bool starts_with(std::span<const std::uint8_t> bytes, std::span<const std::uint8_t> start) {
   if (bytes.size() < start.size()) return false;
@@ -25,10 +25,10 @@ bool starts_with(std::span<const std::uint8_t> bytes, std::span<const std::uint8
 Picture read_picture(const InputFile& file, std::optional<PictureSize> required) {
   constexpr std::array<std::uint8_t, 3> jpeg = {0xFF, 0xD8, 0xFF};
   constexpr std::array<std::uint8_t, 8> png = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1A, '\n'};
-  const std::vector<std::uint8_t> bytes = read_bytes(file, kMaxPictureFileBytes, kExpected);
+  const std::vector<std::uint8_t> bytes = read_bytes(file, kMaxPictureFileBytes, kPictures);
   if (starts_with(bytes, jpeg)) return decode_jpeg(file, bytes, required);
   if (starts_with(bytes, png)) return decode_png(file, bytes, required);
-  throw InputError(file, kExpected, bytes.empty() ? "an empty file" : "bytes of another kind",
+  throw InputError(file, kPictures, bytes.empty() ? "an empty file" : "bytes of another kind",
                    "store the picture as .jpg or .png");
 }
 

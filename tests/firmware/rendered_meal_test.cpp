@@ -30,18 +30,16 @@ void expect_volumes(const PairRuns& pair, double most) {
 
 TEST(RenderedMeal, IsMeasuredAndItsTruthFitsItsPictures) {
   const TemporaryFolder folder;
-  for (const char* meal : {"m01", "m02"}) {
-    const std::string out_folder = folder.path().string();
-    const char* const arguments[] = {
-        "traygauge-simulate", "render", "meals-45", "--reduced", "--only", meal, "--out", out_folder.c_str()};
-    std::ostringstream out;
-    std::ostringstream error;
-    ASSERT_EQ(run_simulate(8, arguments, out, error), 0) << error.str();
-  }
+  const std::string out_folder = folder.path().string();
+  const char* const arguments[] = {
+      "traygauge-simulate", "render", "meals-45", "--reduced", "--only", "m02", "--out", out_folder.c_str()};
+  std::ostringstream out;
+  std::ostringstream error;
+  ASSERT_EQ(run_simulate(8, arguments, out, error), 0) << error.str();
   std::vector<std::string> skipped;
   const StageRuns runs = run_stages(folder.path(), {}, skipped, [](std::size_t, std::size_t) {});
   EXPECT_TRUE(skipped.empty());
-  ASSERT_EQ(runs.variants[kAsMeasured].size(), 6U);
+  ASSERT_EQ(runs.variants[kAsMeasured].size(), 3U);
   for (const PairRuns& pair : runs.variants[kAsMeasured]) expect_volumes(pair, kMostAsMeasured);
   for (const PairRuns& pair : runs.variants[kAllTrue]) expect_volumes(pair, kMostAllTrue);
 }

@@ -4,10 +4,10 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/base/units.hpp"
+
 namespace traygauge {
 namespace {
-
-constexpr double kMm3PerMl = 1000.0;
 
 // The point nearest to both cameras' rays, when the cameras are where `cameras` says and see it as `rays`.
 Vec3 triangulate(const TableCameras& cameras, const std::array<Vec3, 2>& rays) {

@@ -15,11 +15,6 @@
 namespace traygauge {
 namespace {
 
-constexpr int kWidth = 960;
-constexpr int kHeight = 720;
-constexpr double kCardLeft_mm = -182.0;  // as the scene lays it
-constexpr double kCardTop_mm = 27.0;
-
 using Pixels = std::vector<std::uint8_t>;
 using Motion = std::function<Vec3(const Vec3&)>;
 
@@ -28,8 +23,8 @@ class LateRefusal : public testing::Test {
   // Points of dish, solid and table that both cameras see.
   std::vector<GivenMatch> scene_points(unsigned seed = 1) const {
     std::mt19937 random(seed);
-    std::uniform_real_distribution<double> x(0.0, kWidth);
-    std::uniform_real_distribution<double> y(0.0, kHeight);
+    std::uniform_real_distribution<double> x(0.0, kTrayWidthPx);
+    std::uniform_real_distribution<double> y(0.0, kTrayHeightPx);
     std::vector<GivenMatch> matches;
     while (matches.size() < 2000) {
       Vec3 point;
@@ -79,7 +74,7 @@ class LateRefusal : public testing::Test {
     return code;
   }
   static ImageView<const std::uint8_t> view_of(const Pixels& pixels) {
-    return {pixels.data(), kWidth, kHeight};
+    return {pixels.data(), kTrayWidthPx, kTrayHeightPx};
   }
 
   const TrayScene& tray_ = default_tray();
@@ -155,7 +150,7 @@ TEST_F(LateRefusal, HalvesOfTheDishGiveTooLittleDepth) {
   for (std::size_t v = 0; v < 2; ++v) {
     const int middle = static_cast<int>(tray_.cameras[v].project(Vec3::Zero()).x());
     for (std::size_t i = 0; i < halves[v].size(); ++i) {
-      const int right_of_middle_px = static_cast<int>(i) % kWidth - middle;
+      const int right_of_middle_px = static_cast<int>(i) % kTrayWidthPx - middle;
       const bool is_kept = v == 0 ? right_of_middle_px < kOverlap_px : right_of_middle_px > -kOverlap_px;
       if (is_on_dish(halves[v][i]) && !is_kept) halves[v][i] = kBackgroundLabel;
     }
@@ -172,9 +167,9 @@ TEST_F(LateRefusal, AnItemBelowTheBottom) {
   configuration.dishes = raised;
   std::array<Pixels, 2> labels = {tray_.views[0].labels, tray_.views[1].labels};
   for (std::size_t v = 0; v < 2; ++v) {
-    for (int y = 0; y < kHeight; ++y) {
-      for (int x = 0; x < kWidth; ++x) {
-        std::uint8_t& label = labels[v][static_cast<std::size_t>(y * kWidth + x)];
+    for (int y = 0; y < kTrayHeightPx; ++y) {
+      for (int x = 0; x < kTrayWidthPx; ++x) {
+        std::uint8_t& label = labels[v][static_cast<std::size_t>(y * kTrayWidthPx + x)];
         Vec3 point;
         if (label != kDishLabel || !surface_point(tray_.solid, tray_.cameras[v], Vec2(x, y), point)) continue;
         if ((point.head<2>() - Vec2(0.0, 60.0)).norm() < 12.0) label = 3;

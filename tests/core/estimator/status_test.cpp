@@ -12,13 +12,10 @@
 namespace traygauge {
 namespace {
 
-constexpr int kWidth = 960;
-constexpr int kHeight = 720;
-
 using Pixels = std::vector<std::uint8_t>;
 
 ImageView<const std::uint8_t> view_of(const Pixels& pixels) {
-  return {pixels.data(), kWidth, kHeight};
+  return {pixels.data(), kTrayWidthPx, kTrayHeightPx};
 }
 
 ViewInput with_gray(ViewInput input, const Pixels& gray) {
@@ -67,8 +64,9 @@ TEST_F(StatusTest, FrameMissing) {
 }
 
 TEST_F(StatusTest, FrameSizeMismatch) {
-  for (const auto& [width, height] :
-       {std::pair{kWidth - 1, kHeight}, {kWidth, kHeight - 1}, {kHeight, kWidth}}) {
+  for (const auto& [width, height] : {std::pair{kTrayWidthPx - 1, kTrayHeightPx},
+                                      {kTrayWidthPx, kTrayHeightPx - 1},
+                                      {kTrayHeightPx, kTrayWidthPx}}) {
     ViewInput first = tray_.view(0);
     ViewInput second = tray_.view(1);
     first.frame.width = second.frame.width = width;
@@ -79,7 +77,7 @@ TEST_F(StatusTest, FrameSizeMismatch) {
 
 TEST_F(StatusTest, FrameBeyondTheReservedSize) {
   Configuration configuration = tray_.configuration();
-  configuration.limits.max_frame_width = kWidth - 1;
+  configuration.limits.max_frame_width = kTrayWidthPx - 1;
   EXPECT_EQ(status_with(configuration, tray_.view(0), tray_.view(1)), StatusCode::frame_size_mismatch);
 }
 
@@ -92,17 +90,18 @@ TEST_F(StatusTest, LensOfAViewIsChecked) {
 }
 
 TEST_F(StatusTest, LabelsSizeMismatch) {
-  const ImageView<const std::uint8_t> smaller = tray_.view(0).labels.sub(0, 0, kWidth, kHeight - 1);
+  const ImageView<const std::uint8_t> smaller =
+      tray_.view(0).labels.sub(0, 0, kTrayWidthPx, kTrayHeightPx - 1);
   expect_view_fault(StatusCode::labels_size_mismatch, tray_.view(0, smaller), tray_.view(1, smaller));
   expect_view_fault(StatusCode::labels_size_mismatch, tray_.view(0, {}), tray_.view(1, {}));
 }
 
 TEST_F(StatusTest, TooDarkTooBrightUniformBlurred) {
-  expect_gray_fault(StatusCode::frame_too_dark, Pixels(kWidth * kHeight, 2));
-  expect_gray_fault(StatusCode::frame_too_bright, Pixels(kWidth * kHeight, 255));
-  expect_gray_fault(StatusCode::too_few_features, Pixels(kWidth * kHeight, 128));
+  expect_gray_fault(StatusCode::frame_too_dark, Pixels(kTrayWidthPx * kTrayHeightPx, 2));
+  expect_gray_fault(StatusCode::frame_too_bright, Pixels(kTrayWidthPx * kTrayHeightPx, 255));
+  expect_gray_fault(StatusCode::too_few_features, Pixels(kTrayWidthPx * kTrayHeightPx, 128));
   Pixels blurred = tray_.views[0].gray;
-  cv::Mat picture(kHeight, kWidth, CV_8UC1, blurred.data());
+  cv::Mat picture(kTrayHeightPx, kTrayWidthPx, CV_8UC1, blurred.data());
   cv::GaussianBlur(picture, picture, {0, 0}, 40.0);
   cv::normalize(picture, picture, 60, 200, cv::NORM_MINMAX);
   cv::GaussianBlur(picture, picture, {0, 0}, 20.0);
@@ -232,7 +231,7 @@ TEST_F(StatusTest, HiddenAndTinyItems) {
   Pixels second = tray_.views[1].labels;
   const auto mark = [](Pixels& labels, int x, int y, int side, std::uint8_t label) {
     for (int i = 0; i < side * side; ++i) {
-      std::uint8_t& pixel = labels[static_cast<std::size_t>((y + i / side) * kWidth + x + i % side)];
+      std::uint8_t& pixel = labels[static_cast<std::size_t>((y + i / side) * kTrayWidthPx + x + i % side)];
       ASSERT_EQ(pixel, kDishLabel);
       pixel = label;
     }

@@ -9,19 +9,15 @@
 namespace traygauge {
 namespace {
 
-constexpr int kWidth = 960;
-constexpr int kHeight = 720;
 constexpr double kFocal_px = 1000.0;
 constexpr double kDishRadius_mm = 80.0;
 constexpr double kSolidHeight_mm = 25.0;
-constexpr double kCardLeft_mm = -182.0;  // of its top left corner, beside the dish
-constexpr double kCardTop_mm = 27.0;
 
 SyntheticCamera camera_at(double tilt_deg, double distance_mm) {
   const double tilt = tilt_deg * std::numbers::pi / 180.0;
   const Vec3 middle(-35.0, 0.0, 0.0);  // between dish and card
   return look_at(middle + distance_mm * Vec3(0.1, -std::sin(tilt), std::cos(tilt)), middle, 0.05, kFocal_px,
-                 kWidth, kHeight);
+                 kTrayWidthPx, kTrayHeightPx);
 }
 
 // The print at a point of the table, bilinear; false beside the card.
@@ -111,8 +107,8 @@ TrayScene::TrayScene(const TrayOptions& options) : pattern(options.pattern_seed)
 Configuration TrayScene::configuration() const {
   Configuration configuration;
   configuration.profile = Profile::paper;
-  configuration.lens.width = kWidth;
-  configuration.lens.height = kHeight;
+  configuration.lens.width = kTrayWidthPx;
+  configuration.lens.height = kTrayHeightPx;
   configuration.lens.pinhole = cameras[0].pinhole;
   configuration.card.thickness_mm = 0.0;
   configuration.card.pattern = pattern.view();

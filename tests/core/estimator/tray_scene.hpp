@@ -11,6 +11,12 @@
 
 namespace traygauge {
 
+inline constexpr int kTrayWidthPx = 960;
+inline constexpr int kTrayHeightPx = 720;
+// Of the card's top left corner, beside the dish.
+inline constexpr double kCardLeft_mm = -182.0;
+inline constexpr double kCardTop_mm = 27.0;
+
 struct TrayOptions {
   std::array<double, 2> tilt_deg = {6.0, 24.0};  // of the cameras from the vertical, towards −y
   double distance_mm = 450.0;

@@ -8,8 +8,8 @@
 namespace traygauge {
 namespace {
 
-constexpr int kWidth = 300;
-constexpr int kHeight = 200;
+constexpr int kColumns = 300;
+constexpr int kRows = 200;
 
 double to_light(double code) {
   const double v = code / 255.0;
@@ -21,7 +21,7 @@ double to_code(double light) {
 }
 
 cv::Mat3b random_picture(std::uint64_t seed) {
-  cv::Mat3b picture(kHeight, kWidth);
+  cv::Mat3b picture(kRows, kColumns);
   cv::RNG(seed).fill(picture, cv::RNG::UNIFORM, 20, 160);
   return picture;
 }
@@ -41,17 +41,17 @@ cv::Mat3b relit(const cv::Mat3b& picture, const cv::Vec3d& gains) {
 
 // Five stripes: background, dish, two items, card.
 cv::Mat1b stripes() {
-  cv::Mat1b labels(kHeight, kWidth);
+  cv::Mat1b labels(kRows, kColumns);
   constexpr std::uint8_t kLabels[] = {0, 1, 2, 3, 255};
-  for (int i = 0; i < 5; ++i) labels(cv::Rect(60 * i, 0, 60, kHeight)) = kLabels[i];
+  for (int i = 0; i < 5; ++i) labels(cv::Rect(60 * i, 0, 60, kRows)) = kLabels[i];
   return labels;
 }
 
 RegionColours measure(const cv::Mat3b& picture, PixelFormat format = PixelFormat::bgr8) {
   const cv::Mat1b labels = stripes();
-  const FrameView frame{picture.data, kWidth, kHeight, static_cast<std::ptrdiff_t>(picture.step[0]), format};
+  const FrameView frame{picture.data, kColumns, kRows, static_cast<std::ptrdiff_t>(picture.step[0]), format};
   RegionColours colours;
-  measure_region_colours(frame, {labels.data, kWidth, kHeight}, {}, colours);
+  measure_region_colours(frame, {labels.data, kColumns, kRows}, {}, colours);
   return colours;
 }
 
@@ -60,8 +60,8 @@ TEST(RegionColours, MeansAreThoseOfLinearLight) {
   const cv::Mat1b labels = stripes();
   cv::Vec3d sum;
   int count = 0;
-  for (int y = 0; y < kHeight; y += 2) {
-    for (int x = 0; x < kWidth; x += 2) {
+  for (int y = 0; y < kRows; y += 2) {
+    for (int x = 0; x < kColumns; x += 2) {
       if (labels(y, x) != 2) continue;
       for (int c = 0; c < 3; ++c) sum[c] += to_light(picture(y, x)[c]);
       ++count;
@@ -93,7 +93,7 @@ TEST(RegionColours, GainAndBalanceComeOut) {
 TEST(RegionColours, OneShinyRegionDoesNotDecide) {
   const cv::Mat3b picture = random_picture(3);
   cv::Mat3b shiny = picture.clone();
-  shiny(cv::Rect(120, 0, 60, kHeight)) = cv::Vec3b(250, 250, 250);
+  shiny(cv::Rect(120, 0, 60, kRows)) = cv::Vec3b(250, 250, 250);
   const ColourDifference difference = compare_colours(measure(picture), measure(shiny), {});
   EXPECT_NEAR(difference.exposure_ratio, 1.0, 0.01);
 }
@@ -109,7 +109,7 @@ TEST(RegionColours, FormatsAndNothing) {
   EXPECT_EQ(none.exposure_ratio, 1.0);
   EXPECT_EQ(none.white_balance_ratio, 1.0);
   const ColourDifference black =
-      compare_colours(measure(cv::Mat3b(kHeight, kWidth, cv::Vec3b(0, 0, 0))), measure(picture), {});
+      compare_colours(measure(cv::Mat3b(kRows, kColumns, cv::Vec3b(0, 0, 0))), measure(picture), {});
   EXPECT_TRUE(std::isfinite(black.exposure_ratio) && black.exposure_ratio > 100.0);
 }
 

@@ -15,12 +15,11 @@ namespace {
 using testing::camera_at;
 using testing::outline_of;
 
-constexpr double kFocalPx = 1388.0;
-
 class UnknownDish : public ::testing::Test {
  protected:
   Status measure() {
-    return measure_dish_edge({rays_[0], rays_[1]}, cameras_, {kFocalPx, kFocalPx}, {}, {}, *workspace_,
+    return measure_dish_edge({rays_[0], rays_[1]}, cameras_,
+                             {testing::kOutlineFocalPx, testing::kOutlineFocalPx}, {}, {}, *workspace_,
                              place_);
   }
   void show(const DishPlace& place, int points = 300) {

@@ -21,8 +21,6 @@ using testing::camera_at;
 using testing::outline_of;
 using testing::two_cameras;
 
-constexpr double kFocalPx = 1388.0;
-
 DishModel model_of(double width_mm, double depth_mm, double edge_mm) {
   DishModel model;
   model.outer_size_mm = {width_mm, depth_mm};
@@ -33,8 +31,8 @@ DishModel model_of(double width_mm, double depth_mm, double edge_mm) {
 class Placement : public ::testing::Test {
  protected:
   Status place(const std::vector<DishModel>& candidates) {
-    return place_dish({rays_[0], rays_[1]}, cameras_, {kFocalPx, kFocalPx}, candidates, {}, *workspace_,
-                      placed_);
+    return place_dish({rays_[0], rays_[1]}, cameras_, {testing::kOutlineFocalPx, testing::kOutlineFocalPx},
+                      candidates, {}, *workspace_, placed_);
   }
   void show(const DishPlace& place) {
     for (std::size_t view = 0; view < 2; ++view) rays_[view] = outline_of(place, cameras_[view]);
@@ -125,28 +123,32 @@ TEST(RimProjection, DerivativesAreTheNumericOnes) {
     double residual = 0.0;
     Eigen::Matrix<double, 6, 1> by_camera;
     PlaceVector by_place;
-    const RimProjection at(place, camera, kFocalPx);
+    const RimProjection at(place, camera, testing::kOutlineFocalPx);
     ASSERT_TRUE(at.linearise(ray, residual, by_camera, by_place));
     const auto difference = [&](const DishPlace& place_up, const Pose& camera_up, const DishPlace& place_down,
                                 const Pose& camera_down, double h) {
       double up = 0.0;
       double down = 0.0;
-      EXPECT_TRUE(RimProjection(place_up, camera_up, kFocalPx).residual(ray, up));
-      EXPECT_TRUE(RimProjection(place_down, camera_down, kFocalPx).residual(ray, down));
+      EXPECT_TRUE(RimProjection(place_up, camera_up, testing::kOutlineFocalPx).residual(ray, up));
+      EXPECT_TRUE(RimProjection(place_down, camera_down, testing::kOutlineFocalPx).residual(ray, down));
       return (up - down) / (2.0 * h);
     };
     for (int k = 0; k < 6; ++k) {
       const double h = k < 3 ? 1e-6 : 1e-3;
       const Eigen::Matrix<double, 6, 1> step = h * Eigen::Matrix<double, 6, 1>::Unit(k);
       const double numeric = difference(place, moved(camera, step), place, moved(camera, -step), h);
-      EXPECT_NEAR(numeric, by_camera[k], 0.02 * (k < 3 ? kFocalPx : kFocalPx / 500.0)) << k;
+      EXPECT_NEAR(numeric, by_camera[k],
+                  0.02 * (k < 3 ? testing::kOutlineFocalPx : testing::kOutlineFocalPx / 500.0))
+          << k;
     }
     for (int k = 0; k < kPlaceParameters; ++k) {
       const double h = k == kPlaceAzimuth ? 1e-6 : 1e-3;
       const PlaceVector step = h * PlaceVector::Unit(k);
       const double numeric = difference(place_from_vector(as_vector(place) + step), camera,
                                         place_from_vector(as_vector(place) - step), camera, h);
-      EXPECT_NEAR(numeric, by_place[k], 0.02 * (k == kPlaceAzimuth ? kFocalPx : kFocalPx / 500.0)) << k;
+      EXPECT_NEAR(numeric, by_place[k],
+                  0.02 * (k == kPlaceAzimuth ? testing::kOutlineFocalPx : testing::kOutlineFocalPx / 500.0))
+          << k;
     }
   }
 }

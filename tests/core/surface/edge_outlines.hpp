@@ -11,6 +11,8 @@
 
 namespace traygauge::testing {
 
+inline constexpr double kOutlineFocalPx = 1388.0;
+
 // A camera so many degrees off the vertical, looking at the origin from 500 mm.
 inline Pose camera_at(double tilt_deg, double azimuth_deg) {
   const double degree = std::numbers::pi / 180.0;

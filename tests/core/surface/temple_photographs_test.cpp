@@ -18,9 +18,9 @@ namespace {
 using testing::Photograph;
 using testing::SurfaceDeviation;
 
-constexpr double kMmPerUnit = 1000.0;
-constexpr std::size_t kViews = 5;   // 7.6 degrees from one to the next
-constexpr std::size_t kMiddle = 2;  // the reference of all pairs
+constexpr double kTempleMmPerUnit = 1000.0;
+constexpr std::size_t kTempleViews = 5;   // 7.6 degrees from one to the next
+constexpr std::size_t kTempleMiddle = 2;  // the reference of all pairs
 constexpr std::uint8_t kItem = 2;
 
 // Table frame whose z axis points from the object towards a camera, its origin behind the object.
@@ -55,19 +55,20 @@ class Temple : public ::testing::TestWithParam<std::size_t> {
     if (testing::captures_folder().empty()) GTEST_SKIP() << "TRAYGAUGE_CAPTURES is not set";
     const auto folder = testing::captures_folder() / "real/middlebury_templeRing";
     const nlohmann::json box = testing::read_json(folder / "cameras.json").at("object_bounding_box_m");
-    low_mm_ = kMmPerUnit * testing::vec3_from_json(box.at(0));
-    high_mm_ = kMmPerUnit * testing::vec3_from_json(box.at(1));
+    low_mm_ = kTempleMmPerUnit * testing::vec3_from_json(box.at(0));
+    high_mm_ = kTempleMmPerUnit * testing::vec3_from_json(box.at(1));
     const std::vector<testing::TrueView> views = testing::read_real_views(folder);
     const Vec3 centre_mm = 0.5 * (low_mm_ + high_mm_);
-    const Vec3 camera_mm = kMmPerUnit * camera_centre_mm(views.at(GetParam() + kMiddle).camera_from_world);
+    const Vec3 camera_mm =
+        kTempleMmPerUnit * camera_centre_mm(views.at(GetParam() + kTempleMiddle).camera_from_world);
     half_depth_mm_ = 0.5 * (high_mm_ - low_mm_).dot((camera_mm - centre_mm).normalized().cwiseAbs());
     table_from_world_ = table_behind(centre_mm, camera_mm, half_depth_mm_);
-    for (std::size_t i = 0; i < kViews; ++i) {
+    for (std::size_t i = 0; i < kTempleViews; ++i) {
       photographs_.push_back(
-          testing::read_photograph(views.at(GetParam() + i), kMmPerUnit, table_from_world_));
+          testing::read_photograph(views.at(GetParam() + i), kTempleMmPerUnit, table_from_world_));
       photographs_.back().labels = label_object(photographs_.back().gray);
     }
-    points_ = testing::triangulate_features(photographs_, kMiddle, 1.0);
+    points_ = testing::triangulate_features(photographs_, kTempleMiddle, 1.0);
   }
 
   Surface reconstruct(std::size_t other) {
@@ -76,7 +77,7 @@ class Temple : public ::testing::TestWithParam<std::size_t> {
     testing::Allocated<TwoViewSurfaceWorkspace> workspace(params);
     std::array<SurfaceGrid, 2> grids;
     TwoViewSurfaceReport report;
-    const Photograph& middle = photographs_[kMiddle];
+    const Photograph& middle = photographs_[kTempleMiddle];
     const Status status = reconstruct_surface({middle.stored(), photographs_[other].stored()},
                                               labels_on_dish(labels_of_single_dish()), 0.0, params.highest_mm,
                                               params, *workspace, grids, report);
@@ -106,7 +107,7 @@ class Temple : public ::testing::TestWithParam<std::size_t> {
   }
   void print(const char* what, const SurfaceDeviation& deviation) const {
     std::printf("view %2zu, %-26s %5d (%4d without); median %.3f px, 90 %% %.3f px; %.2f mm, bias %+.2f mm\n",
-                GetParam() + kMiddle, what, deviation.compared, deviation.missing, deviation.median_px,
+                GetParam() + kTempleMiddle, what, deviation.compared, deviation.missing, deviation.median_px,
                 deviation.percentile90_px, deviation.median_mm, deviation.bias_mm);
   }
 
@@ -119,8 +120,8 @@ class Temple : public ::testing::TestWithParam<std::size_t> {
 };
 
 TEST_P(Temple, NeighbouringViewsFindItsSurface) {
-  const Surface before = reconstruct(kMiddle - 1);
-  const Surface after = reconstruct(kMiddle + 1);
+  const Surface before = reconstruct(kTempleMiddle - 1);
+  const Surface after = reconstruct(kTempleMiddle + 1);
   for (const Surface* surface : {&before, &after}) {
     const SurfaceDeviation& deviation = surface->against_points;
     print("7.6 degrees, points", deviation);
@@ -131,8 +132,8 @@ TEST_P(Temple, NeighbouringViewsFindItsSurface) {
     EXPECT_LT(std::abs(deviation.bias_mm), 0.2);
     EXPECT_GT(surface->in_box_share, 0.98);
   }
-  const SurfaceDeviation across = testing::compare_depth(before.depth_mm, after.depth_mm,
-                                                         photographs_[kMiddle], photographs_[kMiddle + 1]);
+  const SurfaceDeviation across = testing::compare_depth(
+      before.depth_mm, after.depth_mm, photographs_[kTempleMiddle], photographs_[kTempleMiddle + 1]);
   print("between both pairs", across);
   EXPECT_GT(across.compared, 30'000);
   EXPECT_LT(across.median_px, 0.2);
@@ -140,7 +141,7 @@ TEST_P(Temple, NeighbouringViewsFindItsSurface) {
 }
 
 TEST_P(Temple, FifteenDegreesFindTheSameSurface) {
-  for (const std::size_t other : {kMiddle - 2, kMiddle + 2}) {
+  for (const std::size_t other : {kTempleMiddle - 2, kTempleMiddle + 2}) {
     const Surface surface = reconstruct(other);
     print("15 degrees, points", surface.against_points);
     EXPECT_GT(surface.against_points.compared, 60);

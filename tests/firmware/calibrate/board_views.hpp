@@ -10,6 +10,8 @@
 
 namespace traygauge::testing {
 
+inline const Chessboard kBoard{9, 6};
+
 // How a hand shows the board: spread over the picture, tilted by up to so much towards every side.
 struct BoardHandling {
   int pictures = 16;

@@ -19,7 +19,6 @@ namespace {
 namespace fs = std::filesystem;
 using namespace testing;
 
-const Chessboard kBoard{9, 6};
 constexpr const char* kStation =
     "# our kitchen\n[camera]\ndevice = \"serial:A1\"\nwidth = 640\nheight = 480\nfocus = 30\n\n"
     "[lens]  # old\nfx = 1\nfy = 1\ncx = 1\ncy = 1\ndistortion = [0, 0, 0, 0, 0]\n\n# the "

@@ -10,8 +10,6 @@ namespace {
 
 using namespace testing;
 
-const Chessboard kBoard{9, 6};
-
 // The corners may begin at the other end.
 double rms_px(const BoardSighting& found, const BoardSighting& truth, Vec2& bias_px) {
   const std::size_t count = truth.corners_px.size();

@@ -11,7 +11,6 @@ namespace {
 
 using namespace testing;
 
-const Chessboard kBoard{9, 6};
 const PictureSize kSize{1600, 1200};
 
 struct Calibrated {
