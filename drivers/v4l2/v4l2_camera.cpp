@@ -11,7 +11,7 @@
 namespace traygauge {
 namespace {
 
-constexpr int kSpareBuffers = 3;  // that the camera fills while a burst is looked at
+constexpr int kSpareBuffers = 1;  // that the camera fills while a burst is looked at
 constexpr double kAssumedRate_per_s = 30.0;
 // Linux 6.1 stumbles over a null pointer in media_device_unregister_entity() when a USB camera's node is closed
 // for the last time while its removal is under way.
