@@ -61,8 +61,8 @@ ifeq ($(BOARD),amd64)
 	cmake --build --preset gpiod-2 -j $(JOBS) --target drivers_test board_test
 	$(in_board) tests/board/gpio.sh build-gpiod-2/tests/drivers/drivers_test build-gpiod-2/tests/board/board_test
 endif
-	$(in_board) tests/board/station.sh $(board_build)/traygauge $(board_build)/tests/board/station_cycle \
-	  simulator/demo/mash_and_meatballs
+	$(in_board) tests/board/station.sh $(board_build)/traygauge $(board_build)/traygauge-station \
+	  $(board_build)/tests/board/station_cycle simulator/demo/mash_and_meatballs
 
 # The cross-build under user-mode emulation: the drivers' tests, and the volumes of the demo beside this machine's.
 ARM_TESTS = pixels v4l2 gpio serial
