@@ -116,7 +116,7 @@ TSAN_TESTS = drivers_test gpio_test serial_test v4l2_test simulated_devices_test
 tsan: packages
 	cmake --preset tsan $(launcher)
 	cmake --build --preset tsan -j $(JOBS) --target $(TSAN_TESTS)
-	for test in $(TSAN_TESTS); do find build-tsan -type f -name $$test -exec {} --gtest_brief=1 \; -quit || exit; done
+	for test in $(TSAN_TESTS); do "$$(find build-tsan -type f -name $$test)" --gtest_brief=1 || exit; done
 
 clean:
 	rm -rf build build-without-surf build-debug build-asan-ubsan build-tsan build-aarch64 build-gpiod-2 build-board
