@@ -61,8 +61,8 @@ ifeq ($(BOARD),amd64)
 	cmake --build --preset gpiod-2 -j $(JOBS) --target drivers_test board_test
 	$(in_board) tests/board/gpio.sh build-gpiod-2/tests/drivers/drivers_test build-gpiod-2/tests/board/board_test
 endif
-	$(in_board) tests/board/station.sh $(board_build)/traygauge $(board_build)/tests/board/station_cycle \
-	  simulator/demo/mash_and_meatballs
+	$(in_board) tests/board/station.sh $(board_build)/traygauge $(board_build)/traygauge-station \
+	  $(board_build)/tests/board/station_cycle simulator/demo/mash_and_meatballs
 
 # The cross-build under user-mode emulation: the drivers' tests, and the volumes of the demo beside this machine's.
 ARM_TESTS = pixels v4l2 gpio serial
@@ -116,7 +116,7 @@ TSAN_TESTS = drivers_test gpio_test serial_test v4l2_test simulated_devices_test
 tsan: packages
 	cmake --preset tsan $(launcher)
 	cmake --build --preset tsan -j $(JOBS) --target $(TSAN_TESTS)
-	for test in $(TSAN_TESTS); do find build-tsan -type f -name $$test -exec {} --gtest_brief=1 \; -quit || exit; done
+	for test in $(TSAN_TESTS); do "$$(find build-tsan -type f -name $$test)" --gtest_brief=1 || exit; done
 
 clean:
 	rm -rf build build-without-surf build-debug build-asan-ubsan build-tsan build-aarch64 build-gpiod-2 build-board

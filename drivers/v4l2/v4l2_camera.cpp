@@ -11,8 +11,11 @@
 namespace traygauge {
 namespace {
 
-constexpr int kSpareBuffers = 3;  // that the camera fills while a burst is looked at
+constexpr int kSpareBuffers = 1;  // that the camera fills while a burst is looked at
 constexpr double kAssumedRate_per_s = 30.0;
+// Linux 6.1 stumbles over a null pointer in media_device_unregister_entity() when a USB camera's node is closed
+// for the last time while its removal is under way.
+constexpr Nanoseconds kRemoval = std::chrono::milliseconds(200);
 
 }  // namespace
 
@@ -45,6 +48,7 @@ DeviceStatus V4l2Camera::do_start() {
     status = controls_.lock(params_.controls);
     if (!status.ok()) set_detail(controls_.problem());
   }
+  is_gone_ = status.code() == DeviceCode::device_gone;
   if (!status.ok()) do_stop();
   return status;
 }
@@ -52,6 +56,8 @@ DeviceStatus V4l2Camera::do_start() {
 void V4l2Camera::do_stop() {
   candidates_.clear();
   stream_.stop();
+  if (is_open_ && is_gone_) clock_.sleep_for(kRemoval);
+  is_open_ = false;
   device_->close();
 }
 
@@ -61,6 +67,7 @@ DeviceStatus V4l2Camera::open_and_set_up() {
     return fail(found, problem);
   }
   if (const int error = device_->open(node_); error != 0) return fail(status_of_errno(error), node_);
+  is_open_ = true;
   v4l2_capability capability{};
   const int error = device_->request(VIDIOC_QUERYCAP, &capability);
   if (error == ENOTTY || error == EINVAL) return fail(DeviceCode::unsupported, node_ + " is no camera");
@@ -237,6 +244,7 @@ DeviceStatus V4l2Camera::do_capture(std::span<std::uint8_t> buffer, Nanoseconds 
   if (status.ok()) status = deliver_sharpest(buffer, sharpest);
   const DeviceStatus returned = give_back_candidates();
   if (!returned.ok() && status.ok()) status = returned;
+  is_gone_ = status.code() == DeviceCode::device_gone;
   if (status.ok()) frame = sharpest;
   return status;
 }

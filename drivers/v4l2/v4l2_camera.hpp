@@ -82,6 +82,8 @@ class V4l2Camera final : public Camera {
   std::optional<std::uint64_t> last_number_;  // of any frame
   std::uint64_t number_ = 0;                  // of frames, beyond the kernel's 32 bits
   std::optional<std::uint64_t> last_fingerprint_;
+  bool is_open_ = false;  // the node
+  bool is_gone_ = false;  // was unplugged meanwhile
   CameraCounters counters_;
 };
 

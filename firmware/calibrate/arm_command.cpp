@@ -6,7 +6,7 @@
 #include "firmware/calibrate/calibrate_command.hpp"
 #include "firmware/card/card_finder.hpp"
 #include "firmware/config/station_writing.hpp"
-#include "firmware/measure/measure_command.hpp"
+#include "firmware/measure/measure_choices.hpp"
 #include "firmware/measure/pair_setup.hpp"
 
 namespace traygauge {

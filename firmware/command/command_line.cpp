@@ -1,8 +1,6 @@
 #include "firmware/command/command_line.hpp"
 
 #include <CLI/CLI.hpp>
-#include <new>
-#include <stdexcept>
 
 #include "firmware/check/check_command.hpp"
 #include "firmware/command/program.hpp"
@@ -72,13 +70,7 @@ int run_command_line(int argument_count, const char* const* arguments, std::ostr
   add_check_command(app, options.check);
   add_record_command(app, options.record);
   add_calibrate_command(app);
-  const auto run = [&] {
-    try {
-      return run_command(app, options, out, error);
-    } catch (const std::bad_alloc&) {
-      throw std::runtime_error("too little memory for pictures of this size; see traygauge memory");
-    }
-  };
+  const auto run = [&] { return run_command(app, options, out, error); };
   return run_program(app, argument_count, arguments, run, out, error);
 }
 

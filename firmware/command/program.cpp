@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 #include <exception>
+#include <new>
 #include <ostream>
 #include <string>
 
@@ -24,6 +25,8 @@ int run_program(CLI::App& app, int argument_count, const char* const* arguments,
   } catch (const CLI::ParseError& problem) {
     if (problem.get_exit_code() == 0) return app.exit(problem, out, error);  // --help, --version
     return fail(std::string(problem.what()) + "; see " + app.get_name() + " --help");
+  } catch (const std::bad_alloc&) {
+    return fail("too little memory for pictures of this size; see traygauge memory");
   } catch (const std::exception& problem) {  // UsageError, InputError, OutputError
     return fail(problem.what());
   }

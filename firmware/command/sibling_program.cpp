@@ -11,11 +11,17 @@
 #include "firmware/base/exit_status.hpp"
 
 namespace traygauge {
+namespace {
+
+std::string find_sibling(const std::string& name) {
+  std::error_code ignored;
+  return (std::filesystem::read_symlink("/proc/self/exe", ignored).parent_path() / name).string();
+}
+
+}  // namespace
 
 int run_sibling_program(const std::string& name, const std::vector<std::string>& arguments) {
-  std::error_code ignored;
-  const std::string program =
-      (std::filesystem::read_symlink("/proc/self/exe", ignored).parent_path() / name).string();
+  const std::string program = find_sibling(name);
   std::vector<std::string> texts = {program};
   texts.insert(texts.end(), arguments.begin(), arguments.end());
   std::vector<char*> pointers;
@@ -31,6 +37,10 @@ int run_sibling_program(const std::string& name, const std::vector<std::string>&
   while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
   }
   return WIFEXITED(status) ? WEXITSTATUS(status) : kExitWrongUse;
+}
+
+void become_sibling_program(const std::string& name, char* const* arguments) {
+  execv(find_sibling(name).c_str(), arguments);
 }
 
 }  // namespace traygauge

@@ -10,4 +10,7 @@ namespace traygauge {
 // when it is not there.
 int run_sibling_program(const std::string& name, const std::vector<std::string>& arguments);
 
+// Goes on as that program, with these arguments, a null at their end. Returns only when it is not there.
+void become_sibling_program(const std::string& name, char* const* arguments);
+
 }  // namespace traygauge

@@ -12,7 +12,7 @@
 #include "firmware/config/dish_library.hpp"
 #include "firmware/enrol/empty_dish.hpp"
 #include "firmware/enrol/enrol_report.hpp"
-#include "firmware/measure/measure_command.hpp"
+#include "firmware/measure/measure_choices.hpp"
 #include "simulator/capture/png_writer.hpp"
 
 namespace traygauge {

@@ -16,7 +16,7 @@
 #include "firmware/evaluate/evaluation_plots.hpp"
 #include "firmware/evaluate/progress.hpp"
 #include "firmware/evaluate/stage_analysis.hpp"
-#include "firmware/measure/measure_command.hpp"
+#include "firmware/measure/measure_choices.hpp"
 #include "simulator/capture/png_writer.hpp"
 
 namespace traygauge {

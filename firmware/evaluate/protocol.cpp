@@ -4,7 +4,7 @@
 
 #include "firmware/config/dish_choice.hpp"
 #include "firmware/evaluate/true_scene.hpp"
-#include "firmware/measure/measure_command.hpp"
+#include "firmware/measure/measure_choices.hpp"
 
 namespace traygauge {
 namespace {

@@ -10,7 +10,7 @@
 #include "firmware/config/dish_choice.hpp"
 #include "firmware/measure/capture_session.hpp"
 #include "firmware/measure/drawing.hpp"
-#include "firmware/measure/measure_command.hpp"
+#include "firmware/measure/measure_choices.hpp"
 #include "firmware/measure/panels.hpp"
 #include "firmware/segment/segment_report.hpp"
 #include "simulator/capture/png_writer.hpp"

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "firmware/config/dish_choice.hpp"
-#include "firmware/measure/measure_command.hpp"
+#include "firmware/measure/measure_choices.hpp"
 
 namespace traygauge {
 

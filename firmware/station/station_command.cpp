@@ -6,7 +6,7 @@
 
 #include "firmware/base/exit_status.hpp"
 #include "firmware/config/profile.hpp"
-#include "firmware/measure/measure_command.hpp"
+#include "firmware/measure/measure_choices.hpp"
 #include "firmware/station/hardware_station.hpp"
 #include "firmware/station/scan_printer.hpp"
 #include "simulator/capture/input_error.hpp"

@@ -1,3 +1,8 @@
-# In the guest: the whole station on the kernel's devices.
+# In the guest: the whole station on the kernel's devices, in each of its modes.
 . ./devices.sh
-./station_cycle ./traygauge ./mash_and_meatballs
+status=0
+for mode in arm double twin; do
+  echo "mode $mode"
+  ./station_cycle ./traygauge ./mash_and_meatballs $mode || status=1
+done
+exit $status

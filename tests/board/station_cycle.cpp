@@ -1,131 +1,24 @@
-// The program `traygauge station` on the kernel's devices: a USB camera that shows a capture's pictures
-// through uvcvideo, a button and lamps on gpio-sim, an arm on a pseudo-terminal. What it reports is compared
-// with what `traygauge measure` makes of the same pictures; then things go wrong. Usage: station_cycle
-// PROGRAM CAPTURE, in a guest; see station.sh.
-#include <fcntl.h>
-#include <sys/wait.h>
-#include <unistd.h>
-
+// The program `traygauge station` on the kernel's devices: USB cameras that show a capture's pictures through
+// uvcvideo, a button and lamps on gpio-sim, an arm on a pseudo-terminal. What it reports is compared with
+// what `traygauge measure` makes of the same pictures; then things go wrong. Usage: station_cycle PROGRAM
+// CAPTURE arm|double|twin, in a guest; see station.sh.
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
-#include <fstream>
+#include <functional>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "drivers/clock.hpp"
-#include "simulator/capture/capture.hpp"
-#include "tests/board/frames.hpp"
-#include "tests/board/usb_camera.hpp"
-#include "tests/drivers/gpio_bench.hpp"
-#include "tests/drivers/serial/arm_controller.hpp"
+#include "tests/board/child_program.hpp"
+#include "tests/board/station_rig.hpp"
 
 namespace {
 
 using namespace traygauge;
 using namespace std::chrono_literals;
 using nlohmann::json;
-namespace fs = std::filesystem;
 
-constexpr double kFrames_per_s = 4.0;
-constexpr Nanoseconds kPatience = 120s;  // an emulated board is slow
-
-// A program whose lines are read.
-class Program {
- public:
-  explicit Program(const std::string& command) : stream_(::popen(command.c_str(), "r")) {}
-  ~Program() { finish(); }
-  bool read_line(std::string& line) {
-    line.clear();
-    for (int letter = std::fgetc(stream_); letter != EOF; letter = std::fgetc(stream_)) {
-      if (letter == '\n') return true;
-      line += static_cast<char>(letter);
-    }
-    return false;
-  }
-  int finish() {
-    if (stream_ == nullptr) return status_;
-    status_ = WEXITSTATUS(::pclose(stream_));
-    stream_ = nullptr;
-    return status_;
-  }
-
- private:
-  std::FILE* stream_;
-  int status_ = 0;
-};
-
-struct Rig {
-  explicit Rig(const fs::path& folder)
-      : capture(read_capture(folder)),
-        pictures{read_frame(capture.views[0].image.path), read_frame(capture.views[1].image.path)},
-        second_deg(capture.views[1].arm_angle_deg.value()) {}
-
-  std::vector<std::uint8_t> next_frame() {
-    const bool is_second = arm.position_deg() > second_deg / 2.0;
-    return numbered_frame(pictures[is_second ? 1 : 0], ++number);
-  }
-  bool shows(bool green, bool yellow, bool red) {
-    return board->output("GREEN") == green && board->output("YELLOW") == yellow &&
-           board->output("RED") == red;
-  }
-  bool wait_until_ready() {
-    const Instant deadline = clock.now() + kPatience;
-    while (!shows(true, false, false)) {
-      if (clock.now() > deadline) return false;
-      clock.sleep_for(50ms);
-    }
-    return true;
-  }
-  void press() {
-    board->set_input("TRIGGER", true);
-    clock.sleep_for(60ms);
-    board->set_input("TRIGGER", false);
-  }
-
-  SystemClock clock;
-  Capture capture;
-  std::array<std::vector<std::uint8_t>, 2> pictures;
-  double second_deg;
-  std::uint32_t number = 0;
-  ArmController arm;
-  std::unique_ptr<GpioBench> board =
-      make_gpio_sim_bench(std::getenv("TRAYGAUGE_BOARD_GPIO"), {"TRIGGER", "GREEN", "YELLOW", "RED"});
-  UsbCamera camera{capture.views[0].camera.size.width, capture.views[0].camera.size.height, kFrames_per_s,
-                   [this] { return next_frame(); }};
-};
-
-void write_station(Rig& rig, const fs::path& file) {
-  const CameraDescription& camera = rig.capture.views[0].camera;
-  const CardDescription& card = rig.capture.card;
-  std::ofstream out(file);
-  out.precision(12);
-  out << "[camera]\ndevice = \"serial:T0001\"\nwidth = " << camera.size.width
-      << "\nheight = " << camera.size.height << "\nsettle_frames = 2\nburst = 1\n"
-      << "[button]\nline = \"TRIGGER\"\nactive_low = false\nbias = \"as-is\"\n"
-      << "[lamp]\nlines = [\"GREEN\", \"YELLOW\", \"RED\"]\nready = [\"GREEN\"]\nhold_still = [\"YELLOW\"]\n"
-      << "busy = [\"GREEN\", \"YELLOW\"]\ndone = [\"GREEN\", \"RED\"]\ntry_again = [\"YELLOW\", \"RED\"]\n"
-      << "fault = [\"RED\"]\n"
-      << "[arm]\nkind = \"serial\"\ndevice = \"" << rig.arm.path()
-      << "\"\nsecond_view_deg = " << rig.second_deg << "\nsettling_ms = 100\n[lens]\nfx = " << camera.fx_px
-      << "\nfy = " << camera.fy_px << "\ncx = " << camera.cx_px << "\ncy = " << camera.cy_px
-      << "\ndistortion = [";
-  for (const double coefficient : camera.distortion) out << coefficient << ", ";
-  out << "]\n[card]\npattern = " << fs::absolute(card.pattern.path) << "\nwidth_mm = " << card.width_mm
-      << "\nheight_mm = " << card.height_mm << "\nthickness_mm = " << card.thickness_mm
-      << "\n[trays]\nlabels = [" << fs::absolute(rig.capture.views[0].labels->path) << ", "
-      << fs::absolute(rig.capture.views[1].labels->path) << "]\n";
-  const DishDescription& dish = rig.capture.dishes.at(0);
-  fs::create_directories(file.parent_path() / "dishes");
-  std::ofstream dishes(file.parent_path() / "dishes" / "dish.toml");
-  dishes.precision(12);
-  dishes << "style = \"dish\"\nouter_size_mm = [" << dish.outer_size_mm[0] << ", " << dish.outer_size_mm[1]
-         << "]\nrim_height_mm = " << dish.rim_height_mm << "\nbottom_height_mm = " << dish.bottom_height_mm
-         << "\nprofile = [";
-  for (const ProfilePoint& point : dish.profile)
-    dishes << "[" << point.inset_mm << ", " << point.height_mm << "], ";
-  dishes << "]\n";
-}
+constexpr double kMaxOff_ml = 0.01;
 
 // Label to volume.
 std::map<int, double> volumes(const json& document) {
@@ -138,17 +31,17 @@ std::map<int, double> volumes(const json& document) {
 
 class Cycle {
  public:
-  Cycle(Rig& rig, Program& station, std::map<int, double> expected)
+  Cycle(StationRig& rig, ChildProgram& station, std::map<int, double> expected)
       : rig_(rig), station_(station), expected_(std::move(expected)) {}
 
   // Presses once the lamp says ready and expects this status; with the right volumes where it is ok.
   // `after_press` is done then.
   void scan(const char* what, const std::string& status, const std::function<void()>& after_press = {}) {
     std::string line;
-    const bool is_ready = rig_.wait_until_ready();
-    const Instant pressed_at = rig_.clock.now();
+    const bool is_ready = rig_.wait_until_shows(kReady);
+    const Instant pressed_at = rig_.clock().now();
     if (is_ready) rig_.press();
-    if (after_press) after_press();
+    if (is_ready && after_press) after_press();
     if (!is_ready || !station_.read_line(line)) return tell(what, false, "it was not ready, or ended");
     const json document = json::parse(line);
     const auto found = volumes(document);
@@ -159,11 +52,22 @@ class Cycle {
       const auto known = expected_.find(label);
       worst_ml = std::max(worst_ml, known == expected_.end() ? 1e9 : std::abs(known->second - volume_ml));
     }
-    const double took_s = std::chrono::duration<double>(rig_.clock.now() - pressed_at).count();
+    const double took_s = std::chrono::duration<double>(rig_.clock().now() - pressed_at).count();
     std::ostringstream text;
     text << document["status"] << " " << document["message"] << ", " << found.size() << " items, at most "
          << worst_ml << " ml from measure's, " << took_s << " s";
-    tell(what, is_right && worst_ml <= 0.01, text.str());
+    tell(what, is_right && worst_ml <= kMaxOff_ml, text.str());
+    remember(station_.memory());
+  }
+  // What the lamp says of the hand's way.
+  void expect_lamps(const char* what, const Lamps& lamps) {
+    const bool is_right = rig_.wait_until_shows(lamps);
+    tell(what, is_right, is_right ? "the lamp says so" : "the lamp never says so");
+  }
+  void print_memory() const {
+    std::printf("the station's memory: %.1f MiB resident at most, %.1f of them the kernel's frame buffers\n",
+                static_cast<double>(memory_.peak_kib) / 1024.0,
+                static_cast<double>(memory_.buffers_kib) / 1024.0);
   }
   bool is_good() const { return is_good_; }
 
@@ -173,49 +77,104 @@ class Cycle {
     std::fflush(stdout);
     is_good_ = is_good_ && is_right;
   }
-  Rig& rig_;
-  Program& station_;
+  // It may have ended meanwhile.
+  void remember(const ChildProgram::Memory& memory) {
+    memory_.peak_kib = std::max(memory_.peak_kib, memory.peak_kib);
+    memory_.buffers_kib = std::max(memory_.buffers_kib, memory.buffers_kib);
+  }
+
+  StationRig& rig_;
+  ChildProgram& station_;
   std::map<int, double> expected_;
+  ChildProgram::Memory memory_;
   bool is_good_ = true;
 };
 
 json measure(const std::string& program, const std::string& capture) {
-  Program run(program + " measure " + capture + " --labels given --seed 0 --json");
+  ChildProgram run(program + " measure " + capture + " --labels given --seed 0 --json");
   std::string text;
   run.read_line(text);
   return json::parse(text);
 }
 
-int run(const std::string& program, const std::string& folder) {
-  Rig rig(folder);
-  if (!rig.camera.plug_in()) return 2;
-  const fs::path file = "/tmp/site/station.toml";
-  fs::create_directories(file.parent_path());
-  write_station(rig, file);
+void pull_out(StationRig& rig, UsbCamera& camera) {
+  camera.unplug();
+  rig.clock().sleep_for(1s);
+  camera.plug_in();
+}
+
+struct Course {
+  StationMode mode;
+  int scans;  // pressed for, of them:
+  int unmeasured;
+  void (*play)(StationRig& rig, Cycle& cycle);
+};
+
+void play_arm(StationRig& rig, Cycle& cycle) {
+  cycle.scan("a tray", "ok");
+  cycle.scan("half a picture arrives", "ok", [&] { rig.camera().spoil_next(UsbFrameFault::half); });
+  cycle.scan("noise arrives", "ok", [&] { rig.camera().spoil_next(UsbFrameFault::junk); });
+  cycle.scan("the camera is pulled out", "device_gone", [&] { pull_out(rig, rig.camera()); });
+  cycle.scan("the arm stalls", "stalled", [&] {
+    rig.clock().sleep_for(100ms);
+    rig.arm().stalls = true;
+    rig.wait_until_shows(kFault);
+    rig.arm().stalls = false;
+  });
+  cycle.scan("a tray after all that", "ok");
+}
+
+void play_hand(StationRig& rig, Cycle& cycle) {
+  const auto move_and_press = [&] {
+    cycle.expect_lamps("not moved yet", kMoveOn);
+    rig.move_camera(true);
+    cycle.expect_lamps("moved far enough", kFarEnough);
+    rig.press();
+  };
+  cycle.scan("a tray", "ok", move_and_press);
+  rig.move_camera(false);
+  cycle.scan("the button is held", "cancelled", [&] {
+    cycle.expect_lamps("not moved yet", kMoveOn);
+    rig.press(3s);
+  });
+  cycle.scan("the camera is pulled out on its way", "device_gone", [&] {
+    cycle.expect_lamps("not moved yet", kMoveOn);
+    pull_out(rig, rig.camera());
+  });
+  cycle.scan("a tray after all that", "ok", move_and_press);
+}
+
+void play_two_cameras(StationRig& rig, Cycle& cycle) {
+  cycle.scan("a tray", "ok");
+  cycle.scan("noise arrives from the second camera", "ok",
+             [&] { rig.second_camera().spoil_next(UsbFrameFault::junk); });
+  cycle.scan("the second camera is pulled out", "device_gone", [&] { pull_out(rig, rig.second_camera()); });
+  cycle.scan("a tray after all that", "ok");
+}
+
+const std::map<std::string, Course> kCourses = {
+    {"arm", {StationMode::arm, 6, 2, play_arm}},
+    {"double", {StationMode::by_hand, 4, 2, play_hand}},
+    {"twin", {StationMode::by_second, 4, 1, play_two_cameras}},
+};
+
+int run(const std::string& program, const std::string& folder, const Course& course) {
+  StationRig rig(folder, course.mode);
+  if (!rig.plug_in()) return 2;
+  const std::string file = "/tmp/site/station.toml";
+  rig.write_station(file);
   const auto expected = volumes(measure(program, folder));
   std::printf("measure: %zu items\n", expected.size());
-  Program check(program + " check " + file.string());
+  ChildProgram check(program + " check " + file);
   for (std::string line; check.read_line(line);) std::printf("check: %s\n", line.c_str());
   const bool check_is_good = check.finish() == 0 && !expected.empty();
 
-  Program station(program + " station --seed 0 --json --scans 6 --devices hardware:" + file.string());
+  ChildProgram station(program + " station --seed 0 --json --scans " + std::to_string(course.scans) +
+                       " --devices hardware:" + file);
   Cycle cycle(rig, station, expected);
-  cycle.scan("a tray", "ok");
-  cycle.scan("half a picture arrives", "ok", [&] { rig.camera.spoil_next(UsbFrameFault::half); });
-  cycle.scan("noise arrives", "ok", [&] { rig.camera.spoil_next(UsbFrameFault::junk); });
-  cycle.scan("the camera is pulled out", "device_gone", [&] {
-    rig.camera.unplug();
-    rig.clock.sleep_for(1s);
-    rig.camera.plug_in();
-  });
-  cycle.scan("the arm stalls", "stalled", [&] {
-    rig.clock.sleep_for(300ms);
-    rig.arm.stalls = true;
-    while (!rig.shows(false, false, true)) rig.clock.sleep_for(20ms);
-    rig.arm.stalls = false;
-  });
-  cycle.scan("a tray after all that", "ok");
-  const bool ended = station.finish() == 1;  // two of the six were not measured
+  course.play(rig, cycle);
+  cycle.print_memory();
+  const bool ended = station.finish() == (course.unmeasured > 0 ? 1 : 0);
   std::printf("%s  the station ended as it should\n", ended ? "ok  " : "FAIL");
   return cycle.is_good() && check_is_good && ended ? 0 : 1;
 }
@@ -223,9 +182,13 @@ int run(const std::string& program, const std::string& folder) {
 }  // namespace
 
 int main(int count, char** arguments) {
-  if (count != 3) return 2;
+  const auto course = count == 4 ? kCourses.find(arguments[3]) : kCourses.end();
+  if (course == kCourses.end()) {
+    std::fprintf(stderr, "usage: station_cycle PROGRAM CAPTURE arm|double|twin\n");
+    return 2;
+  }
   try {
-    return run(arguments[1], arguments[2]);
+    return run(arguments[1], arguments[2], course->second);
   } catch (const std::exception& error) {
     std::printf("FAIL  %s\n", error.what());
     return 1;

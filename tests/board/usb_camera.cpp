@@ -30,6 +30,7 @@ constexpr std::uint32_t kUnlinked = 4;
 constexpr int kStalled = -EPIPE;
 constexpr int kReset = -ECONNRESET;
 constexpr const char* kAttach = "/sys/devices/platform/vhci_hcd.0/attach";
+constexpr int kFirstDevice = 65538;  // bus 1, device 2
 constexpr int kHighSpeed = 3;
 
 // USB video class 1.0.
@@ -52,18 +53,19 @@ double now_s() {
 
 }  // namespace
 
-UsbCamera::UsbCamera(int width, int height, double frames_per_s, std::function<Picture()> picture)
+UsbCamera::UsbCamera(int width, int height, double frames_per_s, std::function<Picture()> picture, int port)
     : width_(width),
       height_(height),
       frame_s_(1.0 / frames_per_s),
       picture_(std::move(picture)),
+      port_(port),
       configuration_(describe_configuration(width_, height_, frame_s_)) {}
 
 bool UsbCamera::plug_in() {
   std::array<int, 2> ends{};
   if (::socketpair(AF_UNIX, SOCK_STREAM, 0, ends.data()) != 0) return false;
   std::ofstream attach(kAttach);
-  attach << "0 " << ends[1] << " 65538 " << kHighSpeed << std::flush;
+  attach << port_ << " " << ends[1] << " " << kFirstDevice + port_ << " " << kHighSpeed << std::flush;
   ::close(ends[1]);
   socket_ = ends[0];
   if (!attach) {
@@ -177,7 +179,7 @@ bool UsbCamera::read_standard(const std::uint8_t* setup, Bytes& reply) const {
   if (setup[1] == kGetStatus) reply = {0, 0};
   if (setup[1] == kGetDescriptor && setup[3] == 1) reply = describe_device();
   if (setup[1] == kGetDescriptor && setup[3] == 2) reply = configuration_;
-  if (setup[1] == kGetDescriptor && setup[3] == 3) reply = describe_text(setup[2]);
+  if (setup[1] == kGetDescriptor && setup[3] == 3) reply = describe_text(setup[2], port_);
   return !reply.empty();
 }
 

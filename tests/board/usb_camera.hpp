@@ -26,8 +26,9 @@ class UsbCamera {
  public:
   using Picture = std::vector<std::uint8_t>;
 
-  // Motion JPEG of this size. `picture` gives each frame's bytes, from the camera's own thread.
-  UsbCamera(int width, int height, double frames_per_s, std::function<Picture()> picture);
+  // Motion JPEG of this size. `picture` gives each frame's bytes, from the camera's own thread. On port 0 its
+  // serial number is T0001, on port 1 T0002.
+  UsbCamera(int width, int height, double frames_per_s, std::function<Picture()> picture, int port = 0);
   UsbCamera(const UsbCamera&) = delete;
   UsbCamera& operator=(const UsbCamera&) = delete;
   ~UsbCamera() { unplug(); }
@@ -68,6 +69,7 @@ class UsbCamera {
   int height_;
   double frame_s_;
   std::function<Picture()> picture_;
+  int port_;
   std::vector<std::uint8_t> configuration_;
   std::atomic<UsbFrameFault> fault_ = UsbFrameFault::none;
   std::atomic<bool> is_silent_ = false;

@@ -47,10 +47,11 @@ UsbBytes describe_device() {
   return bytes;
 }
 
-UsbBytes describe_text(int index) {
+UsbBytes describe_text(int index, int port) {
   if (index == 0) return {4, 3, 0x09, 0x04};
-  const std::array<const char*, 3> texts = {"Traygauge tests", "Test camera", "T0001"};
-  const std::string text = texts.at(static_cast<std::size_t>(std::min(index, 3) - 1));
+  const std::array<std::string, 3> texts = {"Traygauge tests", "Test camera",
+                                            "T000" + std::to_string(port + 1)};
+  const std::string& text = texts.at(static_cast<std::size_t>(std::min(index, 3) - 1));
   UsbBytes bytes = {static_cast<std::uint8_t>(2 + 2 * text.size()), 3};
   for (const char letter : text) add(bytes, static_cast<std::uint8_t>(letter), 2);
   return bytes;

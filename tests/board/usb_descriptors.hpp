@@ -13,7 +13,8 @@ using UsbBytes = std::vector<std::uint8_t>;
 void add(UsbBytes& bytes, std::uint32_t value, int count);
 
 UsbBytes describe_device();
-UsbBytes describe_text(int index);
+// The serial number differs with the port.
+UsbBytes describe_text(int index, int port);
 // Interfaces: control (camera terminal 1 with exposure, processing unit 2 with gain), stream.
 UsbBytes describe_configuration(int width, int height, double frame_s);
 

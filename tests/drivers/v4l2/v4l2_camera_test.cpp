@@ -215,7 +215,10 @@ TEST_F(V4l2, UnplugIsToldAtOnceAndTheCameraComesBack) {
     EXPECT_EQ(capture(), DeviceCode::device_gone);
     EXPECT_LT(clock_.now() - asked_at, 100ms);
     camera().stop();
+    const Instant closed_at = clock_.now();
+    EXPECT_GE(closed_at - asked_at, 200ms) << "closed while the kernel removes it";
     EXPECT_EQ(start(), DeviceCode::device_gone);
+    EXPECT_EQ(clock_.now(), closed_at);
     kernel_.is_gone = false;
     kernel_.node = "/dev/video" + std::to_string(i % 3);
     params_.device = kernel_.node;
