@@ -45,7 +45,9 @@ bool see_move(const std::string& folder, SeenMove& move, std::ostream& out) {
 }
 
 std::string place(const Vec3& v, int decimals) {
-  return "(" + fixed(v.x(), decimals) + ", " + fixed(v.y(), decimals) + ", " + fixed(v.z(), decimals) + ")";
+  std::string text = "(";
+  text.append(fixed(v.x(), decimals)).append(", ").append(fixed(v.y(), decimals));
+  return text.append(", ").append(fixed(v.z(), decimals)).append(")");
 }
 
 }  // namespace
