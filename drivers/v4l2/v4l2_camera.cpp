@@ -13,8 +13,8 @@ namespace {
 
 constexpr int kSpareBuffers = 1;  // that the camera fills while a burst is looked at
 constexpr double kAssumedRate_per_s = 30.0;
-// Linux 6.1 stumbles over a null pointer in media_device_unregister_entity() when a USB camera's node is closed
-// for the last time while its removal is under way.
+// Linux 6.1 stumbles over a null pointer in media_device_unregister_entity() when a USB camera's node is
+// closed for the last time while its removal is under way.
 constexpr Nanoseconds kRemoval = std::chrono::milliseconds(200);
 
 }  // namespace
