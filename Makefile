@@ -64,8 +64,10 @@ endif
 	$(in_board) tests/board/station.sh $(board_build)/traygauge $(board_build)/traygauge-station \
 	  $(board_build)/tests/board/station_cycle simulator/demo/mash_and_meatballs
 
-# The cross-build under user-mode emulation: the drivers' tests, and the volumes of the demo beside this machine's.
-ARM_TESTS = pixels v4l2 gpio serial
+# The cross-build under user-mode emulation: tests of the core that need no captures, the drivers' tests, and the volumes of
+# the demo beside this machine's.
+ARM_TESTS = base_test image_test matching_test tracking_test pose_test scale_test rectification_test plane_rectification_test \
+  semi_global_test pixels_test v4l2_test gpio_test serial_test
 arm_sysroot = $(abspath build-board/sysroot-arm64)
 arm_libraries = /usr/lib/aarch64-linux-gnu
 in_arm = qemu-aarch64-static -L $(arm_sysroot) -E LD_LIBRARY_PATH=$(arm_libraries)/blas:$(arm_libraries)/lapack
@@ -73,8 +75,8 @@ arm-test: build
 	config/install_packages.sh tests/board/packages.txt
 	tests/board/make_sysroot.sh $(arm_sysroot)
 	cmake --preset aarch64 $(launcher)
-	cmake --build --preset aarch64 -j $(JOBS) --target traygauge $(ARM_TESTS:=_test)
-	for test in $(ARM_TESTS); do $(in_arm) build-aarch64/tests/drivers/$$test/$${test}_test --gtest_brief=1 || exit; done
+	cmake --build --preset aarch64 -j $(JOBS) --target traygauge $(ARM_TESTS)
+	for test in $(ARM_TESTS); do $(in_arm) "$$(find build-aarch64/tests -type f -name $$test)" --gtest_brief=1 || exit; done
 	RUN_B='$(in_arm)' LIMIT_ML=0.01 tests/captures/compare_builds.sh build build-aarch64 simulator/demo/*_and_*
 
 # The measurement refuses profile paper there; the tests that measure with it are left out.

@@ -11,10 +11,11 @@
 namespace traygauge {
 namespace {
 
-constexpr int kSpareBuffers = 1;  // that the camera fills while a burst is looked at
+constexpr int kKeptFrames = 2;    // of a burst: the sharpest, and one in case that it cannot be decoded
+constexpr int kSpareBuffers = 1;  // that the camera fills meanwhile
 constexpr double kAssumedRate_per_s = 30.0;
-// Linux 6.1 stumbles over a null pointer in media_device_unregister_entity() when a USB camera's node is closed
-// for the last time while its removal is under way.
+// Linux 6.1 stumbles over a null pointer in media_device_unregister_entity() when a USB camera's node is
+// closed for the last time while its removal is under way.
 constexpr Nanoseconds kRemoval = std::chrono::milliseconds(200);
 
 }  // namespace
@@ -26,7 +27,7 @@ V4l2Camera::V4l2Camera(std::unique_ptr<VideoDevice> device, Clock& clock, const 
       params_(params),
       stream_(*device_),
       controls_(*device_) {
-  candidates_.reserve(static_cast<std::size_t>(params_.burst));
+  candidates_.reserve(kKeptFrames + 1);
 }
 
 DeviceStatus V4l2Camera::fail(DeviceStatus status, std::string_view what) {
@@ -42,7 +43,7 @@ DeviceStatus V4l2Camera::do_start() {
   DeviceStatus status = open_and_set_up();
   if (status.ok()) status = controls_.prepare(params_.controls);
   if (!status.ok() && !controls_.problem().empty()) set_detail(controls_.problem());
-  if (status.ok()) status = stream_.start(params_.burst + kSpareBuffers);
+  if (status.ok()) status = stream_.start(std::min(params_.burst, kKeptFrames) + kSpareBuffers);
   if (status.ok()) status = settle();
   if (status.ok()) {
     status = controls_.lock(params_.controls);
@@ -170,9 +171,8 @@ bool V4l2Camera::is_usable(const FilledBuffer& filled) {
 // Frames that were exposed after `asked_at`, as many as a burst has, until `deadline`.
 DeviceStatus V4l2Camera::collect(Instant asked_at, Instant deadline) {
   bool saw_damage = false;
-  const auto wanted =
-      static_cast<std::size_t>(std::clamp(params_.burst, 1, std::max(1, stream_.buffer_count() - 1)));
-  while (candidates_.size() < wanted) {
+  int seen = 0;
+  while (seen < std::max(1, params_.burst)) {
     const Nanoseconds left = deadline - clock_.now();
     FilledBuffer filled;
     const DeviceStatus status = stream_.take(std::max(left, Nanoseconds::zero()), filled);
@@ -188,6 +188,8 @@ DeviceStatus V4l2Camera::collect(Instant asked_at, Instant deadline) {
     const bool is_usable_now = is_new && is_usable(filled);
     if (is_usable_now) {
       candidates_.push_back({filled, times, converter_->sharpness(filled.bytes)});
+      if (const DeviceStatus kept = keep_sharpest(); !kept.ok()) return kept;
+      ++seen;
       continue;
     }
     if (is_new || filled.is_damaged) ++counters_.damaged;
@@ -195,6 +197,18 @@ DeviceStatus V4l2Camera::collect(Instant asked_at, Instant deadline) {
     if (const DeviceStatus returned = stream_.give_back(filled); !returned.ok()) return returned;
   }
   return DeviceCode::ok;
+}
+
+// The others' buffers go back to the camera, which always has one.
+DeviceStatus V4l2Camera::keep_sharpest() {
+  const auto room = static_cast<std::size_t>(std::clamp(stream_.buffer_count() - 1, 1, kKeptFrames));
+  if (candidates_.size() <= room) return DeviceCode::ok;
+  const auto blurred =
+      std::min_element(candidates_.begin(), candidates_.end(),
+                       [](const Candidate& a, const Candidate& b) { return a.sharpness < b.sharpness; });
+  const FilledBuffer filled = blurred->filled;
+  candidates_.erase(blurred);
+  return stream_.give_back(filled);
 }
 
 // What turns out damaged only when it is decoded makes room for the next sharpest.

@@ -65,6 +65,7 @@ class V4l2Camera final : public Camera {
   void count(const FilledBuffer& filled);
   CapturedFrame date(const FilledBuffer& filled) const;
   DeviceStatus collect(Instant asked_at, Instant deadline);
+  DeviceStatus keep_sharpest();
   bool is_usable(const FilledBuffer& filled);
   DeviceStatus deliver_sharpest(std::span<std::uint8_t> buffer, CapturedFrame& frame);
   DeviceStatus give_back_candidates();

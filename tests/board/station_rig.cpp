@@ -12,7 +12,7 @@ using namespace std::chrono_literals;
 namespace fs = std::filesystem;
 
 constexpr double kFrames_per_s = 4.0;
-constexpr Nanoseconds kPatience = 120s;  // an emulated board is slow
+constexpr Nanoseconds kPatience = 120s;         // an emulated board is slow
 constexpr Nanoseconds kBetweenPresses = 200ms;  // no hand is faster; what is, is a bounce
 
 void write_camera(std::ostream& out, const char* table, const char* name, const PictureSize& size) {

@@ -128,6 +128,24 @@ TEST_F(V4l2, TakesTheSharpestOfABurst) {
   EXPECT_GT(frame_.sequence, 3U);
 }
 
+TEST_F(V4l2, TheNextSharpestStandsInForOneThatMayNotBeDelivered) {
+  params_.burst = 4;
+  params_.settle_frames = 0;
+  const std::vector<std::uint8_t> flat(fake_frame_bytes(kernel_.modes[0]), 100);
+  auto sharp = flat;
+  for (std::size_t i = 0; i < sharp.size(); i += 4) sharp[i] = 255;
+  auto medium = flat;
+  for (std::size_t i = 0; i < medium.size(); i += 4) medium[i] = 150;
+  kernel_.pictures = {{0, sharp}};
+  ASSERT_EQ(start(), DeviceCode::ok);
+  ASSERT_EQ(capture(), DeviceCode::ok);
+  const int next = kernel_.frame_count;
+  kernel_.pictures = {{next, flat}, {next + 2, sharp}, {next + 3, medium}, {next + 4, flat}};
+  ASSERT_EQ(capture(), DeviceCode::ok);
+  EXPECT_EQ(frame_.sequence, static_cast<std::uint64_t>(next) + 4);  // counted from 1
+  EXPECT_EQ(camera().counters().repeated, 1U);
+}
+
 TEST_F(V4l2, NeverDeliversDamagedFramesAndCountsThem) {
   params_.burst = 1;
   params_.settle_frames = 0;
