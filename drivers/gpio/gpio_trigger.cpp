@@ -29,10 +29,11 @@ DeviceStatus GpioTrigger::do_start() {
   return status;
 }
 
-// Edges may be lost when many come at once: two to active in a row belong to one press.
+// Edges may be lost when many come at once: two to active in a row belong to one press. And one that opens an
+// open contact was preceded by one that closed it: the kernel reads a bouncing line a little late.
 void GpioTrigger::take(const GpioEdge& edge) {
   const bool was_open = !is_active_ && edge.at - last_edge_at_ >= params_.debounce;
-  if (edge.to_active && was_open) presses_.push_back(edge.at);
+  if (was_open) presses_.push_back(edge.at);
   is_active_ = edge.to_active;
   last_edge_at_ = edge.at;
   differs_since_.reset();

@@ -133,6 +133,15 @@ TEST_F(Button, NoPressIsMissedOrCountedTwiceWhateverTheBounces) {
   }
 }
 
+TEST_F(Button, APressWhoseFirstEdgeWasLostCountsOnce) {
+  const Instant begun_at = clock_.now();
+  press(begun_at + 1s, 100ms, 3);
+  press(begun_at + 2s, 100ms, 3);
+  script_.edges.pop_front();
+  ASSERT_TRUE(trigger().start().ok());
+  EXPECT_EQ(presses(4s), (std::vector{begun_at + 1s + 1500us, begun_at + 2s}));
+}
+
 // The line may be read between its change and the edge.
 TEST_F(Button, NoPressIsLostWhenTheLineIsAheadOfItsEdge) {
   script_.edge_delay = 5ms;
