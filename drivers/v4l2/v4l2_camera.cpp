@@ -49,8 +49,20 @@ DeviceStatus V4l2Camera::do_start() {
     status = controls_.lock(params_.controls);
     if (!status.ok()) set_detail(controls_.problem());
   }
-  is_gone_ = status.code() == DeviceCode::device_gone;
+  status = notice_removal(status);
   if (!status.ok()) do_stop();
+  return status;
+}
+
+// A camera that is being unplugged may fail in any way before the kernel has removed it.
+DeviceStatus V4l2Camera::notice_removal(DeviceStatus status) {
+  if (status.code() == DeviceCode::io_error && is_open_) {
+    clock_.sleep_for(kRemoval);
+    v4l2_capability capability{};
+    const DeviceStatus now = status_of_errno(device_->request(VIDIOC_QUERYCAP, &capability));
+    if (now.code() == DeviceCode::device_gone) status = now;
+  }
+  is_gone_ = status.code() == DeviceCode::device_gone;
   return status;
 }
 
@@ -258,7 +270,7 @@ DeviceStatus V4l2Camera::do_capture(std::span<std::uint8_t> buffer, Nanoseconds 
   if (status.ok()) status = deliver_sharpest(buffer, sharpest);
   const DeviceStatus returned = give_back_candidates();
   if (!returned.ok() && status.ok()) status = returned;
-  is_gone_ = status.code() == DeviceCode::device_gone;
+  status = notice_removal(status);
   if (status.ok()) frame = sharpest;
   return status;
 }

@@ -69,6 +69,7 @@ class V4l2Camera final : public Camera {
   bool is_usable(const FilledBuffer& filled);
   DeviceStatus deliver_sharpest(std::span<std::uint8_t> buffer, CapturedFrame& frame);
   DeviceStatus give_back_candidates();
+  DeviceStatus notice_removal(DeviceStatus status);
   DeviceStatus fail(DeviceStatus status, std::string_view what);
 
   std::unique_ptr<VideoDevice> device_;

@@ -245,6 +245,21 @@ TEST_F(V4l2, UnplugIsToldAtOnceAndTheCameraComesBack) {
   EXPECT_EQ(kernel_.open_now, 0);
 }
 
+// While a USB camera is removed its buffers fail first.
+TEST_F(V4l2, UnplugThatBeginsWithAFailedBufferIsTold) {
+  ASSERT_EQ(start(), DeviceCode::ok);
+  kernel_.errors[VIDIOC_DQBUF] = EIO;
+  kernel_.errors[VIDIOC_QUERYCAP] = ENODEV;
+  EXPECT_EQ(capture(), DeviceCode::device_gone);
+}
+
+TEST_F(V4l2, AFailedBufferOfACameraThatIsThereIsNoUnplug) {
+  ASSERT_EQ(start(), DeviceCode::ok);
+  kernel_.errors[VIDIOC_DQBUF] = EIO;
+  EXPECT_EQ(capture(), DeviceCode::io_error);
+  EXPECT_EQ(capture(), DeviceCode::ok);
+}
+
 TEST_F(V4l2, AThousandStartsLeaveNothingOpen) {
   params_.settle_frames = 1;
   for (int i = 0; i < 1000; ++i) {
