@@ -164,7 +164,7 @@ TEST_F(StationOnPictures, RandomScriptsLeaveNoVolumeWrong) {
     measured += check(play(FaultFile(random_fault_script(seed, devices)).path(), by_hand));
   }
   EXPECT_GT(measured, 30);
-  EXPECT_LT(measured, 180);
+  EXPECT_LT(measured, 60);
 }
 
 // As its comments say; simulator/README.md shows it to newcomers.
