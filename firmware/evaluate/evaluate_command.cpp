@@ -1,8 +1,8 @@
 #include "firmware/evaluate/evaluate_command.hpp"
 
 #include <unistd.h>
-#include <CLI/CLI.hpp>
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <filesystem>
 #include <fstream>

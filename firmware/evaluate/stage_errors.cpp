@@ -1,6 +1,5 @@
 #include "firmware/evaluate/stage_errors.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <numbers>
 
