@@ -8,10 +8,10 @@ modprobe vhci-hcd
 mount -t configfs configfs /sys/kernel/config 2>/dev/null
 board=/sys/kernel/config/gpio-sim/board
 mkdir -p $board/bank
-echo 8 >$board/bank/num_lines
+echo 9 >$board/bank/num_lines
 echo board >$board/bank/label
 line=0
-for name in TRIGGER GREEN YELLOW RED STEP DIR ENABLE HOME; do
+for name in TRIGGER GREEN YELLOW RED BLUE STEP DIR ENABLE HOME; do
   mkdir $board/bank/line$line
   echo $name >$board/bank/line$line/name
   line=$((line + 1))

@@ -127,12 +127,14 @@ void play_arm(StationRig& rig, Cycle& cycle) {
 void play_hand(StationRig& rig, Cycle& cycle) {
   const auto move_and_press = [&] {
     cycle.expect_lamps("not moved yet", kMoveOn);
-    rig.move_camera(true);
+    rig.move_camera(Place::beyond);
+    cycle.expect_lamps("moved too far", kTooFar);
+    rig.move_camera(Place::second_view);
     cycle.expect_lamps("moved far enough", kFarEnough);
     rig.press();
   };
   cycle.scan("a tray", "ok", move_and_press);
-  rig.move_camera(false);
+  rig.move_camera(Place::first_view);
   cycle.scan("the button is held", "cancelled", [&] {
     cycle.expect_lamps("not moved yet", kMoveOn);
     rig.press(3s);

@@ -1,8 +1,12 @@
 #include "tests/board/station_rig.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <fstream>
 
+#include "simulator/capture/picture_file.hpp"
+#include "simulator/render/jpeg_writer.hpp"
 #include "tests/board/frames.hpp"
 
 namespace traygauge {
@@ -39,32 +43,59 @@ void write_dish(const DishDescription& dish, const fs::path& file) {
   out << "]\n";
 }
 
+// Squeezed sideways: about what the camera would see of the card if it had gone on sideways by 30 degrees.
+Picture turned_away(const Picture& seen) {
+  constexpr double kSqueeze = 0.7;
+  Picture turned(seen.size, seen.format);
+  const int channels = bytes_per_pixel(seen.format);
+  const double middle_px = (seen.size.width - 1) / 2.0;
+  for (int x = 0; x < seen.size.width; ++x) {
+    const auto from = static_cast<int>(std::lround(middle_px + (x - middle_px) / kSqueeze));
+    if (from < 0 || from >= seen.size.width) continue;
+    for (int y = 0; y < seen.size.height; ++y) {
+      const std::ptrdiff_t row = y * seen.stride_bytes();
+      std::copy_n(seen.pixels.begin() + row + from * channels, channels,
+                  turned.pixels.begin() + row + x * channels);
+    }
+  }
+  return turned;
+}
+
+UsbCamera::Picture from_beyond(const InputFile& second_view) {
+  constexpr int kQuality = 90;
+  const fs::path file = fs::temp_directory_path() / "beyond.jpg";
+  write_jpeg(file, turned_away(read_picture(second_view)), kQuality);
+  return read_frame(file);
+}
+
 }  // namespace
 
 StationRig::StationRig(const fs::path& capture, StationMode mode)
     : capture_(read_capture(capture)),
-      pictures_{read_frame(capture_.views[0].image.path), read_frame(capture_.views[1].image.path)},
+      pictures_{read_frame(capture_.views[0].image.path), read_frame(capture_.views[1].image.path),
+                from_beyond(capture_.views[1].image)},
       second_deg_(capture_.views[1].arm_angle_deg.value()),
-      board_(make_gpio_sim_bench(std::getenv("TRAYGAUGE_BOARD_GPIO"), {"TRIGGER", "GREEN", "YELLOW", "RED"})),
+      board_(make_gpio_sim_bench(std::getenv("TRAYGAUGE_BOARD_GPIO"),
+                                 {"TRIGGER", "GREEN", "YELLOW", "RED", "BLUE"})),
       camera_(capture_.views[0].camera.size.width, capture_.views[0].camera.size.height, kFrames_per_s,
-              [this] { return picture(sees_second_view()); }) {
+              [this] { return picture(seen_from()); }) {
   if (mode == StationMode::arm) arm_.emplace();
   if (mode != StationMode::by_second) return;
   const PictureSize& size = capture_.views[1].camera.size;
   second_camera_.emplace(
-      size.width, size.height, kFrames_per_s, [this] { return picture(true); }, 1);
+      size.width, size.height, kFrames_per_s, [this] { return picture(Place::second_view); }, 1);
 }
 
 bool StationRig::plug_in() {
   return camera_.plug_in() && (!second_camera_ || second_camera_->plug_in());
 }
 
-UsbCamera::Picture StationRig::picture(bool of_second_view) {
-  return numbered_frame(pictures_[of_second_view ? 1 : 0], ++number_);
+UsbCamera::Picture StationRig::picture(Place seen_from) {
+  return numbered_frame(pictures_.at(static_cast<std::size_t>(seen_from)), ++number_);
 }
 
-bool StationRig::sees_second_view() {
-  return is_moved_ || (arm_ && arm_->position_deg() > second_deg_ / 2.0);
+Place StationRig::seen_from() {
+  return arm_ && arm_->position_deg() > second_deg_ / 2.0 ? Place::second_view : place_.load();
 }
 
 void StationRig::press(Nanoseconds held) {
@@ -76,7 +107,7 @@ void StationRig::press(Nanoseconds held) {
 
 bool StationRig::shows(const Lamps& lamps) {
   return board_->output("GREEN") == lamps.green && board_->output("YELLOW") == lamps.yellow &&
-         board_->output("RED") == lamps.red;
+         board_->output("RED") == lamps.red && board_->output("BLUE") == lamps.blue;
 }
 
 bool StationRig::wait_until_shows(const Lamps& lamps) {
@@ -100,9 +131,11 @@ void StationRig::write_station(const fs::path& file) const {
     write_lens(out, "second_lens", views[1].camera);
   }
   out << "[button]\nline = \"TRIGGER\"\nactive_low = false\nbias = \"as-is\"\n"
-      << "[lamp]\nlines = [\"GREEN\", \"YELLOW\", \"RED\"]\nready = [\"GREEN\"]\nhold_still = [\"YELLOW\"]\n"
+      << "[lamp]\nlines = [\"GREEN\", \"YELLOW\", \"RED\", \"BLUE\"]\nready = [\"GREEN\"]\nhold_still = "
+         "[\"YELLOW\"]\n"
       << "busy = [\"GREEN\", \"YELLOW\"]\ndone = [\"GREEN\", \"RED\"]\ntry_again = [\"YELLOW\", \"RED\"]\n"
-      << "fault = [\"RED\"]\nmove_on = [\"GREEN\", \"YELLOW\", \"RED\"]\nfar_enough = [\"GREEN\"]\n";
+      << "fault = [\"RED\"]\nmove_on = [\"GREEN\", \"YELLOW\", \"RED\"]\nfar_enough = [\"GREEN\", \"BLUE\"]\n"
+      << "too_far = [\"BLUE\"]\n";
   if (arm_) {
     out << "[arm]\nkind = \"serial\"\ndevice = \"" << arm_->path() << "\"\nsecond_view_deg = " << second_deg_
         << "\nsettling_ms = 100\n";

@@ -30,11 +30,16 @@ struct Lamps {
   bool green = false;
   bool yellow = false;
   bool red = false;
+  bool blue = false;
 };
-inline constexpr Lamps kReady{true, false, false};
-inline constexpr Lamps kFarEnough = kReady;
-inline constexpr Lamps kFault{false, false, true};
-inline constexpr Lamps kMoveOn{true, true, true};
+inline constexpr Lamps kReady{.green = true};
+inline constexpr Lamps kFault{.red = true};
+inline constexpr Lamps kMoveOn{.green = true, .yellow = true, .red = true};
+inline constexpr Lamps kFarEnough{.green = true, .blue = true};
+inline constexpr Lamps kTooFar{.blue = true};
+
+// Where the hand may put the camera.
+enum class Place : std::uint8_t { first_view, second_view, beyond };
 
 class StationRig {
  public:
@@ -50,23 +55,22 @@ class StationRig {
   ArmController& arm() { return *arm_; }
   Clock& clock() { return clock_; }
 
-  // The hand, to the second view or back.
-  void move_camera(bool to_second) { is_moved_ = to_second; }
+  void move_camera(Place place) { place_ = place; }
   void press(Nanoseconds held = std::chrono::milliseconds(60));
   bool shows(const Lamps& lamps);
   // False when it takes too long.
   bool wait_until_shows(const Lamps& lamps);
 
  private:
-  UsbCamera::Picture picture(bool of_second_view);
-  bool sees_second_view();
+  UsbCamera::Picture picture(Place seen_from);
+  Place seen_from();
 
   SystemClock clock_;
   Capture capture_;
-  std::array<UsbCamera::Picture, 2> pictures_;
+  std::array<UsbCamera::Picture, 3> pictures_;  // by place
   double second_deg_;
   std::optional<ArmController> arm_;
-  std::atomic<bool> is_moved_ = false;
+  std::atomic<Place> place_ = Place::first_view;
   std::atomic<std::uint32_t> number_ = 0;
   std::unique_ptr<GpioBench> board_;
   UsbCamera camera_;

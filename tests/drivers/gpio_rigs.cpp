@@ -93,8 +93,8 @@ std::vector<std::pair<std::string, MakeBench>> benches() {
   std::vector<std::pair<std::string, MakeBench>> list = {{"model", make_model_bench}};
   if (const char* const folder = std::getenv("TRAYGAUGE_BOARD_GPIO")) {
     list.emplace_back("gpio_sim", [folder] {
-      return make_gpio_sim_bench(folder,
-                                 {"TRIGGER", "GREEN", "YELLOW", "RED", "STEP", "DIR", "ENABLE", "HOME"});
+      return make_gpio_sim_bench(
+          folder, {"TRIGGER", "GREEN", "YELLOW", "RED", "BLUE", "STEP", "DIR", "ENABLE", "HOME"});
     });
   }
   return list;
