@@ -10,7 +10,7 @@
 namespace traygauge {
 namespace {
 
-constexpr double kBinMm = 0.5;
+constexpr double kHeightBinMm = 0.5;
 
 bool is_border(const HeightMap& map, int x, int y) {
   const std::uint8_t label = map.cells.at(x, y).label;
@@ -23,7 +23,7 @@ double max_height(std::span<const std::uint32_t> histogram, double ignored_cells
   double above = 0.0;
   for (std::size_t bin = histogram.size(); bin-- > 0;) {
     above += histogram[bin];
-    if (above > ignored_cells) return kBinMm * (static_cast<double>(bin) + 0.5);
+    if (above > ignored_cells) return kHeightBinMm * (static_cast<double>(bin) + 0.5);
   }
   return 0.0;
 }
@@ -56,7 +56,7 @@ Status integrate_height_map(const HeightMap& map, const InnerSurface& dish, cons
         item.centre_mm += Vec3(place_mm.x(), place_mm.y(), cell.z_mm);
         ++told_cells[cell.label];
       }
-      const double bin = std::clamp(height / kBinMm, 0.0, static_cast<double>(kBins - 1));
+      const double bin = std::clamp(height / kHeightBinMm, 0.0, static_cast<double>(kBins - 1));
       ++workspace.histograms[cell.label * kBins + static_cast<std::size_t>(bin)];
     }
   }

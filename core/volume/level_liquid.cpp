@@ -11,7 +11,7 @@ namespace traygauge {
 namespace {
 
 constexpr int kDirections = 64;
-constexpr double kBinMm = 0.125;
+constexpr double kLevelBinMm = 0.125;
 constexpr double kLowestMm = -16.0;
 
 bool is_seen(const HeightCell& cell, std::uint8_t label) {
@@ -43,12 +43,12 @@ double find_level(const HeightMap& map, std::uint8_t label, double tolerance_mm,
     }
   };
   for_seen([&](double z) {
-    ++histogram[static_cast<std::size_t>(std::clamp((z - kLowestMm) / kBinMm, 0.0, bins - 1.0))];
+    ++histogram[static_cast<std::size_t>(std::clamp((z - kLowestMm) / kLevelBinMm, 0.0, bins - 1.0))];
     seen += 1.0;
   });
-  const auto window = static_cast<std::size_t>(std::clamp(2.0 * tolerance_mm / kBinMm, 1.0, 0.5 * bins));
+  const auto window = static_cast<std::size_t>(std::clamp(2.0 * tolerance_mm / kLevelBinMm, 1.0, 0.5 * bins));
   const std::size_t best = find_densest_window(histogram, window).last;
-  double level = kLowestMm + kBinMm * (static_cast<double>(best) + 1.0) - tolerance_mm;
+  double level = kLowestMm + kLevelBinMm * (static_cast<double>(best) + 1.0) - tolerance_mm;
   double within = 0.0;
   for (int step = 0; step < 3; ++step) {
     double sum = 0.0;

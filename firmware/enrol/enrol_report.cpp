@@ -12,7 +12,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr int kVersion = 1;
+constexpr int kEnrolVersion = 1;
 constexpr std::size_t kTitleWidth = 9;
 constexpr std::size_t kNumberWidth = 10;
 
@@ -81,7 +81,7 @@ std::string compose_enrol_document(const EnrolReport& report) {
   const bool measured = is_measured(survey);
   const bool edge = has_edge(survey);
   Json document;
-  document["version"] = kVersion;
+  document["version"] = kEnrolVersion;
   document["capture"] = report.capture;
   document["pair"] = report.pair;
   document["seed"] = report.seed;

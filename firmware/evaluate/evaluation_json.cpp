@@ -9,7 +9,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr int kVersion = 1;
+constexpr int kEvaluationVersion = 1;
 
 Json number(double value) {
   return std::isfinite(value) ? Json(value) : Json(nullptr);
@@ -125,7 +125,7 @@ Json outlines_of(const OutlineFigures& figures) {
 }  // namespace
 
 std::string compose_summary_json(const Evaluation& evaluation) {
-  Json document = {{"version", kVersion},           {"set", evaluation.set},
+  Json document = {{"version", kEvaluationVersion}, {"set", evaluation.set},
                    {"profile", evaluation.profile}, {"seeds", evaluation.seeds},
                    {"pairs", evaluation.pairs},     {"measurements", evaluation.measurements}};
   document["groups"] = Json::object();

@@ -9,7 +9,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr int kVersion = 1;
+constexpr int kMeasureVersion = 1;
 
 Json item_of(const ItemResult& item) {
   const bool measured = item.status == StatusCode::ok;
@@ -60,7 +60,7 @@ Json timing_of(const MeasureReport& report) {
 std::string compose_document(const MeasureReport& report) {
   const Measurement& measurement = *report.measurement;
   Json document;
-  document["version"] = kVersion;
+  document["version"] = kMeasureVersion;
   document["capture"] = report.capture;
   document["pair"] = report.pair;
   document["profile"] = report.profile;

@@ -12,7 +12,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr int kVersion = 1;
+constexpr int kSegmentVersion = 1;
 
 Json dish_of(const SegmentedDish& dish) {
   const bool is_found = dish.status.ok();
@@ -58,7 +58,7 @@ std::string score_line(const LabelScores& scores) {
 std::string compose_segment_document(const SegmentReport& report) {
   const Segmentation& segmentation = report.drawn->segmentation;
   Json document;
-  document["version"] = kVersion;
+  document["version"] = kSegmentVersion;
   document["capture"] = report.capture;
   document["pair"] = report.pair;
   document["status"] = name(segmentation.status.code());

@@ -14,7 +14,7 @@
 namespace traygauge {
 namespace {
 
-constexpr std::size_t kMaxFileBytes = std::size_t{1} << 16U;
+constexpr std::size_t kMaxScriptBytes = std::size_t{1} << 16U;
 constexpr std::size_t kMaxFaults = 1000;
 constexpr int kMaxCalls = 1'000'000'000;
 constexpr double kMaxSeconds = 1e6;  // eleven days
@@ -96,7 +96,7 @@ void FaultPlan::apply(SimulatedDevice device, FaultScript& script) const {
 }
 
 FaultPlan read_fault_file(const std::filesystem::path& file) {
-  const nlohmann::json document = read_toml(file, kMaxFileBytes, "a fault script in TOML");
+  const nlohmann::json document = read_toml(file, kMaxScriptBytes, "a fault script in TOML");
   const JsonNode root(document, file);
   expect_keys(root, std::to_array<std::string_view>({"seed", "fault"}));
   FaultPlan plan;

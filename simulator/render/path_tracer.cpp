@@ -24,7 +24,7 @@ enum Decision : std::uint32_t {
   kPenumbra = 128  // and the number of the light
 };
 
-constexpr float kStep_px = 4.0F;  // a surface that jumps by more is more than one
+constexpr float kJump_px = 4.0F;  // a surface that jumps by more is more than one
 
 // Where a light's edge would hide first: just within its corners.
 const std::array<Eigen::Vector2f, 4> kCorners = {Eigen::Vector2f(0.02F, 0.02F), Eigen::Vector2f(0.98F, 0.02F),
@@ -125,7 +125,7 @@ PixelLight PathTracer::trace(int x, int y, int samples) const {
 // All rays must meet the plane of the first one's surface, within a few pixels' widths.
 void PathTracer::look_for_steps(const Round& round, Sum& sum) const {
   if (round.first == 0) sum.first = round.hits[0];
-  const float most_mm = kStep_px * rays_.pixel_width() * sum.first.distance;
+  const float most_mm = kJump_px * rays_.pixel_width() * sum.first.distance;
   for (const SurfaceHit& hit : round.hits) {
     const float off_mm = std::abs(sum.first.normal.dot(hit.point_mm - sum.first.point_mm));
     if (hit.object != sum.first.object || off_mm > most_mm) sum.is_one_surface = false;

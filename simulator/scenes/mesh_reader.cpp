@@ -18,7 +18,7 @@
 namespace traygauge {
 namespace {
 
-constexpr std::size_t kMaxFileBytes = std::size_t{512} << 20U;
+constexpr std::size_t kMaxMeshBytes = std::size_t{512} << 20U;
 constexpr std::size_t kMaxElements = 4'000'000;
 constexpr std::size_t kMaxCorners = 64;  // of a polygon
 constexpr const char* kExpected = "a mesh as .obj or .ply";
@@ -246,7 +246,7 @@ TriangleMesh read_ply(const InputFile& file, std::string_view text) {
 }  // namespace
 
 TriangleMesh read_mesh(const InputFile& file) {
-  const std::vector<std::uint8_t> bytes = read_bytes(file, kMaxFileBytes, kExpected);
+  const std::vector<std::uint8_t> bytes = read_bytes(file, kMaxMeshBytes, kExpected);
   const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
   const std::string extension = file.path.extension().string();
   if (extension != ".obj" && extension != ".ply")

@@ -18,7 +18,7 @@
 namespace traygauge {
 namespace {
 
-constexpr std::size_t kMaxFileBytes = std::size_t{1} << 20U;
+constexpr std::size_t kMaxSceneBytes = std::size_t{1} << 20U;
 constexpr std::size_t kMaxFoods = 198;
 constexpr std::size_t kMaxDishes = 50;
 constexpr std::size_t kMaxViews = 100;
@@ -264,7 +264,7 @@ void read_pairs(const SceneTable& root, SceneDescription& scene) {
 }  // namespace
 
 SceneDescription read_scene_file(const std::filesystem::path& file) {
-  const nlohmann::json document = read_toml(file, kMaxFileBytes, "a scene in TOML");
+  const nlohmann::json document = read_toml(file, kMaxSceneBytes, "a scene in TOML");
   const std::filesystem::path folder = file.parent_path();
   const JsonNode node(document, file);
   const SceneTable root(node, {"name", "seed", "camera", "dishes", "foods", "card", "table", "tray",

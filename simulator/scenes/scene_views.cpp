@@ -15,7 +15,7 @@
 namespace traygauge {
 namespace {
 
-constexpr int kTries = 20000;
+constexpr int kViewTries = 20000;
 constexpr double kClearanceMm = 2.0;    // between a rim and the lines of sight to the card
 constexpr double kBorderShare = 0.012;  // of the picture's width: how far from its border everything is
 
@@ -120,7 +120,7 @@ void draw_views(SceneDescription& scene, Draws& draws, int count, const ViewLimi
   const Eigen::Vector3d target_mm = target_of(scene);
   const Eigen::Vector3d middle = middle_of(scene);
   std::vector<Photograph> views;
-  for (int tries = 0; tries < kTries && views.size() < static_cast<std::size_t>(count); ++tries) {
+  for (int tries = 0; tries < kViewTries && views.size() < static_cast<std::size_t>(count); ++tries) {
     if (tries % 500 == 499) views.clear();  // a first view that allows no others
     const std::optional<Photograph> view = draw_view(scene, draws, limits, target_mm);
     if (!view) continue;
@@ -143,7 +143,7 @@ void draw_arm_views(SceneDescription& scene, Draws& draws, double distance_mm) {
   constexpr int kSteps = 7;
   constexpr double kStepDeg = 5.0;
   const Eigen::Vector3d target_mm = target_of(scene);
-  for (int tries = 0; tries < kTries; ++tries) {
+  for (int tries = 0; tries < kViewTries; ++tries) {
     const double start_deg = draws.between(-25.0, -10.0);
     const int sense = draws.chance(0.5) ? 1 : -1;
     scene.views.clear();
@@ -172,7 +172,7 @@ void draw_arm_views(SceneDescription& scene, Draws& draws, double distance_mm) {
 void draw_moved_views(SceneDescription& scene, Draws& draws, const ViewLimits& limits) {
   const Eigen::Vector3d target_mm = target_of(scene);
   const Eigen::Vector3d middle = middle_of(scene);
-  for (int tries = 0; tries < kTries; ++tries) {
+  for (int tries = 0; tries < kViewTries; ++tries) {
     const std::optional<Photograph> first = draw_view(scene, draws, limits, target_mm);
     if (!first) continue;
     Photograph second = *first;

@@ -11,9 +11,9 @@
 namespace traygauge {
 namespace {
 
-constexpr double kLipMm = 19.0;  // of the tray's border that is not flat
-constexpr double kGapMm = 6.0;   // between things
-constexpr int kTries = 400;      // for one thing
+constexpr double kLipMm = 19.0;   // of the tray's border that is not flat
+constexpr double kGapMm = 6.0;    // between things
+constexpr int kPlaceTries = 400;  // for one thing
 constexpr int kRestarts = 400;
 
 bool contains(const Footprint& footprint, const Eigen::Vector2d& at_mm, double gap_mm) {
@@ -50,7 +50,7 @@ bool is_on_tray(const Footprint& footprint, const Tray& tray) {
 // Moves it to a free place; false when none is found.
 bool find_place(Footprint& footprint, const Tray& tray, const std::vector<Footprint>& taken,
                 double largest_turn_deg, Draws& draws) {
-  for (int tries = 0; tries < kTries; ++tries) {
+  for (int tries = 0; tries < kPlaceTries; ++tries) {
     footprint.centre_mm = {draws.between(-0.5, 0.5) * tray.size_mm[0],
                            draws.between(-0.5, 0.5) * tray.size_mm[1]};
     footprint.rotation_deg = draws.between(-largest_turn_deg, largest_turn_deg);

@@ -12,7 +12,7 @@ namespace traygauge::bench {
 namespace {
 
 constexpr std::size_t kCornerLevel = 1;  // half size, as the tracker looks for them
-constexpr int kSiftPoints = 4000;
+constexpr int kRowSiftPoints = 4000;
 constexpr double kSiftDishPixels = 400000.0;
 
 Comparison compare_pyramid(const BestData& data) {
@@ -156,7 +156,7 @@ Method opencv_sift(const BestData& data) {
               const BestDataView& view = data.views[i];
               const cv::Rect box = as_rect(view.regions.dish) | as_rect(view.regions.card);
               points[i] = find_sift(view.gray, box, std::sqrt(kSiftDishPixels / view.regions.dish_pixels),
-                                    kSiftPoints);
+                                    kRowSiftPoints);
             }
             cv::BFMatcher matcher(cv::NORM_L2);
             double good = 0.0;

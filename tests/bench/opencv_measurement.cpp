@@ -13,7 +13,7 @@
 namespace traygauge::bench {
 namespace {
 
-constexpr int kSiftPoints = 4000;
+constexpr int kPeerSiftPoints = 4000;
 constexpr double kDishPixels = 400000.0;  // where SIFT looks
 constexpr int kCardSidePx = 520;
 constexpr float kRatio = 0.8F;
@@ -54,7 +54,7 @@ bool prepare_view(const Scene& scene, std::size_t i, const OpenCvPattern& patter
   const LabelRegions regions = measure_regions(scene.labels[i].gray());
   if (regions.dish.empty() || regions.card.empty()) return false;
   const cv::Rect box = as_rect(regions.dish) | as_rect(regions.card);
-  view.points = find_sift(view.gray, box, std::sqrt(kDishPixels / regions.dish_pixels), kSiftPoints);
+  view.points = find_sift(view.gray, box, std::sqrt(kDishPixels / regions.dish_pixels), kPeerSiftPoints);
   view.rays = undistort(view.points.pixels, lens);
   return find_card(view.gray, as_rect(regions.card), pattern, lens, view.card);
 }
@@ -150,14 +150,14 @@ OpenCvPattern prepare_pattern(const Scene& scene) {
   const cv::Mat picture(pattern.size.height, pattern.size.width, CV_8U,
                         const_cast<std::uint8_t*>(pattern.pixels.data()));
   const double scale = std::min(1.0, static_cast<double>(kCardSidePx) / pattern.size.width);
-  return {find_sift(picture, {0, 0, picture.cols, picture.rows}, scale, kSiftPoints),
+  return {find_sift(picture, {0, 0, picture.cols, picture.rows}, scale, kPeerSiftPoints),
           pattern.size.width / scene.card.width_mm};
 }
 
 bool find_card(const cv::Mat& gray, const cv::Rect& box, const OpenCvPattern& pattern, const OpenCvLens& lens,
                OpenCvCard& card) {
   const double scale = std::min(1.0, static_cast<double>(kCardSidePx) / std::max(box.width, box.height));
-  const SparsePoints points = find_sift(gray, box, scale, kSiftPoints);
+  const SparsePoints points = find_sift(gray, box, scale, kPeerSiftPoints);
   cv::BFMatcher matcher(cv::NORM_L2);
   const auto pairs = match_symmetric(matcher, points.descriptors, pattern.points.descriptors, kRatio);
   if (pairs.size() < 8) return false;

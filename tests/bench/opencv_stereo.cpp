@@ -8,7 +8,7 @@
 namespace traygauge::bench {
 namespace {
 
-constexpr double kDishPixels = 262144.0;  // 2^18, of the rectified dish
+constexpr double kRectifiedPixels = 262144.0;  // 2^18, of the rectified dish
 constexpr int kMarginPx = 8;
 constexpr int kRangeMarginPx = 16;
 
@@ -95,7 +95,7 @@ void warp(const cv::Mat& source, const OpenCvLens& lens, const cv::Matx33d& rota
 
 bool rectify(const OpenCvStereoInput& input, const OpenCvLens& lens, Rectified& pair) {
   const int dish_px = cv::countNonZero(dish_mask(input.labels[0]));
-  const double f = lens.camera(0, 0) * std::sqrt(kDishPixels / dish_px);
+  const double f = lens.camera(0, 0) * std::sqrt(kRectifiedPixels / dish_px);
   cv::Vec3d dish;
   for (const cv::Vec3d& point : input.dish_points) dish += point;
   pair.rotation = rectifying_rotation(input, dish);

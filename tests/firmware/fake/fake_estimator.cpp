@@ -38,21 +38,6 @@ TRAYGAUGE_FAKE Status validate(const Configuration&) {
   return fake_estimator().construction;
 }
 
-TRAYGAUGE_FAKE const char* name(Stage stage) {
-  constexpr std::array names = {"image",         "features", "matching", "pose",  "scale",
-                                "rectification", "stereo",   "surface",  "volume"};
-  static_assert(names.size() == kStageCount);
-  return names[static_cast<std::size_t>(stage)];
-}
-
-TRAYGAUGE_FAKE const char* name(Warning) {
-  return "warning";
-}
-
-TRAYGAUGE_FAKE const char* sentence(Warning warning) {
-  return warning == Warning::angle_small ? "The views lie close together." : "Another doubt.";
-}
-
 TRAYGAUGE_FAKE Estimator::Estimator(std::span<std::byte> block, const Configuration& configuration)
     : status_(fake_estimator().construction) {
   FakeEstimator& fake = fake_estimator();
