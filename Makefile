@@ -2,8 +2,8 @@
 # make without-surf: builds and tries what may be shipped where SURF's patents hold, in build-without-surf.
 # make board-test: the drivers and the station on a real kernel in an emulated machine; BOARD=arm64 cross-builds for it.
 # make arm-test: cross-builds for 64-bit ARM, runs tests and compares volumes under user-mode emulation.
-# make lint | format | sanitize: further checks; CI=true adds the sanitizers to `make test`. Lint takes a quarter of an
-# hour and runs on its own.
+# make lint | format | sanitize: further checks; lint takes a quarter of an hour. CI=true adds to `make test` the sanitizers,
+# ARM, and the drivers on a real kernel.
 
 JOBS ?= $(shell nproc)
 # Recorded captures, which many tests measure. Without them these tests say skipped; on CI that is a failure.
@@ -18,7 +18,7 @@ options := $(merged) $(if $(shell command -v ccache),-DCMAKE_CXX_COMPILER_LAUNCH
 sources = git ls-files '*.cpp' '*.hpp'
 ctest = ctest --output-on-failure --no-tests=error -j $(JOBS) -LE '^bench$$'
 
-.PHONY: configure build build-all demo test bench board-test arm-test without-surf lint format check-format check-captures sanitize asan-ubsan tsan packages clean
+.PHONY: configure build build-all demo test bench board-test board-programs board-drivers board-gpiod-2 board-station arm-test without-surf lint format check-format check-captures sanitize asan-ubsan tsan packages clean
 
 configure: packages
 	cmake --preset release $(options)
@@ -37,6 +37,8 @@ test: check-captures build-all
 	$(MAKE) check-format
 ifeq ($(CI),true)
 	$(MAKE) sanitize
+	$(MAKE) arm-test
+	$(MAKE) board-drivers
 endif
 
 # Benchmarks are tests with the label bench: they print figures and run alone.
@@ -51,20 +53,29 @@ board_build = $(if $(filter arm64,$(BOARD)),build-aarch64,build)
 board_sysroot = $(if $(filter arm64,$(BOARD)),build-board/sysroot-arm64)
 board_guest = build-board/guest-$(BOARD)
 in_board = SYSROOT=$(abspath $(board_sysroot)) tests/board/run_guest.sh $(BOARD) $(board_guest)
-board-test: packages
+board-test: board-drivers board-gpiod-2 board-station
+
+board-programs: packages
 	config/install_packages.sh tests/board/packages.txt
 	tests/board/make_guest.sh $(BOARD) $(board_guest)
 	$(if $(board_sysroot),tests/board/make_sysroot.sh $(board_sysroot))
 	cmake --preset $(board_preset) $(options)
 	cmake --build --preset $(board_preset) -j $(JOBS) --target $(BOARD_TARGETS)
+
+board-drivers: board-programs
 	$(in_board) tests/board/drivers.sh $(board_build)/tests/drivers/drivers_test $(board_build)/tests/board/board_test \
 	  simulator/demo/mash_and_meatballs/view_0.jpg
+
+# From a package for this machine's architecture; with the other, Debian 12's libgpiod alone is met.
+board-gpiod-2: board-programs
 ifeq ($(BOARD),amd64)
 	tests/board/make_gpiod_2.sh build-board/gpiod-2
 	cmake --preset gpiod-2 $(options)
 	cmake --build --preset gpiod-2 -j $(JOBS) --target drivers_test board_test
 	$(in_board) tests/board/gpio.sh build-gpiod-2/tests/drivers/drivers_test build-gpiod-2/tests/board/board_test
 endif
+
+board-station: board-programs
 	$(in_board) tests/board/station.sh $(board_build)/traygauge $(board_build)/traygauge-station \
 	  $(board_build)/tests/board/station_cycle simulator/demo/mash_and_meatballs
 
@@ -80,7 +91,8 @@ arm-test: build
 	tests/board/make_sysroot.sh $(arm_sysroot)
 	cmake --preset aarch64 $(options)
 	cmake --build --preset aarch64 -j $(JOBS) --target traygauge $(ARM_TESTS)
-	for test in $(ARM_TESTS); do $(in_arm) "$$(find build-aarch64/tests -type f -name $$test)" --gtest_brief=1 || exit; done
+	for test in $(ARM_TESTS); do find build-aarch64/tests -type f -name $$test; done | \
+	  xargs -P $(JOBS) -I TEST $(in_arm) TEST --gtest_brief=1
 	RUN_B='$(in_arm)' LIMIT_ML=0.01 tests/captures/compare_builds.sh build build-aarch64 simulator/demo/*_and_*
 
 # The measurement refuses profile paper there; the tests that measure with it are left out.
