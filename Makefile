@@ -13,6 +13,9 @@ export TRAYGAUGE_CAPTURES
 # Merged sources compile in half the time; for who edits one of them, apart is sooner.
 ifeq ($(CI),true)
 merged := -DCMAKE_UNITY_BUILD=ON -DCMAKE_UNITY_BUILD_BATCH_SIZE=12
+# A program of tests runs once: where sanitizers cannot, else with them. Those of the core and the drivers run for ARM as
+# they are shipped.
+once := -DTRAYGAUGE_SANITIZED_TESTS=OFF
 endif
 options := $(merged) $(if $(shell command -v ccache),-DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
 sources = git ls-files '*.cpp' '*.hpp'
@@ -21,7 +24,7 @@ ctest = ctest --output-on-failure --no-tests=error -j $(JOBS) -LE '^bench$$'
 .PHONY: configure build build-all demo test bench board-test board-programs board-drivers board-gpiod-2 board-station arm-test without-surf lint format check-format check-captures sanitize asan-ubsan tsan packages clean
 
 configure: packages
-	cmake --preset release $(options)
+	cmake --preset release $(options) $(once)
 
 build: configure
 	cmake --build --preset release -j $(JOBS) --target traygauge
