@@ -105,6 +105,7 @@ Estimator::Estimator(std::span<std::byte> block, const Configuration& configurat
   state.extrinsics.card_points = BoundedList<Vec3>(state.memory.extrinsics.card_points);
   state.reserved_bytes = block.size();
   state.used_bytes = arena.high_water_bytes();
+  if (is_best) state.idle = block.first(state.used_bytes).subspan(state.best.kept_bytes);
   if (is_best) {
     const ReferenceCard& card = configuration.card;
     status_ =
@@ -225,6 +226,10 @@ const Measurement& Estimator::estimate(std::uint64_t seed, StageTap* tap) {
 ImageView<std::uint8_t> Estimator::gray_memory(std::size_t view) const {
   const bool keeps_gray = state_ != nullptr && state_->configuration.profile == Profile::best;
   return keeps_gray ? state_->best.views[view].gray_storage : ImageView<std::uint8_t>{};
+}
+
+std::span<std::byte> Estimator::idle_memory() const {
+  return state_ == nullptr ? std::span<std::byte>() : state_->idle;
 }
 
 const CardPattern* Estimator::card_pattern() const {

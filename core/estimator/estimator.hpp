@@ -84,6 +84,10 @@ class Estimator {
   // leave it there before add_view. Empty in profile paper, which keeps none.
   ImageView<std::uint8_t> gray_memory(std::size_t view) const;
 
+  // Where the stages work, aligned for an arena: from one call to the next nothing lies there, so that
+  // somebody else may work there meanwhile. Empty in profile paper, and where the configuration is refused.
+  std::span<std::byte> idle_memory() const;
+
   // The card's pattern; null in profile paper, which keeps another, and where the configuration is refused.
   const CardPattern* card_pattern() const;
 

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 
 #include "core/estimator/best/best_memory.hpp"
 #include "core/estimator/estimator.hpp"
@@ -15,9 +16,10 @@ namespace traygauge {
 struct EstimatorState {
   Configuration configuration;  // without the pattern's pixels, which are read at construction only
   std::array<DishModel, kMaxDishCandidates> dishes{};
-  EstimatorMemory memory;  // of profile paper
-  BestMemory best;         // of profile best
-  Extrinsics extrinsics;   // its lists lie in `memory`
+  EstimatorMemory memory;     // of profile paper
+  BestMemory best;            // of profile best
+  Extrinsics extrinsics;      // its lists lie in `memory`
+  std::span<std::byte> idle;  // of the block: what only stages at work use
   std::size_t reserved_bytes = 0;
   std::size_t used_bytes = 0;
   double setup_ms = 0.0;

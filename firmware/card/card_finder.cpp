@@ -11,16 +11,21 @@ void CardFinder::Memory::allocate(Allocator& arena, int width, int height, const
   labels = arena.template take_image<std::uint8_t>(width, height);
 }
 
-std::size_t CardFinder::bytes_for(int width, int height) {
+std::size_t CardFinder::required_bytes(int max_frame_width, int max_frame_height) {
   ArenaPlan plan;
   Memory memory;
-  memory.allocate(plan, width, height, {});
+  memory.allocate(plan, max_frame_width, max_frame_height, {});
   return plan.high_water_bytes();
 }
 
 CardFinder::CardFinder(int max_frame_width, int max_frame_height)
-    : block_(bytes_for(max_frame_width, max_frame_height)) {
-  Arena arena(block_.bytes());
+    : block_(required_bytes(max_frame_width, max_frame_height)) {
+  Arena arena(block_->bytes());
+  memory_.allocate(arena, max_frame_width, max_frame_height, params_);
+}
+
+CardFinder::CardFinder(std::span<std::byte> lent, int max_frame_width, int max_frame_height) {
+  Arena arena(lent);
   memory_.allocate(arena, max_frame_width, max_frame_height, params_);
 }
 

@@ -1,6 +1,10 @@
 // Where the camera stands, from a picture that shows the reference card.
 #pragma once
 
+#include <cstddef>
+#include <optional>
+#include <span>
+
 #include "core/base/table_frame.hpp"
 #include "core/estimator/configuration.hpp"
 #include "core/scale/card_location.hpp"
@@ -12,6 +16,9 @@ class CardFinder {
  public:
   // Takes its memory, for pictures of this size at most.
   CardFinder(int max_frame_width, int max_frame_height);
+  // Works in `lent`, of required_bytes() at least.
+  CardFinder(std::span<std::byte> lent, int max_frame_width, int max_frame_height);
+  static std::size_t required_bytes(int max_frame_width, int max_frame_height);
 
   // Before find(); the pattern is copied. invalid_configuration when it shows too little to be recognised.
   Status learn(const ReferenceCard& card);
@@ -33,11 +40,9 @@ class CardFinder {
     template <class Allocator>
     void allocate(Allocator& arena, int width, int height, const CardLocationParams& params);
   };
-  static std::size_t bytes_for(int width, int height);
-
   CardLocationParams params_;
   Memory memory_;
-  AlignedBlock block_;
+  std::optional<AlignedBlock> block_;  // where nothing is lent
 };
 
 }  // namespace traygauge

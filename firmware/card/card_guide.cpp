@@ -12,9 +12,19 @@ Vec3 aim_of(const Pose& camera_from_table) {
 
 }  // namespace
 
-void CardGuide::begin(const ReferenceCard& card, const LensModel& lens, const FrameView& first) {
-  if (!finder_ || lens.width != lens_.width || lens.height != lens_.height)
+void CardGuide::take_memory(const LensModel& lens, std::span<std::byte> lent) {
+  if (lent.size() >= CardFinder::required_bytes(lens.width, lens.height)) {
+    finder_.emplace(lent, lens.width, lens.height);
+    owns_memory_ = false;
+  } else if (!owns_memory_ || lens.width != lens_.width || lens.height != lens_.height) {
     finder_.emplace(lens.width, lens.height);
+    owns_memory_ = true;
+  }
+}
+
+void CardGuide::begin(const ReferenceCard& card, const LensModel& lens, const FrameView& first,
+                      std::span<std::byte> lent) {
+  take_memory(lens, lent);
   lens_ = lens;
   first_.reset();
   CardAlignment found;

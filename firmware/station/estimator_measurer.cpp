@@ -56,7 +56,7 @@ std::optional<double> EstimatorMeasurer::turned_deg(const FrameView& live) {
   if (configured_with_ == nullptr || !first_view_) return std::nullopt;
   if (!first_view_->frame.empty()) {
     guide_.begin(configured_with_->card, first_view_->lens.value_or(configured_with_->lens),
-                 first_view_->frame);
+                 first_view_->frame, estimator_ ? estimator_->idle_memory() : std::span<std::byte>());
     first_view_->frame = {};
   }
   return guide_.turned_deg(live);

@@ -21,6 +21,7 @@ struct BestMemory {
   SceneGeometryWorkspace geometry;
   std::span<SceneGeometry> scene;  // one
   DishMeasurementWorkspace dish;
+  std::size_t kept_bytes = 0;  // of the arena, up to where the stages share
 
   template <class Allocator>
   constexpr void allocate(Allocator& arena, const Configuration& configuration) {
@@ -28,9 +29,9 @@ struct BestMemory {
     for (BestView& view : views) view.allocate(arena, configuration.limits);
     scene = arena.template take<SceneGeometry>(1);
     dish.allocate_kept(arena, configuration);
-    const std::size_t shared = arena.mark();
+    kept_bytes = arena.mark();
     preparation.allocate(arena, configuration);
-    arena.rewind(shared);
+    arena.rewind(kept_bytes);
     // The tracks are still read while dishes are measured.
     geometry.allocate(arena, configuration);
     dish.allocate(arena, configuration);

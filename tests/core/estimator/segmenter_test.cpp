@@ -1,4 +1,5 @@
-// The segmentation's memory: none allocated, nothing behind the block, within the budget.
+// The segmentation's memory: none allocated, nothing behind the block, within the budget; and what the
+// estimator lends meanwhile.
 #include "core/estimator/segmenter.hpp"
 
 #include <gtest/gtest.h>
@@ -28,6 +29,17 @@ class Demo {
 
   const Configuration& configuration() const { return configuration_; }
   const Estimator& estimator() const { return *estimator_; }
+  // With given labels. `between` is called before each of the estimator's calls.
+  template <class Between>
+  std::vector<double> measure(const Between& between) {
+    estimator_->reset();
+    for (const LoadedView& view : views_) {
+      between();
+      static_cast<void>(estimator_->add_view({view.picture.frame(), view.labels.gray(), {}, {}}));
+    }
+    between();
+    return numbers_of(estimator_->estimate(5));
+  }
   SegmentedView view(std::size_t i) {
     const PictureSize size = views_[i].picture.size;
     SegmentedView view;
@@ -68,6 +80,18 @@ class Demo {
   std::unique_ptr<TestBlock> block_;
   std::unique_ptr<Estimator> estimator_;
 };
+
+TEST(EstimatorIdleMemory, MayBeOverwrittenBetweenCalls) {
+  Demo demo;
+  const std::span<std::byte> idle = demo.estimator().idle_memory();
+  EXPECT_GT(idle.size(), std::size_t{8} << 20U);
+  const auto untouched = demo.measure([] {});
+  ASSERT_EQ(untouched.front(), static_cast<double>(StatusCode::ok));
+  for (const int filling : {0x00, 0x5C, 0xFF})
+    EXPECT_TRUE(have_equal_bits(untouched, demo.measure([&] {
+      std::memset(idle.data(), filling, idle.size());
+    }))) << filling;
+}
 
 TEST(SegmenterMemory, NothingIsAllocated) {
   Demo demo;

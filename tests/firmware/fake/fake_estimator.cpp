@@ -88,6 +88,10 @@ TRAYGAUGE_FAKE ImageView<std::uint8_t> Estimator::gray_memory(std::size_t) const
   return {};
 }
 
+TRAYGAUGE_FAKE std::span<std::byte> Estimator::idle_memory() const {
+  return {};
+}
+
 TRAYGAUGE_FAKE const CardPattern* Estimator::card_pattern() const {
   return nullptr;
 }

@@ -3,9 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <cstring>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "firmware/base/aligned_block.hpp"
 #include "firmware/card/card_finder.hpp"
 #include "firmware/card/card_guide.hpp"
 #include "firmware/measure/pair_setup.hpp"
@@ -67,6 +69,23 @@ TEST_P(CardInDemo, GuidesAHand) {
   EXPECT_FALSE(guide.turned_deg(Picture({64, 64}, PixelFormat::rgb8).frame()));
   guide.begin(card_, lens(0), Picture(capture_.views[0].camera.size, PixelFormat::rgb8).frame());
   EXPECT_FALSE(guide.turned_deg(pictures_[1].frame()));
+}
+
+TEST_P(CardInDemo, GuidesAHandInLentMemory) {
+  const PictureSize size = capture_.views[0].camera.size;
+  const AlignedBlock lent(CardFinder::required_bytes(size.width, size.height));
+  std::memset(lent.bytes().data(), 0x5C, lent.bytes().size());
+  const auto guided = [&](CardGuide& guide, std::span<std::byte> memory) {
+    guide.begin(card_, lens(0), pictures_[0].frame(), memory);
+    return guide.turned_deg(pictures_[1].frame());
+  };
+  CardGuide own;
+  CardGuide changing;
+  const auto expected = guided(own, {});
+  ASSERT_TRUE(expected);
+  EXPECT_EQ(guided(changing, lent.bytes()), expected);
+  EXPECT_EQ(guided(changing, lent.bytes().first(lent.bytes().size() - 64)), expected);  // too little
+  EXPECT_EQ(guided(changing, lent.bytes()), expected);
 }
 
 INSTANTIATE_TEST_SUITE_P(Demo, CardInDemo, testing::Values("fish_and_potatoes", "mash_and_meatballs"));
