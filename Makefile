@@ -94,8 +94,8 @@ arm-test: build
 	tests/board/make_sysroot.sh $(arm_sysroot)
 	cmake --preset aarch64 $(options)
 	cmake --build --preset aarch64 -j $(JOBS) --target traygauge $(ARM_TESTS)
-	for test in $(ARM_TESTS); do find build-aarch64/tests -type f -name $$test; done | \
-	  xargs -P $(JOBS) -I TEST $(in_arm) TEST --gtest_brief=1
+	printf '%s\n' $(ARM_TESTS) | xargs -P $(JOBS) -I TEST \
+	  sh -c '$(in_arm) "$$(find build-aarch64/tests -type f -name TEST)" --gtest_brief=1'
 	RUN_B='$(in_arm)' LIMIT_ML=0.01 tests/captures/compare_builds.sh build build-aarch64 simulator/demo/*_and_*
 
 # The measurement refuses profile paper there; the tests that measure with it are left out.

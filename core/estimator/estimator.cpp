@@ -105,8 +105,8 @@ Estimator::Estimator(std::span<std::byte> block, const Configuration& configurat
   state.extrinsics.card_points = BoundedList<Vec3>(state.memory.extrinsics.card_points);
   state.reserved_bytes = block.size();
   state.used_bytes = arena.high_water_bytes();
-  if (is_best) state.idle = block.first(state.used_bytes).subspan(state.best.kept_bytes);
   if (is_best) {
+    state.idle = block.first(state.used_bytes).subspan(state.best.kept_bytes);
     const ReferenceCard& card = configuration.card;
     status_ =
         prepare_card_pattern(card.pattern, card.size(), configuration.best.card.pattern, state.best.pattern);

@@ -77,7 +77,7 @@ TEST_F(Report, DocumentOfAMeasurement) {
   EXPECT_EQ(json["timing_ms"]["total"], 91.0);
   EXPECT_EQ(json["timing_ms"]["setup"], 3.5);
   EXPECT_EQ(json["memory_bytes"], Json::parse(R"({"reserved":20000000,"used":19000000})"));
-  EXPECT_EQ(json["warnings"], Json({sentence(Warning::angle_small)}));
+  EXPECT_EQ(json["warnings"], Json({"The views lie less than 10 degrees apart; heights are uncertain."}));
 }
 
 TEST_F(Report, DocumentOfAPartialMeasurement) {
