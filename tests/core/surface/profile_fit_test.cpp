@@ -85,8 +85,8 @@ TEST_P(ProfileThroughRings, NeverRisesInwardOfTheCrestWhateverTheNoise) {
       ring.height_mm += std::normal_distribution<double>(0.0, 1.0)(random) * sigma_mm;
     }
     ASSERT_TRUE(fit().ok()) << round;
-    // Where exact heights are just above the bottom's level, noise takes them for the bottom.
-    EXPECT_LT(worst_mm(), 0.5 + ProfileFitParams{}.flat_mm + 4.0 * sigma_mm) << round;
+    // Noise chooses the points: the bowl's corner near the rim may fall between two.
+    EXPECT_LT(worst_mm(), 0.6 + 4.0 * sigma_mm) << round;
     const auto points = fitted_.dish.profile();
     std::size_t crest = 0;
     while (crest + 1 < points.size() && points[crest + 1].height_mm > points[crest].height_mm) ++crest;
