@@ -15,7 +15,7 @@ ifeq ($(CI),true)
 merged := -DCMAKE_UNITY_BUILD=ON -DCMAKE_UNITY_BUILD_BATCH_SIZE=12
 # A program of tests runs once: where sanitizers cannot, else with them. Those of the core and the drivers run for ARM as
 # they are shipped.
-once := -DTRAYGAUGE_SANITIZED_TESTS=OFF
+once := -DTRAYGAUGE_SANITIZED_TESTS=OFF -DTRAYGAUGE_WHOLE_TESTS=ON
 endif
 options := $(merged) $(if $(shell command -v ccache),-DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
 sources = git ls-files '*.cpp' '*.hpp'
