@@ -188,6 +188,7 @@ StepperConfig read_stepper(const JsonNode& table) {
   take(table, "acceleration_deg_per_s2", {0.1, 10'000.0}, motion.acceleration_deg_per_s2);
   take(table, "homing_speed_deg_per_s", {0.1, 1000.0}, motion.homing_speed_deg_per_s);
   take(table, "home_overlap_deg", {0.1, 20.0}, motion.home_overlap_deg);
+  take(table, "home_tolerance_deg", {0.1, 5.0}, motion.home_tolerance_deg);
   take_ms(table, "settling_ms", 0.0, 10'000.0, motion.settling_time);
   return stepper;
 }
@@ -207,7 +208,7 @@ ArmConfig read_arm(const JsonNode& table) {
   if (text == "stepper") {
     expect(table, {"kind", "second_view_deg", "step", "direction", "enable", "home", "home_bias", "inverted",
                    "steps_per_deg", "max_deg", "speed_deg_per_s", "acceleration_deg_per_s2",
-                   "homing_speed_deg_per_s", "home_overlap_deg", "settling_ms"});
+                   "homing_speed_deg_per_s", "home_overlap_deg", "home_tolerance_deg", "settling_ms"});
     arm.kind = read_stepper(table);
   } else if (text == "serial") {
     expect(table, {"kind", "second_view_deg", "device", "baud", "settling_ms"});
