@@ -139,11 +139,25 @@ DeviceStatus CameraControls::prepare(const ControlWishes& wishes) {
   return DeviceCode::ok;
 }
 
+// Read while the automatics are on, all before the first is switched off: exposure's takes gain along. Some
+// cameras go back to the last value that was set by hand, so what was found is written.
 DeviceStatus CameraControls::lock(const ControlWishes& wishes) {
+  DeviceStatus status = find_settled(wishes);
+  for (std::size_t i = 0; status.ok() && i < kCameraControlCount; ++i) {
+    if (wishes[i].kind == ControlWish::Kind::hold)
+      status = switch_automatic(static_cast<CameraControl>(i), false);
+  }
+  for (std::size_t i = 0; status.ok() && i < kCameraControlCount; ++i) {
+    if (wishes[i].kind == ControlWish::Kind::hold && held_[i].id != 0)
+      status = hold(static_cast<CameraControl>(i));
+  }
+  return status.ok() ? verify() : status;
+}
+
+DeviceStatus CameraControls::find_settled(const ControlWishes& wishes) {
   for (std::size_t i = 0; i < kCameraControlCount; ++i) {
-    const auto control = static_cast<CameraControl>(i);
     if (wishes[i].kind != ControlWish::Kind::hold) continue;
-    if (const DeviceStatus status = switch_automatic(control, false); !status.ok()) return status;
+    const auto control = static_cast<CameraControl>(i);
     for (const Value& known : description(control).values) {
       if (!find_control(device_, known.id)) continue;
       int found = 0;
@@ -154,6 +168,28 @@ DeviceStatus CameraControls::lock(const ControlWishes& wishes) {
       break;
     }
   }
+  return DeviceCode::ok;
+}
+
+DeviceStatus CameraControls::hold(CameraControl control) {
+  Held& held = held_[static_cast<std::size_t>(control)];
+  const auto query = find_control(device_, held.id);
+  if (!query || (query->flags & V4L2_CTRL_FLAG_READ_ONLY) != 0) return DeviceCode::ok;
+  const int settled = std::clamp(held.value, query->minimum, query->maximum);
+  if (const int error = write_control(device_, held.id, settled); error != 0) {
+    return fail(control, status_of_errno(error),
+                "it settled at " + std::to_string(settled * held.unit) + " and cannot be held there");
+  }
+  if (const int error = read_control(device_, held.id, held.value); error != 0) {
+    return fail(control, status_of_errno(error), "it cannot be read back");
+  }
+  if (std::abs(held.value - settled) <= std::max(0, query->step - 1)) return DeviceCode::ok;
+  return fail(control, DeviceCode::unsupported,
+              "it settled at " + std::to_string(settled * held.unit) + ", held the camera says " +
+                  std::to_string(held.value * held.unit));
+}
+
+DeviceStatus CameraControls::verify() {
   for (std::size_t i = 0; i < kCameraControlCount; ++i) {
     const Held& held = held_[i];
     int found = 0;

@@ -34,8 +34,8 @@ class CameraControls {
 
   // Sets the given values, and switches the automatics of those to hold on.
   DeviceStatus prepare(const ControlWishes& wishes);
-  // After the picture has settled: switches every automatic off and holds what it found. Then each value
-  // that was set or is held is what the camera says.
+  // After the picture has settled: switches every automatic off and sets what it found. Then each value that
+  // was set or is held is what the camera says.
   DeviceStatus lock(const ControlWishes& wishes);
   // Which control, what was set and what the camera says; after a failure.
   const std::string& problem() const { return problem_; }
@@ -51,6 +51,9 @@ class CameraControls {
     int unit = 1;  // of the name in steps of the camera
   };
   DeviceStatus set_value(CameraControl control, int value);
+  DeviceStatus find_settled(const ControlWishes& wishes);
+  DeviceStatus hold(CameraControl control);
+  DeviceStatus verify();
   DeviceStatus switch_automatic(CameraControl control, bool on);
   DeviceStatus fail(CameraControl control, DeviceStatus status, const std::string& what);
 

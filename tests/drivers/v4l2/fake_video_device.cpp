@@ -14,6 +14,10 @@ namespace {
 constexpr Nanoseconds kFrameTime = std::chrono::nanoseconds(33'333'333);
 constexpr Nanoseconds kTransferTime = std::chrono::milliseconds(10);
 
+bool is_off(const v4l2_control& automatic) {
+  return automatic.value == (automatic.id == V4L2_CID_EXPOSURE_AUTO ? V4L2_EXPOSURE_MANUAL : 0);
+}
+
 template <class T>
 T& as(void* argument) {
   return *static_cast<T*>(argument);
@@ -214,6 +218,10 @@ int FakeVideoDevice::write_control(const v4l2_control& control) {
   FakeControl& own = found->second;
   if (control.value < own.minimum || control.value > own.maximum) return ERANGE;
   camera_.set_controls.push_back(std::to_string(control.id) + "=" + std::to_string(control.value));
+  for (auto& [id, other] : camera_.controls) {
+    const bool is_its = other.automatic == control.id && own.value != control.value;
+    if (is_its && !own.is_stubborn && is_off(control)) other.value = other.by_hand;
+  }
   if (!own.is_stubborn) own.value = own.minimum + (control.value - own.minimum) / own.step * own.step;
   return 0;
 }

@@ -27,6 +27,10 @@ struct FakeControl {
   int step = 1;
   int value = 0;
   bool is_stubborn = false;  // takes a value and keeps its own
+  // Which control's automatic moves `value`, and the last value that was set by hand, to which this one goes
+  // back when that automatic is switched off; 0: none.
+  std::uint32_t automatic = 0;
+  int by_hand = 0;
 };
 
 // What is special about the frames from one on, by their number since the camera was made.

@@ -29,6 +29,24 @@ TEST_F(V4l2Controls, AutomaticsSettleAndAreThenSwitchedOff) {
             "/dev/video7: YUYV 64x48 at 30 a second; exposure_us 15600, white_balance_k 4600, focus 30");
 }
 
+// Exposure's automatic sets the gain too, where that has none of its own.
+TEST_F(V4l2Controls, WhatTheAutomaticsFoundStaysWhereTheCameraWouldGoBackToItsOwn) {
+  kernel_.controls[V4L2_CID_GAIN] = {0, 255, 1, 77, false, V4L2_CID_EXPOSURE_AUTO, 0};
+  kernel_.controls[V4L2_CID_EXPOSURE_ABSOLUTE] = {1, 5000, 1, 156, false, V4L2_CID_EXPOSURE_AUTO, 3};
+  kernel_.controls[V4L2_CID_FOCUS_ABSOLUTE] = {0, 250, 5, 30, false, V4L2_CID_FOCUS_AUTO, 0};
+  ASSERT_EQ(start(), DeviceCode::ok) << camera().detail();
+  EXPECT_EQ(value(V4L2_CID_EXPOSURE_ABSOLUTE), 156);
+  EXPECT_EQ(value(V4L2_CID_GAIN), 77);
+  EXPECT_EQ(value(V4L2_CID_FOCUS_ABSOLUTE), 30);
+  EXPECT_EQ(camera().held(CameraControl::gain), 77);
+}
+
+TEST_F(V4l2Controls, WhatGoesBackToItsOwnAndStaysThereIsTold) {
+  kernel_.controls[V4L2_CID_EXPOSURE_ABSOLUTE] = {1, 5000, 1, 156, true, V4L2_CID_EXPOSURE_AUTO, 3};
+  EXPECT_EQ(start(), DeviceCode::unsupported);
+  EXPECT_EQ(camera().detail(), "exposure_us: it settled at 15600, held the camera says 300");
+}
+
 TEST_F(V4l2Controls, GivenValuesAreSetAfterTheirAutomaticIsOffAndReadBack) {
   wish(CameraControl::exposure) = {ControlWish::Kind::value, 20'000};
   wish(CameraControl::focus) = {ControlWish::Kind::value, 120};
