@@ -10,7 +10,8 @@
 namespace traygauge {
 namespace {
 
-// How the kernel names a control. `unit`: of the configuration's number in steps of the kernel.
+// How the kernel names a control. `unit`: of the configuration's number in steps of the kernel; 0 where the
+// driver alone knows, such as the lines of a sensor.
 struct Value {
   std::uint32_t id;
   int unit;
@@ -29,7 +30,7 @@ struct Description {
 constexpr std::array<Description, kCameraControlCount> kDescriptions = {{
     {"exposure_us",
      {V4L2_CID_EXPOSURE_AUTO, V4L2_EXPOSURE_MANUAL, {V4L2_EXPOSURE_AUTO, V4L2_EXPOSURE_APERTURE_PRIORITY}},
-     {{{V4L2_CID_EXPOSURE_ABSOLUTE, 100}, {V4L2_CID_EXPOSURE, 1}}}},
+     {{{V4L2_CID_EXPOSURE_ABSOLUTE, 100}, {V4L2_CID_EXPOSURE, 0}}}},
     {"gain", {V4L2_CID_AUTOGAIN, 0, {1, 1}}, {{{V4L2_CID_GAIN, 1}, {V4L2_CID_ANALOGUE_GAIN, 1}}}},
     {"white_balance_k",
      {V4L2_CID_AUTO_WHITE_BALANCE, 0, {1, 1}},
@@ -49,6 +50,16 @@ std::optional<v4l2_queryctrl> find_control(VideoDevice& device, std::uint32_t id
   if (device.request(VIDIOC_QUERYCTRL, &query) != 0) return std::nullopt;
   if ((query.flags & V4L2_CTRL_FLAG_DISABLED) != 0) return std::nullopt;
   return query;
+}
+
+bool has_value(VideoDevice& device, CameraControl control) {
+  const auto& values = description(control).values;
+  return std::any_of(values.begin(), values.end(),
+                     [&device](const Value& value) { return find_control(device, value.id).has_value(); });
+}
+
+std::string in_unit(int value, int unit) {
+  return unit == 0 ? std::to_string(value) + " of its own" : std::to_string(value * unit);
 }
 
 int read_control(VideoDevice& device, std::uint32_t id, int& value) {
@@ -100,6 +111,11 @@ DeviceStatus CameraControls::set_value(CameraControl control, int value) {
   for (const Value& known : description(control).values) {
     const auto query = find_control(device_, known.id);
     if (!query) continue;
+    if (known.unit == 0) {
+      return fail(control, DeviceCode::unsupported,
+                  "the camera counts in a unit of its own, such as lines; set it with v4l2-ctl before the "
+                  "station starts, and write \"hold\" here");
+    }
     const int steps = value / known.unit;
     if (steps < query->minimum || steps > query->maximum) {
       return fail(control, DeviceCode::unsupported,
@@ -132,6 +148,13 @@ DeviceStatus CameraControls::prepare(const ControlWishes& wishes) {
     const auto control = static_cast<CameraControl>(i);
     if (wishes[i].kind == ControlWish::Kind::leave) continue;
     const bool holds = wishes[i].kind == ControlWish::Kind::hold;
+    // What every camera has; where this node cannot hold it, something else moves it.
+    if (holds && control == CameraControl::exposure && !has_value(device_, control)) {
+      return fail(control, DeviceCode::unsupported,
+                  "the camera's node has no control that could hold it. A sensor on the board has its own on "
+                  "another node: set exposure and gain there (v4l2-ctl --list-devices), and write \"leave\" "
+                  "here");
+    }
     DeviceStatus status = switch_automatic(control, holds);
     if (status.ok() && !holds) status = set_value(control, wishes[i].value);
     if (!status.ok()) return status;
@@ -178,15 +201,15 @@ DeviceStatus CameraControls::hold(CameraControl control) {
   const int settled = std::clamp(held.value, query->minimum, query->maximum);
   if (const int error = write_control(device_, held.id, settled); error != 0) {
     return fail(control, status_of_errno(error),
-                "it settled at " + std::to_string(settled * held.unit) + " and cannot be held there");
+                "it settled at " + in_unit(settled, held.unit) + " and cannot be held there");
   }
   if (const int error = read_control(device_, held.id, held.value); error != 0) {
     return fail(control, status_of_errno(error), "it cannot be read back");
   }
   if (std::abs(held.value - settled) <= std::max(0, query->step - 1)) return DeviceCode::ok;
   return fail(control, DeviceCode::unsupported,
-              "it settled at " + std::to_string(settled * held.unit) + ", held the camera says " +
-                  std::to_string(held.value * held.unit));
+              "it settled at " + in_unit(settled, held.unit) + ", held the camera says " +
+                  in_unit(held.value, held.unit));
 }
 
 DeviceStatus CameraControls::verify() {
@@ -199,8 +222,8 @@ DeviceStatus CameraControls::verify() {
     }
     if (found != held.value) {
       return fail(static_cast<CameraControl>(i), DeviceCode::unsupported,
-                  "it stood at " + std::to_string(held.value * held.unit) + " and went to " +
-                      std::to_string(found * held.unit) + " by itself");
+                  "it stood at " + in_unit(held.value, held.unit) + " and went to " +
+                      in_unit(found, held.unit) + " by itself");
     }
   }
   return DeviceCode::ok;
@@ -208,7 +231,7 @@ DeviceStatus CameraControls::verify() {
 
 std::optional<int> CameraControls::held(CameraControl control) const {
   const Held& held = held_[static_cast<std::size_t>(control)];
-  return held.id != 0 ? std::optional(held.value * held.unit) : std::nullopt;
+  return held.id != 0 && held.unit != 0 ? std::optional(held.value * held.unit) : std::nullopt;
 }
 
 std::string CameraControls::describe() const {
@@ -216,7 +239,7 @@ std::string CameraControls::describe() const {
   for (std::size_t i = 0; i < kCameraControlCount; ++i) {
     if (held_[i].id == 0) continue;
     text += (text.empty() ? "" : ", ") + std::string(kDescriptions[i].name) + " " +
-            std::to_string(held_[i].value * held_[i].unit);
+            in_unit(held_[i].value, held_[i].unit);
   }
   return text.empty() ? "the camera has nothing to hold" : text;
 }

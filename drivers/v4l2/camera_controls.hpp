@@ -19,7 +19,9 @@ const char* name(CameraControl control);
 
 struct ControlWish {
   enum class Kind : std::uint8_t {
-    hold,   // the camera's automatic settles, then keeps its value; nothing where there is no such control
+    // The camera's automatic settles, then keeps its value. Nothing where there is no such control, but for
+    // exposure, which every camera has: that it cannot be held is told.
+    hold,
     value,  // this value, from the start
     leave,  // as it is
   };
@@ -39,7 +41,8 @@ class CameraControls {
   DeviceStatus lock(const ControlWishes& wishes);
   // Which control, what was set and what the camera says; after a failure.
   const std::string& problem() const { return problem_; }
-  // What is held of a control, in the unit of its name; nothing where the camera has none, or it may vary.
+  // What is held of a control, in the unit of its name; nothing where the camera has none, or it may vary,
+  // or counts in a unit of its own.
   std::optional<int> held(CameraControl control) const;
   // "exposure_us 15600, focus 30": what is held, after lock().
   std::string describe() const;
@@ -48,7 +51,7 @@ class CameraControls {
   struct Held {
     std::uint32_t id = 0;  // 0: the camera has no such control
     int value = 0;
-    int unit = 1;  // of the name in steps of the camera
+    int unit = 1;  // of the name in steps of the camera; 0: not known
   };
   DeviceStatus set_value(CameraControl control, int value);
   DeviceStatus find_settled(const ControlWishes& wishes);

@@ -43,7 +43,7 @@ DeviceStatus V4l2Camera::do_start() {
   DeviceStatus status = open_and_set_up();
   if (status.ok()) status = controls_.prepare(params_.controls);
   if (!status.ok() && !controls_.problem().empty()) set_detail(controls_.problem());
-  if (status.ok()) status = stream_.start(std::min(params_.burst, kKeptFrames) + kSpareBuffers);
+  if (status.ok()) status = start_stream();
   if (status.ok()) status = settle();
   if (status.ok()) {
     status = controls_.lock(params_.controls);
@@ -52,6 +52,15 @@ DeviceStatus V4l2Camera::do_start() {
   status = notice_removal(status);
   if (!status.ok()) do_stop();
   return status;
+}
+
+DeviceStatus V4l2Camera::start_stream() {
+  const DeviceStatus status = stream_.start(std::min(params_.burst, kKeptFrames) + kSpareBuffers);
+  if (status.error_number() != EPIPE) return status;
+  return fail({DeviceCode::unsupported, EPIPE},
+              "the parts behind " + node_ +
+                  " are not connected, or set to another format; set each link to " +
+                  describe_wish(params_.mode) + " with media-ctl before the station starts");
 }
 
 // A camera that is being unplugged may fail in any way before the kernel has removed it.

@@ -61,6 +61,7 @@ class V4l2Camera final : public Camera {
 
   DeviceStatus open_and_set_up();
   DeviceStatus set_mode();
+  DeviceStatus start_stream();
   DeviceStatus settle();
   void count(const FilledBuffer& filled);
   CapturedFrame date(const FilledBuffer& filled) const;

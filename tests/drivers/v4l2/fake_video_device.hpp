@@ -47,7 +47,8 @@ struct FakeCamera {
   SimulatedClock& clock;
   std::string node = "/dev/video7";
   std::vector<FakeMode> modes = {FakeMode{}};
-  std::map<std::uint32_t, FakeControl> controls;
+  std::map<std::uint32_t, FakeControl> controls = {{V4L2_CID_EXPOSURE_AUTO, {0, 3, 1, 3}},
+                                                   {V4L2_CID_EXPOSURE_ABSOLUTE, {1, 5000, 1, 156}}};
   std::map<int, FakeFrame> frames;                    // those with something special
   std::map<int, std::vector<std::uint8_t>> pictures;  // from this frame on, instead of noise
   std::uint32_t stamp_flags = V4L2_BUF_FLAG_TIMESTAMP_MONOTONIC | V4L2_BUF_FLAG_TSTAMP_SRC_SOE;

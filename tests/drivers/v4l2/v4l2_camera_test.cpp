@@ -30,14 +30,10 @@ TEST_F(V4l2, ChoosesTheFormatWithoutLossThatIsFastEnough) {
                    {V4L2_PIX_FMT_MJPEG, 64, 48, {60, 30}},
                    {V4L2_PIX_FMT_YUYV, 64, 48, {15, 5}}};
   params_.settle_frames = 0;
-  EXPECT_EQ(chosen({64, 48, "", 0.0}),
-            "/dev/video7: YUYV 64x48 at 15 a second; the camera has nothing to hold");
-  EXPECT_EQ(chosen({64, 48, "", 5.0}),
-            "/dev/video7: YUYV 64x48 at 5 a second; the camera has nothing to hold");
-  EXPECT_EQ(chosen({64, 48, "", 20.0}),
-            "/dev/video7: MJPEG 64x48 at 30 a second; the camera has nothing to hold");
-  EXPECT_EQ(chosen({64, 48, "GREY", 0.0}),
-            "/dev/video7: GREY 64x48 at 60 a second; the camera has nothing to hold");
+  EXPECT_EQ(chosen({64, 48, "", 0.0}), "/dev/video7: YUYV 64x48 at 15 a second; exposure_us 15600");
+  EXPECT_EQ(chosen({64, 48, "", 5.0}), "/dev/video7: YUYV 64x48 at 5 a second; exposure_us 15600");
+  EXPECT_EQ(chosen({64, 48, "", 20.0}), "/dev/video7: MJPEG 64x48 at 30 a second; exposure_us 15600");
+  EXPECT_EQ(chosen({64, 48, "GREY", 0.0}), "/dev/video7: GREY 64x48 at 60 a second; exposure_us 15600");
   EXPECT_EQ(camera().format().pixels, PixelFormat::gray8);
 }
 
@@ -55,6 +51,12 @@ TEST_F(V4l2, SaysWhyTheNodeCannotBeOpened) {
   kernel_.errors[VIDIOC_QUERYCAP] = ENOTTY;
   EXPECT_EQ(start(), DeviceCode::unsupported);
   EXPECT_EQ(start(), DeviceCode::ok);
+}
+
+TEST_F(V4l2, SaysThatTheLinksBehindANodeHaveToBeSet) {
+  kernel_.errors[VIDIOC_STREAMON] = EPIPE;
+  EXPECT_EQ(start(), DeviceCode::unsupported);
+  EXPECT_TRUE(detail_has("media-ctl")) << camera().detail();
 }
 
 TEST_F(V4l2, EveryRequestMayFailOnceAndNothingStaysBehind) {
