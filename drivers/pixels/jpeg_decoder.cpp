@@ -5,6 +5,8 @@
 #include <cstdio>  // jpeglib.h needs FILE
 // jpeglib.h relies on the two above.
 #include <jpeglib.h>
+// and this on the one before.
+#include <jerror.h>
 
 #include <algorithm>
 #include <array>
@@ -41,8 +43,9 @@ struct JpegDecoder::State {
     library.client_data = this;
     errors.error_exit = [](j_common_ptr common) { of(common).leave(); };
     errors.emit_message = [](j_common_ptr common, int level) {
-      // Damaged data is a warning to the library, which invents the rest.
-      if (level < 0) of(common).leave();
+      // Damaged data is a warning to the library, which invents the rest. But bytes too many before a marker,
+      // which several cameras send in every picture, are skipped and cost nothing.
+      if (level < 0 && common->err->msg_code != JWRN_EXTRANEOUS_DATA) of(common).leave();
     };
     errors.output_message = [](j_common_ptr) {};
     jpeg_create_decompress(&library);

@@ -21,7 +21,8 @@ class JpegDecoder {
   JpegDecoder& operator=(const JpegDecoder&) = delete;
 
   // Red, green, blue, rows without padding; `rgb` has room for width × height × 3. False when the picture is
-  // damaged anywhere, or of another size: problem() says which.
+  // damaged anywhere, or of another size: problem() says which. Superfluous bytes before a marker are no
+  // damage.
   bool decode(std::span<const std::uint8_t> bytes, int width, int height, std::uint8_t* rgb);
   std::string_view problem() const;
 

@@ -97,6 +97,21 @@ TEST_F(Jpeg, RefusesAPictureWithAHole) {
   EXPECT_EQ(refused, 7);
 }
 
+// Several cameras send a few bytes too many before a marker, always.
+TEST_F(Jpeg, BytesTooManyBeforeAMarkerChangeNothing) {
+  const auto bytes = encode(4);
+  ASSERT_TRUE(decode(bytes));
+  const auto plain = rgb_;
+  for (const bool at_the_end : {false, true}) {
+    auto spliced = bytes;
+    const auto at = at_the_end ? spliced.end() - 2 : spliced.begin() + 2;
+    spliced.insert(at, {0x11, 0x22, 0x33});
+    rgb_.assign(rgb_.size(), 0);
+    ASSERT_TRUE(decode(spliced)) << decoder_.problem();
+    EXPECT_EQ(rgb_, plain);
+  }
+}
+
 TEST_F(Jpeg, SurvivesAnyBytes) {
   std::mt19937 random(20261122);
   const auto bytes = encode(5);
