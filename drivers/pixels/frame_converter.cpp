@@ -58,20 +58,23 @@ void FrameConverter::copy_rows(const RawFrame& frame, std::uint8_t* out) const {
 }
 
 // Differences between neighbours of one colour, squared, in every eighth row.
-double FrameConverter::sharpness(std::span<const std::uint8_t> bytes) const {
+double FrameConverter::sharpness(std::span<const std::uint8_t> bytes) {
   if (format_.encoding == RawEncoding::mjpeg) return static_cast<double>(jpeg_length(bytes));
-  const bool has_two_bytes = format_.encoding == RawEncoding::bayer && format_.bits > 8 && !format_.is_packed;
-  const std::size_t row = row_bytes(format_, width_);
+  const bool is_mosaic = format_.encoding == RawEncoding::bayer;
   std::size_t step = 2;  // YUYV: grey to grey; mosaic: colour to colour
   if (format_.encoding == RawEncoding::rgb24 || format_.encoding == RawEncoding::bgr24) step = 3;
-  if (has_two_bytes) step = 4;
+  const std::size_t count = is_mosaic ? static_cast<std::size_t>(width_) : row_bytes(format_, width_);
   constexpr int kRowStep = 8;
   double sum = 0.0;
   for (int y = 0; y < height_; y += kRowStep) {
-    const std::uint8_t* const pixels = bytes.data() + y * stride_bytes_ + (has_two_bytes ? 1 : 0);
+    const std::uint8_t* samples = bytes.data() + y * stride_bytes_;
+    if (is_mosaic) {
+      unpack_bayer_row(format_, samples, width_, scratch_.data());
+      samples = scratch_.data();
+    }
     std::int64_t row_sum = 0;
-    for (std::size_t i = 0; i + step < row - (has_two_bytes ? 1 : 0); i += step) {
-      const int difference = pixels[i] - pixels[i + step];
+    for (std::size_t i = 0; i + step < count; i += step) {
+      const int difference = samples[i] - samples[i + step];
       row_sum += std::int64_t{difference} * difference;
     }
     sum += static_cast<double>(row_sum);

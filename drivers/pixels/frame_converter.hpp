@@ -30,7 +30,7 @@ class FrameConverter {
   bool convert(std::span<const std::uint8_t> bytes, std::uint8_t* out);
   // How much fine detail a whole picture has. Compares pictures of one scene; no unit. For MJPEG its length:
   // at one quality, detail is what takes bytes.
-  double sharpness(std::span<const std::uint8_t> bytes) const;
+  double sharpness(std::span<const std::uint8_t> bytes);
   std::string_view problem() const { return problem_; }
 
  private:
