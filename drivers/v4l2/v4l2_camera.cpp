@@ -137,11 +137,19 @@ DeviceStatus V4l2Camera::set_mode() {
   return DeviceCode::ok;
 }
 
+DeviceStatus V4l2Camera::take(Instant deadline, FilledBuffer& filled) {
+  while (true) {
+    const Nanoseconds left = deadline - clock_.now();
+    const DeviceStatus status = stream_.take(std::max(left, Nanoseconds::zero()), filled);
+    if (status.code() != DeviceCode::timed_out || clock_.now() >= deadline) return status;
+  }
+}
+
 // The first frames: automatics still move, and some cameras begin with damaged ones.
 DeviceStatus V4l2Camera::settle() {
   for (int i = 0; i < params_.settle_frames; ++i) {
     FilledBuffer filled;
-    DeviceStatus status = stream_.take(params_.first_frame_timeout, filled);
+    DeviceStatus status = take(clock_.now() + params_.first_frame_timeout, filled);
     if (status.code() == DeviceCode::timed_out) return fail(status, "it streams no pictures");
     if (status.ok()) count(filled);
     if (status.ok()) status = stream_.give_back(filled);
@@ -194,11 +202,9 @@ DeviceStatus V4l2Camera::collect(Instant asked_at, Instant deadline) {
   bool saw_damage = false;
   int seen = 0;
   while (seen < std::max(1, params_.burst)) {
-    const Nanoseconds left = deadline - clock_.now();
     FilledBuffer filled;
-    const DeviceStatus status = stream_.take(std::max(left, Nanoseconds::zero()), filled);
+    const DeviceStatus status = take(deadline, filled);
     if (status.code() == DeviceCode::timed_out) {
-      if (clock_.now() < deadline) continue;
       if (!candidates_.empty()) return DeviceCode::ok;
       return saw_damage ? DeviceCode::torn_frame : DeviceCode::timed_out;
     }

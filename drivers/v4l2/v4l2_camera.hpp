@@ -62,6 +62,7 @@ class V4l2Camera final : public Camera {
   DeviceStatus open_and_set_up();
   DeviceStatus set_mode();
   DeviceStatus start_stream();
+  DeviceStatus take(Instant deadline, FilledBuffer& filled);
   DeviceStatus settle();
   void count(const FilledBuffer& filled);
   CapturedFrame date(const FilledBuffer& filled) const;

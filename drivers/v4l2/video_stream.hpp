@@ -35,7 +35,7 @@ class VideoStream {
   void stop();
   int buffer_count() const { return static_cast<int>(buffers_.size()); }
 
-  // A filled buffer, waiting at most `timeout`: timed_out when there was none.
+  // A filled buffer, waiting at most `timeout`: timed_out when there was none, which may be earlier.
   DeviceStatus take(Nanoseconds timeout, FilledBuffer& buffer);
   DeviceStatus give_back(const FilledBuffer& buffer);
 

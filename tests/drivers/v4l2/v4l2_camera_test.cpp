@@ -255,6 +255,14 @@ TEST_F(V4l2, UnplugThatBeginsWithAFailedBufferIsTold) {
   EXPECT_EQ(capture(), DeviceCode::device_gone);
 }
 
+// A wait may end without a frame.
+TEST_F(V4l2, NewsThatIsNoFrameIsWaitedOver) {
+  kernel_.errors[VIDIOC_DQBUF] = EAGAIN;
+  ASSERT_EQ(start(), DeviceCode::ok) << camera().detail();
+  kernel_.errors[VIDIOC_DQBUF] = EAGAIN;
+  EXPECT_EQ(capture(), DeviceCode::ok) << camera().detail();
+}
+
 TEST_F(V4l2, AFailedBufferOfACameraThatIsThereIsNoUnplug) {
   ASSERT_EQ(start(), DeviceCode::ok);
   kernel_.errors[VIDIOC_DQBUF] = EIO;
