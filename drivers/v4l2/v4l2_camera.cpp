@@ -54,6 +54,22 @@ DeviceStatus V4l2Camera::do_start() {
   return status;
 }
 
+// The camera may take another rate than it was asked for, and says which.
+void V4l2Camera::set_rate() {
+  if (mode_.frames_per_s <= 0.0) return;
+  constexpr double kFractions = 10'000.0;
+  v4l2_streamparm rate{};
+  rate.type = V4L2_BUF_TYPE_VIDEO_CAPTURE;
+  v4l2_fract& interval = rate.parm.capture.timeperframe;
+  interval.numerator = static_cast<std::uint32_t>(kFractions);
+  interval.denominator = static_cast<std::uint32_t>(mode_.frames_per_s * kFractions + 0.5);
+  if (device_->request(VIDIOC_S_PARM, &rate) != 0) {
+    mode_.frames_per_s = 0.0;
+  } else if (interval.numerator > 0 && interval.denominator > 0) {
+    mode_.frames_per_s = static_cast<double>(interval.denominator) / interval.numerator;
+  }
+}
+
 DeviceStatus V4l2Camera::start_stream() {
   const DeviceStatus status = stream_.start(std::min(params_.burst, kKeptFrames) + kSpareBuffers);
   if (status.error_number() != EPIPE) return status;
@@ -100,7 +116,8 @@ DeviceStatus V4l2Camera::open_and_set_up() {
 DeviceStatus V4l2Camera::set_mode() {
   std::vector<OfferedMode> modes;
   std::vector<std::string> unknown;
-  if (const DeviceStatus status = list_modes(*device_, modes, unknown); !status.ok()) return status;
+  if (const DeviceStatus status = list_modes(*device_, params_.mode, modes, unknown); !status.ok())
+    return status;
   const auto chosen = choose_mode(modes, params_.mode);
   const auto refuse = [&](const std::string& what) {
     return fail(DeviceCode::unsupported, what + "; it offers " + describe_modes(modes, unknown));
@@ -122,15 +139,7 @@ DeviceStatus V4l2Camera::set_mode() {
                       pix.pixelformat == mode_.fourcc;
   if (!is_set) return refuse("asked for " + describe_wish(params_.mode) + ", which it then did not do");
   if (pix.field != V4L2_FIELD_NONE) return refuse("its pictures are interlaced");
-  if (mode_.frames_per_s > 0.0) {
-    v4l2_streamparm rate{};
-    rate.type = V4L2_BUF_TYPE_VIDEO_CAPTURE;
-    rate.parm.capture.timeperframe.numerator = 10'000;
-    rate.parm.capture.timeperframe.denominator =
-        static_cast<std::uint32_t>(mode_.frames_per_s * 10'000.0 + 0.5);
-    // What cannot be set is told by the frames' times.
-    if (device_->request(VIDIOC_S_PARM, &rate) != 0) mode_.frames_per_s = 0.0;
-  }
+  set_rate();
   const auto least = static_cast<std::ptrdiff_t>(row_bytes(mode_.format, mode_.width));
   converter_.emplace(mode_.format, mode_.width, mode_.height,
                      std::max<std::ptrdiff_t>(least, pix.bytesperline));

@@ -61,6 +61,7 @@ class V4l2Camera final : public Camera {
 
   DeviceStatus open_and_set_up();
   DeviceStatus set_mode();
+  void set_rate();
   DeviceStatus start_stream();
   DeviceStatus take(Instant deadline, FilledBuffer& filled);
   DeviceStatus settle();

@@ -27,16 +27,17 @@ struct OfferedMode {
   bool has_size(int width, int height) const;
 };
 
-// Every mode in a format that we can convert. Others are named in `unknown`.
-DeviceStatus list_modes(VideoDevice& device, std::vector<OfferedMode>& modes,
-                        std::vector<std::string>& unknown);
-
 struct ModeWish {
   int width = 1600;
   int height = 1200;
   std::string format;         // by its name; empty: what is best
   double frames_per_s = 0.0;  // at least; 0: any, 10 and more where there is a choice
 };
+
+// Every mode in a format that we can convert, a range of sizes with its rates at the one that is wished.
+// Others are named in `unknown`.
+DeviceStatus list_modes(VideoDevice& device, const ModeWish& wish, std::vector<OfferedMode>& modes,
+                        std::vector<std::string>& unknown);
 
 struct ChosenMode {
   RawFormat format;

@@ -108,6 +108,8 @@ int FakeVideoDevice::request(unsigned long code, void* argument) {
     case VIDIOC_S_FMT:
       return set_format(as<v4l2_format>(argument));
     case VIDIOC_S_PARM:
+      if (camera_.granted_rate_per_s > 0)
+        as<v4l2_streamparm>(argument).parm.capture.timeperframe = {1, camera_.granted_rate_per_s};
       return 0;
     case VIDIOC_QUERYCTRL:
       return query_control(as<v4l2_queryctrl>(argument));
@@ -162,8 +164,10 @@ int FakeVideoDevice::enumerate_size(v4l2_frmsizeenum& entry) const {
   std::uint32_t index = 0;
   for (const FakeMode& mode : camera_.modes) {
     if (mode.fourcc != entry.pixel_format || index++ != entry.index) continue;
-    entry.type = V4L2_FRMSIZE_TYPE_DISCRETE;
-    entry.discrete = {mode.width, mode.height};
+    const bool is_range = mode.least_width > 0;
+    entry.type = is_range ? V4L2_FRMSIZE_TYPE_STEPWISE : V4L2_FRMSIZE_TYPE_DISCRETE;
+    if (is_range) entry.stepwise = {mode.least_width, mode.width, 8, mode.least_height, mode.height, 8};
+    if (!is_range) entry.discrete = {mode.width, mode.height};
     return 0;
   }
   return EINVAL;
@@ -171,11 +175,13 @@ int FakeVideoDevice::enumerate_size(v4l2_frmsizeenum& entry) const {
 
 int FakeVideoDevice::enumerate_rate(v4l2_frmivalenum& entry) const {
   for (const FakeMode& mode : camera_.modes) {
-    const bool is_it =
-        mode.fourcc == entry.pixel_format && mode.width == entry.width && mode.height == entry.height;
-    if (!is_it || entry.index >= mode.rates_per_s.size()) continue;
+    const bool is_least = mode.least_width == entry.width && mode.least_height == entry.height;
+    const bool is_it = mode.fourcc == entry.pixel_format &&
+                       (is_least || (mode.width == entry.width && mode.height == entry.height));
+    const auto& rates = is_least ? mode.rates_at_least : mode.rates_per_s;
+    if (!is_it || entry.index >= rates.size()) continue;
     entry.type = V4L2_FRMIVAL_TYPE_DISCRETE;
-    entry.discrete = {1, mode.rates_per_s[entry.index]};
+    entry.discrete = {1, rates[entry.index]};
     return 0;
   }
   return EINVAL;
@@ -186,8 +192,12 @@ int FakeVideoDevice::set_format(v4l2_format& format) {
   for (const FakeMode& mode : camera_.modes) {
     mode_ = mode;
     const auto& wanted = format.fmt.pix;
-    if (mode.fourcc == wanted.pixelformat && mode.width == wanted.width && mode.height == wanted.height)
-      break;
+    if (mode.fourcc != wanted.pixelformat) continue;
+    if (mode.width == wanted.width && mode.height == wanted.height) break;
+    if (mode.least_width == 0 || wanted.width > mode.width) continue;
+    mode_.width = wanted.width;
+    mode_.height = wanted.height;
+    break;
   }
   format.fmt.pix.width = mode_.width;
   format.fmt.pix.height = mode_.height;

@@ -19,6 +19,10 @@ struct FakeMode {
   std::uint32_t width = 64;
   std::uint32_t height = 48;
   std::vector<std::uint32_t> rates_per_s = {30};
+  // A range up to width x height, in steps of 8: from here on. At `rates_at_least` there are these rates.
+  std::uint32_t least_width = 0;
+  std::uint32_t least_height = 0;
+  std::vector<std::uint32_t> rates_at_least = {};
 };
 
 struct FakeControl {
@@ -58,6 +62,7 @@ struct FakeCamera {
   bool is_silent = false;
   bool may_not_open = false;
   std::uint32_t buffer_limit = 32;
+  std::uint32_t granted_rate_per_s = 0;  // whatever is asked for; 0: what is
 
   int opened = 0;
   int open_now = 0;

@@ -37,6 +37,17 @@ TEST_F(V4l2, ChoosesTheFormatWithoutLossThatIsFastEnough) {
   EXPECT_EQ(camera().format().pixels, PixelFormat::gray8);
 }
 
+TEST_F(V4l2, KnowsTheRateAtTheSizeThatIsAskedForAndTheOneThatItGot) {
+  kernel_.modes = {{V4L2_PIX_FMT_YUYV, 1600, 1200, {5}, 64, 48, {30}}};
+  params_.mode = {64, 48, "", 20.0};
+  ASSERT_EQ(start(), DeviceCode::ok) << camera().detail();
+  EXPECT_EQ(camera().describe_setup(), "/dev/video7: YUYV 64x48 at 30 a second; exposure_us 15600");
+  camera_.reset();
+  kernel_.granted_rate_per_s = 12;
+  ASSERT_EQ(start(), DeviceCode::ok) << camera().detail();
+  EXPECT_EQ(camera().describe_setup(), "/dev/video7: YUYV 64x48 at 12 a second; exposure_us 15600");
+}
+
 TEST_F(V4l2, SaysWhyTheNodeCannotBeOpened) {
   params_.device = "/dev/video9";
   EXPECT_EQ(start(), DeviceCode::device_gone);
