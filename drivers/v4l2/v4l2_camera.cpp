@@ -181,17 +181,18 @@ void V4l2Camera::count(const FilledBuffer& filled) {
   if (!starts_anew) counters_.missed += step - 1;
 }
 
+// Also a stamp that is said to be of the exposure's start may come after it: uvcvideo's are of the first
+// bytes. Before these the exposure took an interval or what is held, and readout and packing take another.
 CapturedFrame V4l2Camera::date(const FilledBuffer& filled) const {
   CapturedFrame times;
   const double rate = mode_.frames_per_s > 0.0 ? mode_.frames_per_s : kAssumedRate_per_s;
   const auto interval = std::chrono::round<Nanoseconds>(std::chrono::duration<double>(1.0 / rate));
+  const Nanoseconds exposure = std::chrono::microseconds(held(CameraControl::exposure).value_or(0));
   const Instant now = clock_.now();
-  const bool knows_start = filled.stamped_at && filled.is_stamped_at_start;
   // Some drivers round their stamps up, into the future.
   const Instant stamped_at = std::min(filled.stamped_at.value_or(now), now);
-  times.delivered_at = knows_start ? now : stamped_at;
-  // Exposure and readout take an interval each at most.
-  times.exposed_at = knows_start ? stamped_at : stamped_at - 2 * interval;
+  times.delivered_at = filled.is_stamped_at_start ? now : stamped_at;
+  times.exposed_at = stamped_at - std::max(exposure, interval) - interval;
   times.sequence = number_;
   return times;
 }

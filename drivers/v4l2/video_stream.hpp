@@ -17,7 +17,7 @@ struct FilledBuffer {
   std::span<const std::uint8_t> bytes;
   std::uint32_t sequence = 0;
   std::optional<Instant> stamped_at;  // by the kernel's monotonic clock, where it says so
-  bool is_stamped_at_start = false;   // of the exposure; else when the frame was complete
+  bool is_stamped_at_start = false;   // of the frame; else when it was complete
   bool is_damaged = false;            // the kernel says so
 };
 

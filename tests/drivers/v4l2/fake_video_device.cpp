@@ -287,6 +287,7 @@ int FakeVideoDevice::wait(Nanoseconds timeout, bool& has_news) {
 
 void FakeVideoDevice::produce_until(Instant instant) {
   while (!camera_.is_gone && !camera_.is_silent && next_frame_at_ + kTransferTime <= instant) {
+    camera_.begun_at.push_back(next_frame_at_);
     fill(camera_.frame_count++, next_frame_at_);
     next_frame_at_ += kFrameTime;
   }

@@ -68,6 +68,7 @@ struct FakeCamera {
   int open_now = 0;
   int mapped_now = 0;
   int frame_count = 0;                    // produced, lost ones too
+  std::vector<Instant> begun_at;          // when the first bytes of each came
   std::vector<std::string> set_controls;  // "id=value"
 };
 

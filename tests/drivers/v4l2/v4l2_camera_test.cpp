@@ -111,6 +111,25 @@ TEST_F(V4l2, DeliversOnlyWhatWasExposedAfterTheRequest) {
   }
 }
 
+// uvcvideo stamps the first bytes, which come once the exposure is over, and calls them its start.
+TEST_F(V4l2, AStampIsNotBelievedToBeTheStartOfTheExposure) {
+  params_.burst = 1;
+  for (const int exposure_ms : {20, 100}) {
+    params_.controls[0] = {ControlWish::Kind::value, exposure_ms * 1000};
+    camera_.reset();
+    kernel_.begun_at.clear();
+    kernel_.frame_count = 0;
+    ASSERT_EQ(start(), DeviceCode::ok) << camera().detail();
+    for (int i = 0; i < 20; ++i) {
+      const Instant asked_at = clock_.now();
+      ASSERT_EQ(capture(), DeviceCode::ok);
+      const Instant first_bytes_at = kernel_.begun_at.at(frame_.sequence - 1);
+      EXPECT_GE(first_bytes_at - std::chrono::milliseconds(exposure_ms) - 30ms, asked_at);
+      clock_.sleep_for(i * 7ms);
+    }
+  }
+}
+
 TEST_F(V4l2, NoPictureComesFromTheFuture) {
   kernel_.stamp_offset = 15ms;
   for (const std::uint32_t source :
