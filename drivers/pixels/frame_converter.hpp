@@ -28,12 +28,22 @@ class FrameConverter {
   bool is_whole(std::span<const std::uint8_t> bytes);
   // Of a whole one. False when it turns out damaged; `out` has room for width × height pixels.
   bool convert(std::span<const std::uint8_t> bytes, std::uint8_t* out);
+  // The mean of a whole one's grey or colour values in every eighth row, 0 to 255; nothing when it turns out
+  // damaged. For MJPEG at an eighth of the resolution, which costs little.
+  std::optional<double> brightness(std::span<const std::uint8_t> bytes);
   // How much fine detail a whole picture has. Compares pictures of one scene; no unit. For MJPEG its length:
   // at one quality, detail is what takes bytes.
   double sharpness(std::span<const std::uint8_t> bytes);
   std::string_view problem() const { return problem_; }
 
  private:
+  // A row's values, of which each `step`-th from the first on are of one colour.
+  struct Samples {
+    const std::uint8_t* first = nullptr;
+    std::size_t count = 0;
+    std::size_t step = 1;
+  };
+  Samples samples_at(std::span<const std::uint8_t> bytes, int y);
   void copy_rows(const RawFrame& frame, std::uint8_t* out) const;
 
   RawFormat format_;

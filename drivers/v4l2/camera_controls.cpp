@@ -95,7 +95,10 @@ DeviceStatus CameraControls::switch_automatic(CameraControl control, bool on) {
     error = write_control(device_, automatic.id, choice);
     int found = 0;
     if (error == 0) error = read_control(device_, automatic.id, found);
-    if (error == 0 && found == choice) return DeviceCode::ok;
+    if (error == 0 && found == choice) {
+      is_automatic_ = is_automatic_ || on;
+      return DeviceCode::ok;
+    }
     if (error != 0 && status_of_errno(error).code() == DeviceCode::device_gone) break;
   }
   if (on && error == EINVAL) return DeviceCode::ok;  // it has only the manual setting
@@ -144,6 +147,7 @@ DeviceStatus CameraControls::set_value(CameraControl control, int value) {
 // Automatics first: while one is on, its value cannot be set.
 DeviceStatus CameraControls::prepare(const ControlWishes& wishes) {
   held_ = {};
+  is_automatic_ = false;
   for (std::size_t i = 0; i < kCameraControlCount; ++i) {
     const auto control = static_cast<CameraControl>(i);
     if (wishes[i].kind == ControlWish::Kind::leave) continue;
@@ -162,6 +166,17 @@ DeviceStatus CameraControls::prepare(const ControlWishes& wishes) {
   return DeviceCode::ok;
 }
 
+DeviceStatus CameraControls::release(const ControlWishes& wishes) {
+  is_automatic_ = false;
+  DeviceStatus status;
+  for (std::size_t i = 0; status.ok() && i < kCameraControlCount; ++i) {
+    const auto control = static_cast<CameraControl>(i);
+    const bool is_held = wishes[i].kind == ControlWish::Kind::hold && control != CameraControl::focus;
+    if (is_held) status = switch_automatic(control, true);
+  }
+  return status;
+}
+
 // Read while the automatics are on, all before the first is switched off: exposure's takes gain along. Some
 // cameras go back to the last value that was set by hand, so what was found is written.
 DeviceStatus CameraControls::lock(const ControlWishes& wishes) {
@@ -174,6 +189,7 @@ DeviceStatus CameraControls::lock(const ControlWishes& wishes) {
     if (wishes[i].kind == ControlWish::Kind::hold && held_[i].id != 0)
       status = hold(static_cast<CameraControl>(i));
   }
+  is_automatic_ = is_automatic_ && !status.ok();
   return status.ok() ? verify() : status;
 }
 

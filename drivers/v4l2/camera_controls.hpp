@@ -36,6 +36,11 @@ class CameraControls {
 
   // Sets the given values, and switches the automatics of those to hold on.
   DeviceStatus prepare(const ControlWishes& wishes);
+  // Switches the automatics of those to hold on again, but for focus: the lens was calibrated at the one that
+  // is held.
+  DeviceStatus release(const ControlWishes& wishes);
+  // Whether any automatic is on that lock() will switch off.
+  bool is_automatic() const { return is_automatic_; }
   // After the picture has settled: switches every automatic off and sets what it found. Then each value that
   // was set or is held is what the camera says.
   DeviceStatus lock(const ControlWishes& wishes);
@@ -62,6 +67,7 @@ class CameraControls {
 
   VideoDevice& device_;
   std::array<Held, kCameraControlCount> held_{};
+  bool is_automatic_ = false;
   std::string problem_;
 };
 

@@ -6,6 +6,7 @@
 #include <cerrno>
 #include <utility>
 
+#include "drivers/v4l2/brightness_watch.hpp"
 #include "drivers/v4l2/device_finder.hpp"
 
 namespace traygauge {
@@ -45,10 +46,7 @@ DeviceStatus V4l2Camera::do_start() {
   if (!status.ok() && !controls_.problem().empty()) set_detail(controls_.problem());
   if (status.ok()) status = start_stream();
   if (status.ok()) status = settle();
-  if (status.ok()) {
-    status = controls_.lock(params_.controls);
-    if (!status.ok()) set_detail(controls_.problem());
-  }
+  if (status.ok()) status = lock_controls();
   status = notice_removal(status);
   if (!status.ok()) do_stop();
   return status;
@@ -154,17 +152,39 @@ DeviceStatus V4l2Camera::take(Instant deadline, FilledBuffer& filled) {
   }
 }
 
-// The first frames: automatics still move, and some cameras begin with damaged ones.
+// The first frames, and those in which an automatic still moves.
 DeviceStatus V4l2Camera::settle() {
-  for (int i = 0; i < params_.settle_frames; ++i) {
+  BrightnessWatch watch;
+  const bool watches = params_.settle_frames > 0 && controls_.is_automatic();
+  const int limit = watches ? std::max(params_.settle_frames, params_.settle_frames_at_most) : 0;
+  for (int i = 0; i < params_.settle_frames || (i < limit && !watch.is_steady()); ++i) {
     FilledBuffer filled;
     DeviceStatus status = take(clock_.now() + params_.first_frame_timeout, filled);
     if (status.code() == DeviceCode::timed_out) return fail(status, "it streams no pictures");
-    if (status.ok()) count(filled);
-    if (status.ok()) status = stream_.give_back(filled);
+    if (!status.ok()) return status;
+    count(filled);
+    if (watches && !filled.is_damaged && converter_->is_whole(filled.bytes)) {
+      if (const auto mean = converter_->brightness(filled.bytes)) watch.add(*mean);
+    }
+    status = stream_.give_back(filled);
     if (!status.ok()) return status;
   }
   return DeviceCode::ok;
+}
+
+DeviceStatus V4l2Camera::lock_controls() {
+  const DeviceStatus status = controls_.lock(params_.controls);
+  return status.ok() ? status : fail(status, controls_.problem());
+}
+
+DeviceStatus V4l2Camera::do_settle_again() {
+  DeviceStatus status = controls_.release(params_.controls);
+  if (!status.ok()) set_detail(controls_.problem());
+  if (status.ok() && controls_.is_automatic()) {
+    status = settle();
+    if (status.ok()) status = lock_controls();
+  }
+  return notice_removal(status);
 }
 
 CameraFormat V4l2Camera::do_format() const {

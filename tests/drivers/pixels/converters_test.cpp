@@ -248,6 +248,24 @@ TEST_F(Converters, SharpnessOfAMosaicComparesEqualColours) {
   }
 }
 
+TEST_F(Converters, BrightnessIsTheMeanGrey) {
+  for (const int level : {0, 60, 255}) {
+    for (const RawFormat& format :
+         {RawFormat{RawEncoding::yuyv}, RawFormat{RawEncoding::nv12}, RawFormat{RawEncoding::grey},
+          RawFormat{RawEncoding::rgb24}, RawFormat{RawEncoding::bayer}}) {
+      const auto stride = static_cast<std::ptrdiff_t>(row_bytes(format, 32));
+      std::vector<std::uint8_t> bytes(frame_bytes(format, 32, 24, stride), static_cast<std::uint8_t>(level));
+      if (format.encoding == RawEncoding::yuyv)
+        for (std::size_t i = 1; i < bytes.size(); i += 2) bytes[i] = 128;
+      EXPECT_EQ(FrameConverter(format, 32, 24, stride).brightness(bytes), level) << name(format);
+    }
+    const RawFormat format{RawEncoding::bayer, BayerPattern::rggb, 10, true};
+    const auto stride = static_cast<std::ptrdiff_t>(row_bytes(format, 32));
+    const cv::Mat_<std::uint16_t> samples(24, 32, static_cast<std::uint16_t>(level << 2));
+    EXPECT_EQ(FrameConverter(format, 32, 24, stride).brightness(store(format, samples, stride)), level);
+  }
+}
+
 TEST(Fingerprint, ChangesWithEveryByte) {
   std::vector<std::uint8_t> bytes(1003, 7);
   const std::uint64_t whole = fingerprint(bytes);
