@@ -107,12 +107,14 @@ V4l2CameraParams read_camera(const JsonNode& table) {
 }
 
 GpioTriggerParams read_button(const JsonNode& table) {
-  expect(table, {"line", "active_low", "bias", "debounce_ms", "stuck_after_s", "long_press_s"});
+  expect(table,
+         {"line", "active_low", "bias", "debounce_ms", "least_closed_ms", "stuck_after_s", "long_press_s"});
   GpioTriggerParams button;
   button.line.line = read_line_name(table.member("line"));
   take(table, "active_low", button.line.is_active_low);
   if (const auto bias = table.find("bias")) button.line.bias = read_bias(*bias);
   take_ms(table, "debounce_ms", 1.0, 500.0, button.debounce);
+  take_ms(table, "least_closed_ms", 0.0, 30.0, button.least_closed);
   if (const auto node = table.find("stuck_after_s")) {
     button.stuck_after =
         std::chrono::round<Nanoseconds>(std::chrono::duration<double>(node->number({1.0, 3600.0})));

@@ -133,6 +133,29 @@ TEST_F(Button, NoPressIsMissedOrCountedTwiceWhateverTheBounces) {
   }
 }
 
+// What a motor couples into the wire, alone or just before somebody presses.
+TEST_F(Button, AGlitchIsNoPress) {
+  const Instant begun_at = clock_.now();
+  press(begun_at + 1s, 1us);
+  press(begun_at + 2s, 4ms);
+  press(begun_at + 3s, 3us);
+  press(begun_at + 3s + 100ms, 60ms);
+  for (int i = 0; i < 20; ++i) press(begun_at + 4s + i * 20ms, 5us);
+  press(begun_at + 6s, 60ms);
+  ASSERT_TRUE(trigger().start().ok());
+  EXPECT_EQ(presses(8s), (std::vector{begun_at + 3s + 100ms, begun_at + 6s}));
+}
+
+TEST_F(Button, APressIsToldAsSoonAsItIsSure) {
+  ASSERT_TRUE(trigger().start().ok());
+  const Instant pressed_at = clock_.now() + 1s;
+  press(pressed_at, 10s);
+  Press press_seen;
+  ASSERT_TRUE(trigger().wait_for_press(5s, press_seen).ok());
+  EXPECT_EQ(press_seen.at, pressed_at);
+  EXPECT_LE(clock_.now() - pressed_at, 6ms);
+}
+
 TEST_F(Button, APressWhoseFirstEdgeWasLostCountsOnce) {
   const Instant begun_at = clock_.now();
   press(begun_at + 1s, 100ms, 3);

@@ -67,7 +67,7 @@ TEST_F(StationFileTest, EveryKeyArrives) {
       "7.5\n"
       "exposure_us = 12000\ngain = \"leave\"\nwhite_balance_k = \"hold\"\nfocus = 30\nsettle_frames = 4\n"
       "burst = 5\nmay_repeat = true\n[button]\nline = \"x/3\"\nactive_low = false\nbias = \"pull-down\"\n"
-      "debounce_ms = 12.5\nstuck_after_s = 7\n" +
+      "debounce_ms = 12.5\nleast_closed_ms = 2.5\nstuck_after_s = 7\n" +
       std::string(kLamp) + kStepper +
       "enable = \"e\"\ninverted = [\"e\"]\nhome_bias = \"pull-up\"\nmax_deg = 30\nsecond_view_deg = 15\n"
       "speed_deg_per_s = 11\nacceleration_deg_per_s2 = 12\nhoming_speed_deg_per_s = 3\nhome_overlap_deg = "
@@ -90,6 +90,7 @@ TEST_F(StationFileTest, EveryKeyArrives) {
   EXPECT_FALSE(station.button.line.is_active_low);
   EXPECT_EQ(station.button.line.bias, GpioBias::pull_down);
   EXPECT_EQ(station.button.debounce, std::chrono::microseconds(12'500));
+  EXPECT_EQ(station.button.least_closed, std::chrono::microseconds(2500));
   EXPECT_EQ(station.button.stuck_after, std::chrono::seconds(7));
   EXPECT_EQ(station.lamp.table, (LampTable{0, 1, 2, 3, 1, 2, 2, 1, 2, 0}));
   const auto& stepper = std::get<StepperConfig>(station.arm->kind);
