@@ -17,7 +17,7 @@ class SerialPort {
   ~SerialPort() { close(); }
 
   // 8 bits, no parity, one stop bit, no flow control; forgets what was received before. `baud`: 9600, 19200,
-  // 38400, 57600, 115200 or 230400, else invalid_argument.
+  // 38400, 57600, 115200 or 230400, else invalid_argument. in_use while another program has it.
   DeviceStatus open(const std::string& path, int baud);
   void close();
   bool is_open() const { return descriptor_ >= 0; }
