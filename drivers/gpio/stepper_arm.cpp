@@ -1,5 +1,6 @@
 #include "drivers/gpio/stepper_arm.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <limits>
@@ -21,7 +22,27 @@ Nanoseconds seconds(double count) {
   return std::chrono::round<Nanoseconds>(std::chrono::duration<double>(count));
 }
 
+double off_switch_deg(const StepperArmParams& params) {
+  return 2.0 * params.home_overlap_deg;
+}
+double search_deg(const StepperArmParams& params) {
+  return params.limits.max_deg + kSearchMargin_deg;
+}
+
 }  // namespace
+
+Nanoseconds longest_move(const StepperArmParams& params) {
+  constexpr double kBusy = 1.5;  // pauses, each of which ends in a new ramp
+  constexpr Nanoseconds kSpare = std::chrono::seconds(1);
+  const auto time_s = [&params](double way_deg, double speed_deg_per_s) {
+    return way_deg / speed_deg_per_s + speed_deg_per_s / params.acceleration_deg_per_s2;
+  };
+  const double homing = params.homing_speed_deg_per_s;
+  const double home_s = time_s(off_switch_deg(params), homing) + time_s(search_deg(params), homing) +
+                        time_s(params.home_overlap_deg / 2.0, homing);
+  const double move_s = time_s(params.limits.max_deg, params.speed_deg_per_s);
+  return seconds(kBusy * std::max(home_s, move_s)) + params.settling_time + kSpare;
+}
 
 StepperArm::StepperArm(StepperLines lines, Clock& clock, const StepperArmParams& params)
     : Arm("arm"), lines_(std::move(lines)), clock_(clock), params_(params) {}
@@ -168,14 +189,14 @@ DeviceStatus StepperArm::go_home() {
   bool is_closed = false;
   DeviceStatus status = lines_.home->read(is_closed);
   if (status.ok() && is_closed) {
-    status = run(steps_at(2.0 * params_.home_overlap_deg) + 1, true, speed);
+    status = run(steps_at(off_switch_deg(params_)) + 1, true, speed);
     if (status.ok()) {
       status = expect_switch(false,
                              "the home switch stays closed: the arm does not move, or the switch hangs or is "
                              "inverted");
     }
   }
-  if (status.ok()) status = run(steps_at(params_.limits.max_deg + kSearchMargin_deg), false, speed, kNowhere);
+  if (status.ok()) status = run(steps_at(search_deg(params_)), false, speed, kNowhere);
   if (status.ok()) {
     status =
         expect_switch(true, "the home switch did not close: check the switch, the motor and what blocks it");

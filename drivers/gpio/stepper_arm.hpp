@@ -30,6 +30,9 @@ struct StepperArmParams {
   Nanoseconds settling_time = std::chrono::milliseconds(300);
 };
 
+// How long going home from anywhere, or any move, may take on a busy board.
+Nanoseconds longest_move(const StepperArmParams& params);
+
 struct StepperLines {
   std::unique_ptr<GpioLine> step;
   std::unique_ptr<GpioLine> direction;  // active: away from home

@@ -16,6 +16,7 @@ struct SerialArmParams {
   Nanoseconds reply_timeout = std::chrono::milliseconds(500);
   // Many controllers start anew when the line is opened, which takes a second or two.
   Nanoseconds boot_timeout = std::chrono::seconds(4);
+  Nanoseconds longest_move = std::chrono::seconds(30);  // home from anywhere included
   Nanoseconds settling_time = std::chrono::milliseconds(300);
 };
 

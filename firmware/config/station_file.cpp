@@ -33,6 +33,10 @@ Nanoseconds milliseconds(const JsonNode& node, double min_ms, double max_ms) {
       std::chrono::duration<double, std::milli>(node.number({min_ms, max_ms})));
 }
 
+Nanoseconds read_seconds(const JsonNode& node, double min_s, double max_s) {
+  return std::chrono::round<Nanoseconds>(std::chrono::duration<double>(node.number({min_s, max_s})));
+}
+
 // `value` stays as it is where the key is not given.
 void take(const JsonNode& table, const char* key, int min, int max, int& value) {
   if (const auto node = table.find(key)) value = node->integer(min, max);
@@ -115,10 +119,7 @@ GpioTriggerParams read_button(const JsonNode& table) {
   if (const auto bias = table.find("bias")) button.line.bias = read_bias(*bias);
   take_ms(table, "debounce_ms", 1.0, 500.0, button.debounce);
   take_ms(table, "least_closed_ms", 0.0, 30.0, button.least_closed);
-  if (const auto node = table.find("stuck_after_s")) {
-    button.stuck_after =
-        std::chrono::round<Nanoseconds>(std::chrono::duration<double>(node->number({1.0, 3600.0})));
-  }
+  if (const auto node = table.find("stuck_after_s")) button.stuck_after = read_seconds(*node, 1.0, 3600.0);
   return button;
 }
 
@@ -200,6 +201,8 @@ SerialArmParams read_serial(const JsonNode& table) {
   serial.device = table.member("device").text();
   take(table, "baud", 9600, 230'400, serial.baud);
   take_ms(table, "settling_ms", 0.0, 10'000.0, serial.settling_time);
+  if (const auto longest = table.find("longest_move_s"))
+    serial.longest_move = read_seconds(*longest, 1.0, 600.0);
   return serial;
 }
 
@@ -213,7 +216,7 @@ ArmConfig read_arm(const JsonNode& table) {
                    "homing_speed_deg_per_s", "home_overlap_deg", "home_tolerance_deg", "settling_ms"});
     arm.kind = read_stepper(table);
   } else if (text == "serial") {
-    expect(table, {"kind", "second_view_deg", "device", "baud", "settling_ms"});
+    expect(table, {"kind", "second_view_deg", "device", "baud", "settling_ms", "longest_move_s"});
     arm.kind = read_serial(table);
   } else {
     kind.fail("\"stepper\" or \"serial\"", "leave [arm] out where a hand moves the camera");

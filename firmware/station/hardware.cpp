@@ -37,6 +37,11 @@ Hardware::Hardware(const StationFile& station)
   }
 }
 
+Nanoseconds longest_move(const ArmConfig& arm) {
+  if (const auto* serial = std::get_if<SerialArmParams>(&arm.kind)) return serial->longest_move;
+  return longest_move(std::get<StepperConfig>(arm.kind).motion);
+}
+
 StationParams hardware_params(const StationFile& station) {
   StationParams params;
   params.last_retry = std::chrono::seconds(1);
@@ -45,7 +50,10 @@ StationParams hardware_params(const StationFile& station) {
     params.seen_per_commanded =
         station.arm_geometry->angle_deg() / std::abs(station.arm_geometry->commanded_deg);
   }
-  if (station.arm) params.second_view_deg = station.arm->second_view_deg;
+  if (station.arm) {
+    params.second_view_deg = station.arm->second_view_deg;
+    params.arm_timeout = longest_move(*station.arm);
+  }
   return params;
 }
 

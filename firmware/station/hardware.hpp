@@ -31,6 +31,9 @@ class Hardware {
   std::unique_ptr<Arm> arm_;
 };
 
+// How long going home or any move may take.
+Nanoseconds longest_move(const ArmConfig& arm);
+
 // What a loop on hardware does otherwise than one in simulated time: a device that is plugged in again works
 // within three seconds.
 StationParams hardware_params(const StationFile& station);

@@ -46,7 +46,7 @@ struct StationParams {
   SteadinessParams steadiness;
   // Daylight changes: older exposures settle again at the next press, with its tray in view.
   Nanoseconds exposure_good_for = std::chrono::minutes(10);
-  Nanoseconds arm_timeout = std::chrono::seconds(10);
+  Nanoseconds arm_timeout = std::chrono::seconds(10);  // longer than its longest move; hardware_params knows
   Nanoseconds second_press_timeout = std::chrono::seconds(60);
   // A worn contact bounces for up to 100 ms, when it is released too; nobody presses twice so fast.
   Nanoseconds bounce_time = std::chrono::milliseconds(300);

@@ -45,6 +45,16 @@ TEST_F(Stepper, StandsWhereItSaysAfterEveryMove) {
   }
 }
 
+TEST_F(Stepper, HasTimeEnoughForItsLongestWay) {
+  EXPECT_GT(longest_move({}), 12s);  // the usual homing from the upper end
+  for (const double at_deg : {44.9, -0.5}) {
+    open(at_deg);
+    ASSERT_TRUE(arm_->home(longest_move(ArmPlant::params())).ok()) << at_deg << " " << detail();
+    EXPECT_TRUE(arm_->move_to(45.0, longest_move(ArmPlant::params())).ok()) << detail();
+    arm_.reset();
+  }
+}
+
 TEST_F(Stepper, ThatIsBlockedWhenItLooksForHomeSaysSo) {
   open(5.0);
   plant_->is_blocked = true;

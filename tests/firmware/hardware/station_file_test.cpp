@@ -110,8 +110,10 @@ TEST_F(StationFileTest, EveryKeyArrives) {
 }
 
 TEST_F(StationFileTest, ASerialArmIsAnother) {
-  const StationFile station =
-      read(std::string(kSmallest) + "[arm]\nkind = \"serial\"\ndevice = \"/dev/ttyS7\"\nbaud = 9600\n");
+  const StationFile station = read(std::string(kSmallest) +
+                                   "[arm]\nkind = \"serial\"\ndevice = \"/dev/ttyS7\"\nbaud = 9600\n"
+                                   "longest_move_s = 45\nsettling_ms = 100\n");
+  EXPECT_EQ(std::get<SerialArmParams>(station.arm->kind).longest_move, std::chrono::seconds(45));
   EXPECT_EQ(std::get<SerialArmParams>(station.arm->kind).device, "/dev/ttyS7");
   EXPECT_EQ(std::get<SerialArmParams>(station.arm->kind).baud, 9600);
   EXPECT_EQ(station.arm->second_view_deg, 18.0);
