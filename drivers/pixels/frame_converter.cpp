@@ -14,8 +14,9 @@ constexpr int kRowStep = 8;  // of the rows that tell how bright and how sharp a
 
 }  // namespace
 
-FrameConverter::FrameConverter(const RawFormat& format, int width, int height, std::ptrdiff_t stride_bytes)
-    : format_(format), width_(width), height_(height), stride_bytes_(stride_bytes) {
+FrameConverter::FrameConverter(const RawFormat& format, int width, int height, std::ptrdiff_t stride_bytes,
+                               const YuvCoding& coding)
+    : format_(format), width_(width), height_(height), stride_bytes_(stride_bytes), coding_(coding) {
   if (format.encoding == RawEncoding::bayer) scratch_.resize(bayer_scratch_bytes(width));
   if (format.encoding == RawEncoding::mjpeg) jpeg_.emplace();
 }
@@ -34,10 +35,10 @@ bool FrameConverter::convert(std::span<const std::uint8_t> bytes, std::uint8_t* 
   const RawFrame frame{bytes, width_, height_, stride_bytes_};
   switch (format_.encoding) {
     case RawEncoding::yuyv:
-      convert_yuyv(frame, out);
+      convert_yuyv(frame, coding_, out);
       break;
     case RawEncoding::nv12:
-      convert_nv12(frame, out);
+      convert_nv12(frame, coding_, out);
       break;
     case RawEncoding::bayer:
       convert_bayer(format_, frame, scratch_, out);

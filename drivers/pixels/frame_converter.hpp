@@ -17,7 +17,8 @@ namespace traygauge {
 class FrameConverter {
  public:
   // is_size_supported() holds. `stride_bytes`: of the camera's rows; not used for MJPEG.
-  FrameConverter(const RawFormat& format, int width, int height, std::ptrdiff_t stride_bytes);
+  FrameConverter(const RawFormat& format, int width, int height, std::ptrdiff_t stride_bytes,
+                 const YuvCoding& coding = {});
 
   const RawFormat& format() const { return format_; }
   int width() const { return width_; }
@@ -50,6 +51,7 @@ class FrameConverter {
   int width_;
   int height_;
   std::ptrdiff_t stride_bytes_;
+  YuvCoding coding_;
   std::vector<std::uint8_t> scratch_;
   std::optional<JpegDecoder> jpeg_;
   std::string_view problem_;

@@ -128,6 +128,7 @@ DeviceStatus V4l2Camera::set_mode() {
   format.fmt.pix.height = static_cast<std::uint32_t>(mode_.height);
   format.fmt.pix.pixelformat = mode_.fourcc;
   format.fmt.pix.field = V4L2_FIELD_NONE;
+  format.fmt.pix.priv = V4L2_PIX_FMT_PRIV_MAGIC;  // else the kernel leaves the colours' coding out
   if (const int error = device_->request(VIDIOC_S_FMT, &format); error != 0) {
     return fail(status_of_errno(error), "the format could not be set");
   }
@@ -140,7 +141,8 @@ DeviceStatus V4l2Camera::set_mode() {
   set_rate();
   const auto least = static_cast<std::ptrdiff_t>(row_bytes(mode_.format, mode_.width));
   converter_.emplace(mode_.format, mode_.width, mode_.height,
-                     std::max<std::ptrdiff_t>(least, pix.bytesperline));
+                     std::max<std::ptrdiff_t>(least, pix.bytesperline),
+                     yuv_coding_of(pix.colorspace, pix.ycbcr_enc, pix.quantization));
   return DeviceCode::ok;
 }
 

@@ -145,6 +145,15 @@ std::optional<RawFormat> raw_format_of(std::uint32_t fourcc) {
   return kKnownFormats.at(index).format;
 }
 
+YuvCoding yuv_coding_of(std::uint32_t colorspace, std::uint32_t encoding, std::uint32_t quantization) {
+  if (encoding == V4L2_YCBCR_ENC_DEFAULT) encoding = V4L2_MAP_YCBCR_ENC_DEFAULT(colorspace);
+  if (quantization == V4L2_QUANTIZATION_DEFAULT) {
+    quantization = V4L2_MAP_QUANTIZATION_DEFAULT(false, colorspace, encoding);
+  }
+  return {quantization == V4L2_QUANTIZATION_FULL_RANGE,
+          encoding == V4L2_YCBCR_ENC_709 || encoding == V4L2_YCBCR_ENC_XV709};
+}
+
 DeviceStatus list_modes(VideoDevice& device, const ModeWish& wish, std::vector<OfferedMode>& modes,
                         std::vector<std::string>& unknown) {
   for (std::uint32_t i = 0; i < kMaxEntries; ++i) {

@@ -54,6 +54,9 @@ std::optional<ChosenMode> choose_mode(const std::vector<OfferedMode>& modes, con
 std::string describe_modes(const std::vector<OfferedMode>& modes, const std::vector<std::string>& unknown);
 std::string describe_wish(const ModeWish& wish);
 
+// What the kernel says of the numbers of a format that was set.
+YuvCoding yuv_coding_of(std::uint32_t colorspace, std::uint32_t encoding, std::uint32_t quantization);
+
 // The format of the kernel's name; nothing when we cannot convert it.
 std::optional<RawFormat> raw_format_of(std::uint32_t fourcc);
 

@@ -86,6 +86,31 @@ TEST_F(Converters, EveryByteOfGreyAndColourIsConvertedAsByOpenCv) {
   }
 }
 
+// OpenCV knows BT.601 in full range, by coefficients of three digits.
+TEST_F(Converters, FullRangeUsesAllOfGrey) {
+  const YuvCoding full{true, false};
+  cv::Mat ours(256, 256, CV_8UC3);
+  cv::Mat yuv(256, 256, CV_8UC3);
+  for (int grey = 0; grey < 256; grey += 5) {
+    std::vector<std::uint8_t> bytes(std::size_t{2} * 256 * 256);
+    for (std::size_t i = 0; i < bytes.size(); i += 4) {
+      const std::uint8_t u = static_cast<std::uint8_t>(i / 512);
+      const std::uint8_t v = static_cast<std::uint8_t>(i % 512 / 2);
+      bytes[i] = bytes[i + 2] = static_cast<std::uint8_t>(grey);
+      bytes[i + 1] = u;
+      bytes[i + 3] = v;
+      for (std::size_t k = 0; k < 2; ++k) {
+        std::uint8_t* const pixel = yuv.data + 3 * (i / 2 + k);
+        pixel[0] = static_cast<std::uint8_t>(grey), pixel[1] = v, pixel[2] = u;
+      }
+    }
+    cv::Mat theirs;
+    cv::cvtColor(yuv, theirs, cv::COLOR_YCrCb2BGR);
+    ASSERT_TRUE(FrameConverter({RawEncoding::yuyv}, 256, 256, 512, full).convert(bytes, ours.data));
+    EXPECT_LE(cv::norm(ours, theirs, cv::NORM_INF), 1.0) << grey;
+  }
+}
+
 int opencv_code(BayerPattern pattern) {
   switch (pattern) {  // OpenCV names the second row's second and third pixel
     case BayerPattern::rggb:

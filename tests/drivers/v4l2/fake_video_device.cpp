@@ -202,6 +202,8 @@ int FakeVideoDevice::set_format(v4l2_format& format) {
   format.fmt.pix.width = mode_.width;
   format.fmt.pix.height = mode_.height;
   format.fmt.pix.pixelformat = mode_.fourcc;
+  format.fmt.pix.colorspace = camera_.colorspace;
+  if (format.fmt.pix.priv == V4L2_PIX_FMT_PRIV_MAGIC) format.fmt.pix.quantization = camera_.quantization;
   format.fmt.pix.bytesperline = static_cast<std::uint32_t>(fake_frame_bytes(mode_) / mode_.height);
   return 0;
 }

@@ -62,6 +62,8 @@ struct FakeCamera {
   bool is_silent = false;
   bool may_not_open = false;
   std::uint32_t buffer_limit = 32;
+  std::uint32_t colorspace = V4L2_COLORSPACE_SRGB;
+  std::uint32_t quantization = V4L2_QUANTIZATION_DEFAULT;
   std::uint32_t granted_rate_per_s = 0;  // whatever is asked for; 0: what is
 
   int opened = 0;

@@ -1,5 +1,7 @@
-// How long the camera waits for its automatics, and that it lets them settle again.
+// What pictures are once the camera has started: how long it waits for its automatics, and that it lets them
+// settle again.
 #include <algorithm>
+#include <tuple>
 
 #include "tests/drivers/v4l2/v4l2_fixture.hpp"
 
@@ -66,6 +68,24 @@ TEST_F(V4l2Settling, SettlesAgainOnRequestAndLeavesTheFocusAlone) {
   EXPECT_EQ(times_set(V4L2_CID_FOCUS_AUTO, 1), focused);
   EXPECT_EQ(camera().held(CameraControl::focus), 30);
   EXPECT_EQ(capture(), DeviceCode::ok);
+}
+
+TEST_F(V4l2Settling, GreyHasTheRangeThatTheCameraSays) {
+  auto picture = grey(128);
+  for (std::size_t i = 0; i < picture.size(); i += 2) picture[i] = 250;
+  kernel_.pictures[0] = picture;
+  params_.may_repeat = true;
+  for (const auto& [colorspace, quantization, expected] :
+       {std::tuple{V4L2_COLORSPACE_SRGB, V4L2_QUANTIZATION_DEFAULT, 255},
+        std::tuple{V4L2_COLORSPACE_SRGB, V4L2_QUANTIZATION_FULL_RANGE, 250},
+        std::tuple{V4L2_COLORSPACE_JPEG, V4L2_QUANTIZATION_DEFAULT, 250}}) {
+    kernel_.colorspace = colorspace;
+    kernel_.quantization = quantization;
+    camera_.reset();
+    ASSERT_EQ(start(), DeviceCode::ok) << camera().detail();
+    ASSERT_EQ(capture(), DeviceCode::ok) << camera().detail();
+    EXPECT_EQ(buffer_[0], expected);
+  }
 }
 
 TEST_F(V4l2Settling, CostsNothingWhereEverythingIsGiven) {
