@@ -45,6 +45,11 @@ int configure(int descriptor, speed_t speed) {
 
 }  // namespace
 
+bool is_serial_speed(int baud) {
+  return std::any_of(kSpeeds.begin(), kSpeeds.end(),
+                     [baud](const auto& known) { return known.first == baud; });
+}
+
 DeviceStatus SerialPort::open(const std::string& path, int baud) {
   close();
   const auto speed =

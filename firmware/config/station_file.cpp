@@ -199,7 +199,11 @@ StepperConfig read_stepper(const JsonNode& table) {
 SerialArmParams read_serial(const JsonNode& table) {
   SerialArmParams serial;
   serial.device = table.member("device").text();
-  take(table, "baud", 9600, 230'400, serial.baud);
+  take(table, "baud", 1, 10'000'000, serial.baud);
+  if (!is_serial_speed(serial.baud)) {
+    table.member("baud").fail("9600, 19200, 38400, 57600, 115200 or 230400",
+                              "set the arm's controller to one of these");
+  }
   take_ms(table, "settling_ms", 0.0, 10'000.0, serial.settling_time);
   if (const auto longest = table.find("longest_move_s"))
     serial.longest_move = read_seconds(*longest, 1.0, 600.0);

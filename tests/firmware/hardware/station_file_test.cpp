@@ -148,6 +148,7 @@ TEST_F(StationFileTest, NamesTheKeyThatIsWrong) {
            {small + "[arm]\nkind = \"hydraulic\"\n", "arm.kind"},
            {small + kStepper + "second_view_deg = 60\n", "arm.second_view_deg"},
            {small + kStepper + "baud = 9600\n", "arm.baud"},
+           {small + "[arm]\nkind = \"serial\"\ndevice = \"/dev/t\"\nbaud = 100000\n", "arm.baud"},
            {small + "[lamp]\nlines = [\"G\"]\nready = [\"B\"]\n", "lamp.ready[0]"},
            {small + "[lamp]\nlines = [\"G\"]\nready = [\"G\"]\n", "lamp.hold_still"},
            {small + "[trays]\nlabels = [\"a.png\"]\n", "trays.labels"},
