@@ -108,7 +108,17 @@ DeviceStatus V4l2Camera::open_and_set_up() {
   const int error = device_->request(VIDIOC_QUERYCAP, &capability);
   if (error == ENOTTY || error == EINVAL) return fail(DeviceCode::unsupported, node_ + " is no camera");
   if (error != 0) return fail(status_of_errno(error), node_);
-  return set_mode();
+  const std::uint32_t own = node_capabilities(capability);
+  if ((own & V4L2_CAP_VIDEO_CAPTURE) != 0) return set_mode();
+  if ((own & V4L2_CAP_VIDEO_CAPTURE_MPLANE) != 0) {
+    return fail(DeviceCode::unsupported,
+                node_ +
+                    " keeps a picture in several memories (multi-planar), which is not read here; choose a "
+                    "USB camera, or a node of the sensor's that v4l2-ctl --all calls \"Video Capture\"");
+  }
+  return fail(
+      DeviceCode::unsupported,
+      node_ + " delivers no pictures; a camera may have several nodes, of which the first usually does");
 }
 
 DeviceStatus V4l2Camera::set_mode() {

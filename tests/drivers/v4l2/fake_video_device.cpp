@@ -97,7 +97,7 @@ int FakeVideoDevice::request(unsigned long code, void* argument) {
   }
   switch (code) {
     case VIDIOC_QUERYCAP:
-      as<v4l2_capability>(argument).capabilities = V4L2_CAP_VIDEO_CAPTURE | V4L2_CAP_STREAMING;
+      as<v4l2_capability>(argument).capabilities = camera_.capabilities;
       return 0;
     case VIDIOC_ENUM_FMT:
       return enumerate_format(as<v4l2_fmtdesc>(argument));

@@ -58,6 +58,7 @@ struct FakeCamera {
   std::uint32_t stamp_flags = V4L2_BUF_FLAG_TIMESTAMP_MONOTONIC | V4L2_BUF_FLAG_TSTAMP_SRC_SOE;
   Nanoseconds stamp_offset{0};          // of the kernel's times; vivid rounds them up
   std::map<unsigned long, int> errors;  // of the next such request, once
+  std::uint32_t capabilities = V4L2_CAP_VIDEO_CAPTURE | V4L2_CAP_STREAMING;
   bool is_gone = false;
   bool is_silent = false;
   bool may_not_open = false;

@@ -64,6 +64,15 @@ TEST_F(V4l2, SaysWhyTheNodeCannotBeOpened) {
   EXPECT_EQ(start(), DeviceCode::ok);
 }
 
+TEST_F(V4l2, SaysWhichNodesAreOfNoUse) {
+  kernel_.capabilities = V4L2_CAP_VIDEO_CAPTURE_MPLANE | V4L2_CAP_STREAMING;
+  EXPECT_EQ(start(), DeviceCode::unsupported);
+  EXPECT_TRUE(detail_has("/dev/video7 keeps a picture in several memories")) << camera().detail();
+  kernel_.capabilities = V4L2_CAP_META_CAPTURE | V4L2_CAP_STREAMING;
+  EXPECT_EQ(start(), DeviceCode::unsupported);
+  EXPECT_TRUE(detail_has("/dev/video7 delivers no pictures")) << camera().detail();
+}
+
 TEST_F(V4l2, SaysThatTheLinksBehindANodeHaveToBeSet) {
   kernel_.errors[VIDIOC_STREAMON] = EPIPE;
   EXPECT_EQ(start(), DeviceCode::unsupported);
