@@ -24,7 +24,10 @@ DeviceStatus GpioTrigger::do_start() {
   if (!status.ok()) set_detail(line_->problem());
   if (!status.ok()) return status;
   status = line_->read(is_active_);
-  if (status.ok() && is_active_) status = DeviceCode::stuck;
+  if (status.ok() && is_active_) {
+    status = DeviceCode::stuck;
+    set_detail("if nobody presses it, active_low or bias of [button] is wrong");
+  }
   if (!status.ok()) line_->close();
   last_edge_at_ = clock_.now() - params_.debounce;
   return status;

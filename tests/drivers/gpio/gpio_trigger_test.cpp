@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cerrno>
+
 #include <random>
 
 #include "simulator/devices/simulated_clock.hpp"
@@ -217,6 +219,7 @@ TEST_F(Button, ThatStaysPressedIsToldAndComesBack) {
   EXPECT_NEAR(std::chrono::duration<double>(clock_.now() - pressed_at).count(), 20.0, 0.5);
   trigger().stop();
   EXPECT_EQ(trigger().start().code(), DeviceCode::stuck);
+  EXPECT_EQ(trigger().detail(), "if nobody presses it, active_low or bias of [button] is wrong");
   EXPECT_EQ(script_.open_now, 0);
   clock_.sleep_for(50s);
   ASSERT_TRUE(trigger().start().ok());
@@ -248,11 +251,18 @@ TEST(GpioPlace, IsANameOrAChipAndANumber) {
   }
 }
 
+TEST(GpioLine, ThatIsTakenNamesWhoHasIt) {
+  EXPECT_EQ(describe_line("LAMP", {DeviceCode::in_use, EBUSY}, "other"),
+            "line LAMP, which \"other\" has taken");
+  EXPECT_EQ(describe_line("LAMP", {DeviceCode::in_use, EBUSY}, ""), "line LAMP");
+}
+
 TEST(GpioLine, ThatDoesNotExistIsGone) {
   for (const char* name : {"NO-SUCH-LINE", "no-such-chip/3"}) {
     const auto line = make_gpio_line({name});
     EXPECT_NE(line->open_input().code(), DeviceCode::ok);
-    EXPECT_EQ(line->problem(), std::string("line ") + name);
+    EXPECT_EQ(line->problem(),
+              "line " + std::string(name) + ": no chip has it; gpioinfo lists those that there are");
   }
   EXPECT_EQ(make_gpio_line({""})->open_input().code(), DeviceCode::invalid_argument);
 }
