@@ -1,7 +1,10 @@
 #include "firmware/station/hardware.hpp"
 
 #include <cmath>
+#include <ostream>
 #include <utility>
+
+#include "firmware/base/text.hpp"
 
 namespace traygauge {
 namespace {
@@ -25,6 +28,16 @@ std::unique_ptr<Arm> make_arm(const ArmConfig& config, Clock& clock) {
   return std::make_unique<StepperArm>(std::move(lines), clock, stepper.motion);
 }
 
+void warn_of_changed_lens(const std::optional<LensConfig>& lens, const V4l2CameraParams& params,
+                          V4l2Camera& camera, std::ostream& log) {
+  if (!lens) return;
+  // What keeps it from starting is the station's to tell.
+  const bool is_started = camera.start().ok();
+  const std::string change =
+      find_lens_change(*lens, params, is_started ? camera.held(CameraControl::focus) : std::nullopt);
+  if (!change.empty()) log << "Warning: " << camera.description() << ": " << printable(change) << std::endl;
+}
+
 }  // namespace
 
 Hardware::Hardware(const StationFile& station)
@@ -35,6 +48,12 @@ Hardware::Hardware(const StationFile& station)
   if (station.second_camera) {
     second_camera_.emplace(make_system_video_device(), clock_, *station.second_camera);
   }
+}
+
+void warn_of_changed_lenses(const StationFile& station, Hardware& hardware, std::ostream& log) {
+  warn_of_changed_lens(station.lens, station.camera, hardware.camera(), log);
+  if (station.second_camera)
+    warn_of_changed_lens(station.second_lens, *station.second_camera, *hardware.second_camera(), log);
 }
 
 Nanoseconds longest_move(const ArmConfig& arm) {
