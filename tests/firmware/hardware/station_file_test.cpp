@@ -3,7 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <fstream>
 #include <random>
+#include <regex>
 
 #include "firmware/config/dish_choice.hpp"
 #include "firmware/config/dish_library.hpp"
@@ -49,6 +51,30 @@ TEST_F(StationFileTest, TheOneThatIsShippedIsReadable) {
   EXPECT_EQ(station.lamp.lines.size(), 3U);
   EXPECT_FALSE(station.arm);
   for (const ControlWish& wish : station.camera.controls) EXPECT_EQ(wish.kind, ControlWish::Kind::hold);
+}
+
+TEST_F(StationFileTest, TheOneThatIsShippedExplainsEveryKey) {
+  const auto read_all = [](const char* path) {
+    std::ifstream stream(std::filesystem::path(TRAYGAUGE_SOURCE_DIR) / path);
+    return std::string(std::istreambuf_iterator<char>(stream), {});
+  };
+  // The sections, as "[arm] … key …" where the reader accepts the key.
+  const std::string shipped = read_all("config/station.toml");
+  const std::string reader = read_all("firmware/config/station_file.cpp");
+  const std::regex list(R"(expect\((\w+),\s*\{([^}]*)\}\))");
+  const std::regex word("\"(\\w+)\"");
+  int keys = 0;
+  for (std::sregex_iterator at(reader.begin(), reader.end(), list), end; at != end; ++at) {
+    const std::string names = (*at)[2];
+    for (std::sregex_iterator key(names.begin(), names.end(), word); key != end; ++key) {
+      ++keys;
+      const std::string name = (*key)[1];
+      const bool is_table = (*at)[1] == "root";
+      const std::regex explained(is_table ? "\\[" + name + "\\]" : "(^|\n)(# )?" + name + " = ");
+      EXPECT_TRUE(std::regex_search(shipped, explained)) << name;
+    }
+  }
+  EXPECT_GT(keys, 60);
 }
 
 TEST_F(StationFileTest, TheSmallestHasACameraAndAButton) {
