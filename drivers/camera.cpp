@@ -49,4 +49,9 @@ DeviceStatus Camera::capture(std::span<std::uint8_t> buffer, Nanoseconds timeout
   return DeviceCode::ok;
 }
 
+DeviceStatus Camera::settle_again() {
+  set_detail({});
+  return started_ ? do_settle_again() : DeviceCode::not_started;
+}
+
 }  // namespace traygauge

@@ -49,6 +49,9 @@ class Camera : public Device {
   // written beyond these. torn_frame when the picture is incomplete, stale_frame when it is not newer than
   // the last.
   DeviceStatus capture(std::span<std::uint8_t> buffer, Nanoseconds timeout, CapturedFrame& frame);
+  // Lets exposure, gain and white balance settle on what is seen now, and holds them there; blocks up to a
+  // few seconds. Nothing where the camera's are fixed.
+  DeviceStatus settle_again();
 
  protected:
   using Device::Device;
@@ -59,6 +62,7 @@ class Camera : public Device {
   virtual CameraFormat do_format() const = 0;
   virtual DeviceStatus do_capture(std::span<std::uint8_t> buffer, Nanoseconds timeout,
                                   CapturedFrame& frame) = 0;
+  virtual DeviceStatus do_settle_again() { return DeviceCode::ok; }
 
   bool started_ = false;
   std::optional<std::uint64_t> last_sequence_;

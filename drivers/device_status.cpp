@@ -18,7 +18,7 @@ constexpr auto kTexts = std::to_array<Text>({
     {"timed_out", "The device did not answer in time; check its cable and its power."},
     {"ended", "Nothing more will come from this device."},
     {"not_started", "The device has not been started."},
-    {"invalid_argument", "The device was asked for something that makes no sense, such as no time to wait."},
+    {"invalid_argument", "The device cannot be used as it is asked for; correct the configuration."},
     {"buffer_too_small", "The memory for the picture is smaller than the camera's pictures."},
     {"out_of_range", "The angle lies outside the arm's limits."},
     {"not_homed", "The arm does not know where it stands; it has to go home first."},
@@ -33,9 +33,12 @@ constexpr auto kTexts = std::to_array<Text>({
     {"stuck", "The button stays pressed; see that nothing lies on it."},
     {"unsupported", "The device cannot do what the configuration asks for."},
     {"no_permission",
-     "This user may not open the device; add the user to its group (video, gpio, dialout) and log in again."},
+     "This user may not open the device; add the user to its group and log in again: video for cameras, "
+     "dialout "
+     "for serial lines, gpio for lines of the board once config/60-traygauge-gpio.rules is installed."},
     {"in_use", "Another program uses the device; end that program."},
-    {"device_gone", "The device has disappeared; plug it in again."},
+    {"device_gone",
+     "The device has disappeared, or is not there under this name; plug it in, or correct its name."},
     {"io_error", "The device reported an error."},
 });
 

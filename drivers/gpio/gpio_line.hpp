@@ -33,8 +33,8 @@ class GpioLine {
   GpioLine& operator=(const GpioLine&) = delete;
   virtual ~GpioLine() = default;
 
-  // Takes the line; nobody else can then. in_use, no_permission, device_gone: problem() names the line. It is
-  // closed.
+  // Takes the line; nobody else can then. in_use, no_permission, device_gone: problem() names the line and
+  // says more. It is closed.
   virtual DeviceStatus open_input() = 0;
   virtual DeviceStatus open_edges() = 0;  // an input that notes its edges
   virtual DeviceStatus open_output(bool active) = 0;
@@ -59,5 +59,8 @@ struct GpioPlace {
 };
 // False when it has neither form.
 bool parse_gpio_place(const std::string& line, GpioPlace& place);
+
+// The line, and why it could not be opened. `consumer`: which program has taken it; empty: not known.
+std::string describe_line(const std::string& line, DeviceStatus status, const std::string& consumer);
 
 }  // namespace traygauge

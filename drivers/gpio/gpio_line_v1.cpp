@@ -64,13 +64,13 @@ class GpioLineV1 final : public GpioLine {
     return DeviceCode::ok;
   }
 
-  std::string problem() const override { return "line " + params_.line; }
+  std::string problem() const override { return problem_; }
 
  private:
   template <class Request>
   DeviceStatus open(const Request& request) {
     GpioPlace place;
-    if (!parse_gpio_place(params_.line, place)) return DeviceCode::invalid_argument;
+    if (!parse_gpio_place(params_.line, place)) return refuse(DeviceCode::invalid_argument);
     errno = 0;
     if (place.chip.empty()) {
       line_ = gpiod_line_find(place.name.c_str());
@@ -82,9 +82,16 @@ class GpioLineV1 final : public GpioLine {
     const int found = line_ == nullptr ? (errno != 0 && errno != EINVAL ? errno : ENOENT) : 0;
     const int error = found == 0 && request() < 0 ? errno : found;
     if (error == 0) return DeviceCode::ok;
+    const char* const consumer = line_ != nullptr ? gpiod_line_consumer(line_) : nullptr;
+    const DeviceStatus status = refuse(status_of_errno(error), consumer != nullptr ? consumer : "");
     line_ = nullptr;  // it was not taken, so it need not be released
     close();
-    return status_of_errno(error);
+    return status;
+  }
+
+  DeviceStatus refuse(DeviceStatus status, const std::string& consumer = {}) {
+    problem_ = describe_line(params_.line, status, consumer);
+    return status;
   }
 
   int flags() const {
@@ -98,6 +105,7 @@ class GpioLineV1 final : public GpioLine {
   }
 
   GpioLineParams params_;
+  std::string problem_ = "line " + params_.line;
   gpiod_chip* chip_ = nullptr;
   gpiod_line* line_ = nullptr;
 };

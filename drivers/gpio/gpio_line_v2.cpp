@@ -28,6 +28,7 @@ using Settings = Owned<gpiod_line_settings, gpiod_line_settings_free>;
 using LineConfig = Owned<gpiod_line_config, gpiod_line_config_free>;
 using RequestConfig = Owned<gpiod_request_config, gpiod_request_config_free>;
 using ChipInfo = Owned<gpiod_chip_info, gpiod_chip_info_free>;
+using LineInfo = Owned<gpiod_line_info, gpiod_line_info_free>;
 using Request = Owned<gpiod_line_request, gpiod_line_request_release>;
 using Events = Owned<gpiod_edge_event_buffer, gpiod_edge_event_buffer_free>;
 
@@ -110,15 +111,29 @@ class GpioLineV2 final : public GpioLine {
     return DeviceCode::ok;
   }
 
-  std::string problem() const override { return "line " + params_.line; }
+  std::string problem() const override { return problem_; }
 
  private:
   template <class Choose>
   DeviceStatus open(const Choose& choose) {
     GpioPlace place;
-    if (!parse_gpio_place(params_.line, place)) return DeviceCode::invalid_argument;
+    if (!parse_gpio_place(params_.line, place)) return refuse(DeviceCode::invalid_argument);
     const Chip chip = find(place, offset_);
-    if (!chip) return fail(errno);
+    if (!chip) return refuse(fail(errno));
+    const LineInfo info(gpiod_chip_get_line_info(chip.get(), offset_));
+    if (!info) return refuse(fail(errno == EINVAL ? ENOENT : errno));  // fewer lines than that
+    const DeviceStatus status = request(chip.get(), choose);
+    const char* const consumer = gpiod_line_info_get_consumer(info.get());
+    return status.ok() ? status : refuse(status, consumer != nullptr ? consumer : "");
+  }
+
+  DeviceStatus refuse(DeviceStatus status, const std::string& consumer = {}) {
+    problem_ = describe_line(params_.line, status, consumer);
+    return status;
+  }
+
+  template <class Choose>
+  DeviceStatus request(gpiod_chip* chip, const Choose& choose) {
     const Settings settings(gpiod_line_settings_new());
     const LineConfig lines(gpiod_line_config_new());
     const RequestConfig request(gpiod_request_config_new());
@@ -134,7 +149,7 @@ class GpioLineV2 final : public GpioLine {
     gpiod_request_config_set_consumer(request.get(), kConsumer);
     gpiod_request_config_set_event_buffer_size(request.get(), kQueuedEdges);
     if (gpiod_line_config_add_line_settings(lines.get(), &offset_, 1, settings.get()) < 0) return fail(errno);
-    request_.reset(gpiod_chip_request_lines(chip.get(), request.get(), lines.get()));
+    request_.reset(gpiod_chip_request_lines(chip, request.get(), lines.get()));
     return request_ ? DeviceStatus() : fail(errno);
   }
   static DeviceStatus fail(int error_number) {
@@ -142,6 +157,7 @@ class GpioLineV2 final : public GpioLine {
   }
 
   GpioLineParams params_;
+  std::string problem_ = "line " + params_.line;
   Events events_;
   Request request_;
   unsigned offset_ = 0;

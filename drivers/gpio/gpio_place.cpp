@@ -18,4 +18,18 @@ bool parse_gpio_place(const std::string& line, GpioPlace& place) {
   return !place.chip.empty() && begin != end && rest == end && error == std::errc();
 }
 
+std::string describe_line(const std::string& line, DeviceStatus status, const std::string& consumer) {
+  const std::string text = "line " + line;
+  switch (status.code()) {
+    case DeviceCode::device_gone:
+      return text + ": no chip has it; gpioinfo lists those that there are";
+    case DeviceCode::invalid_argument:
+      return text + ": neither a name, nor chip and number such as gpiochip0/17";
+    case DeviceCode::in_use:
+      return consumer.empty() ? text : text + ", which \"" + consumer + "\" has taken";
+    default:
+      return text;
+  }
+}
+
 }  // namespace traygauge

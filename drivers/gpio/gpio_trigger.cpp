@@ -18,12 +18,16 @@ DeviceStatus GpioTrigger::do_start() {
   set_detail({});
   presses_.clear();
   differs_since_.reset();
+  begun_at_.reset();
   sequence_ = 0;
   DeviceStatus status = line_->open_edges();
   if (!status.ok()) set_detail(line_->problem());
   if (!status.ok()) return status;
   status = line_->read(is_active_);
-  if (status.ok() && is_active_) status = DeviceCode::stuck;
+  if (status.ok() && is_active_) {
+    status = DeviceCode::stuck;
+    set_detail("if nobody presses it, active_low or bias of [button] is wrong");
+  }
   if (!status.ok()) line_->close();
   last_edge_at_ = clock_.now() - params_.debounce;
   return status;
@@ -33,10 +37,22 @@ DeviceStatus GpioTrigger::do_start() {
 // open contact was preceded by one that closed it: the kernel reads a bouncing line a little late.
 void GpioTrigger::take(const GpioEdge& edge) {
   const bool was_open = !is_active_ && edge.at - last_edge_at_ >= params_.debounce;
-  if (was_open) presses_.push_back(edge.at);
+  confirm_press(edge.at);
+  if (was_open) begun_at_ = edge.at;
   is_active_ = edge.to_active;
   last_edge_at_ = edge.at;
   differs_since_.reset();
+}
+
+void GpioTrigger::confirm_press(Instant now) {
+  if (!begun_at_ || !is_active_ || now - last_edge_at_ < params_.least_closed) return;
+  presses_.push_back(*begun_at_);
+  begun_at_.reset();
+}
+
+Nanoseconds GpioTrigger::until_confirmed() const {
+  if (!begun_at_ || !is_active_) return kLongestWait;
+  return std::max(last_edge_at_ + params_.least_closed - clock_.now(), Nanoseconds::zero());
 }
 
 DeviceStatus GpioTrigger::take_waiting_edges() {
@@ -52,6 +68,7 @@ DeviceStatus GpioTrigger::take_waiting_edges() {
   bool is_active = is_active_;
   const DeviceStatus status = line_->read(is_active);
   const Instant now = clock_.now();
+  confirm_press(now);
   if (!status.ok() || is_active == is_active_) {
     differs_since_.reset();
   } else if (!differs_since_) {
@@ -81,7 +98,8 @@ DeviceStatus GpioTrigger::do_wait_for_press(Nanoseconds timeout, Press& press) {
     const Nanoseconds left = deadline - clock_.now();
     if (left <= Nanoseconds::zero()) return DeviceCode::timed_out;
     GpioEdge edge;
-    const DeviceStatus status = line_->wait_for_edge(std::min(left, kLongestWait), edge);
+    const Nanoseconds wait = std::min({left, kLongestWait, until_confirmed()});
+    const DeviceStatus status = line_->wait_for_edge(wait, edge);
     if (status.ok()) take(edge);
     if (!status.ok() && status.code() != DeviceCode::timed_out) return status;
   }
@@ -111,6 +129,7 @@ int GpioTrigger::do_pending() {
 void GpioTrigger::do_discard_pending() {
   static_cast<void>(take_waiting_edges());
   presses_.clear();
+  begun_at_.reset();
 }
 
 }  // namespace traygauge

@@ -15,10 +15,14 @@ struct GpioTriggerParams {
   GpioLineParams line{"TRIGGER", true, GpioBias::pull_up};  // a contact to ground
   // Contacts bounce for 1 to 10 ms, worn ones longer; nobody presses again within so little time.
   Nanoseconds debounce = std::chrono::milliseconds(30);
+  // What motors and lamps couple into a long wire closes a contact for microseconds; a finger for 50 ms and
+  // more.
+  Nanoseconds least_closed = std::chrono::milliseconds(5);
   Nanoseconds stuck_after = std::chrono::seconds(20);  // pressed for so long: something lies on it
 };
 
-// A press counts at its first edge, by the kernel's time, when the contact was open for `debounce` before.
+// A press counts at its first edge, by the kernel's time, when the contact was open for `debounce` before and
+// then is closed for `least_closed` at a stretch.
 // What bounces afterwards, at the release too, is none. It is released when the contact was open for
 // `debounce`. While the button stays pressed beyond `stuck_after`, waiting ends with `stuck`, as does
 // start().
@@ -37,6 +41,9 @@ class GpioTrigger final : public Trigger {
   void do_discard_pending() override;
 
   void take(const GpioEdge& edge);
+  // The contact has stayed as it is until `now`.
+  void confirm_press(Instant now);
+  Nanoseconds until_confirmed() const;
   DeviceStatus take_waiting_edges();
   bool is_stuck() const;
 
@@ -47,6 +54,7 @@ class GpioTrigger final : public Trigger {
   std::uint64_t sequence_ = 0;
   bool is_active_ = false;  // after the last edge
   Instant last_edge_at_;
+  std::optional<Instant> begun_at_;       // a press that was not closed long enough yet
   std::optional<Instant> differs_since_;  // the line from is_active_
 };
 

@@ -1,7 +1,9 @@
 #include "drivers/gpio/stepper_arm.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <limits>
 #include <utility>
 
 #include "drivers/gpio/step_profile.hpp"
@@ -11,6 +13,7 @@ namespace {
 
 // Homing looks this much further than the arm can stand.
 constexpr double kSearchMargin_deg = 10.0;
+constexpr auto kNowhere = std::numeric_limits<std::int64_t>::min();  // the switch may close at any step
 constexpr Nanoseconds kWaitStep = std::chrono::milliseconds(1);
 constexpr Nanoseconds kLongestPause = std::chrono::milliseconds(4);     // a motor's inertia bridges no more
 constexpr Nanoseconds kDirectionSetup = std::chrono::microseconds(20);  // before the next step
@@ -19,7 +22,27 @@ Nanoseconds seconds(double count) {
   return std::chrono::round<Nanoseconds>(std::chrono::duration<double>(count));
 }
 
+double off_switch_deg(const StepperArmParams& params) {
+  return 2.0 * params.home_overlap_deg;
+}
+double search_deg(const StepperArmParams& params) {
+  return params.limits.max_deg + kSearchMargin_deg;
+}
+
 }  // namespace
+
+Nanoseconds longest_move(const StepperArmParams& params) {
+  constexpr double kBusy = 1.5;  // pauses, each of which ends in a new ramp
+  constexpr Nanoseconds kSpare = std::chrono::seconds(1);
+  const auto time_s = [&params](double way_deg, double speed_deg_per_s) {
+    return way_deg / speed_deg_per_s + speed_deg_per_s / params.acceleration_deg_per_s2;
+  };
+  const double homing = params.homing_speed_deg_per_s;
+  const double home_s = time_s(off_switch_deg(params), homing) + time_s(search_deg(params), homing) +
+                        time_s(params.home_overlap_deg / 2.0, homing);
+  const double move_s = time_s(params.limits.max_deg, params.speed_deg_per_s);
+  return seconds(kBusy * std::max(home_s, move_s)) + params.settling_time + kSpare;
+}
 
 StepperArm::StepperArm(StepperLines lines, Clock& clock, const StepperArmParams& params)
     : Arm("arm"), lines_(std::move(lines)), clock_(clock), params_(params) {}
@@ -89,17 +112,22 @@ void StepperArm::begin(Goal goal, std::int64_t target) {
   changed_.notify_all();
 }
 
+bool StepperArm::is_busy() {
+  const std::lock_guard lock(mutex_);
+  return goal_ != Goal::none;
+}
+
+void StepperArm::halt() {
+  must_halt_ = true;
+  while (is_busy()) clock_.sleep_for(kWaitStep);
+}
+
 // Waits for the worker, and once it is done for the arm to stop swinging. Beyond the timeout it halts.
 DeviceStatus StepperArm::finish(Nanoseconds timeout) {
   const Instant deadline = clock_.now() + timeout;
-  const auto is_busy = [this] {
-    const std::lock_guard lock(mutex_);
-    return goal_ != Goal::none;
-  };
   while (is_busy() && clock_.now() < deadline) clock_.sleep_for(kWaitStep);
   if (is_busy() || deadline - clock_.now() < params_.settling_time) {
-    must_halt_ = true;
-    while (is_busy()) clock_.sleep_for(kWaitStep);
+    halt();
     return DeviceCode::timed_out;
   }
   DeviceStatus result;
@@ -113,6 +141,7 @@ DeviceStatus StepperArm::finish(Nanoseconds timeout) {
 }
 
 DeviceStatus StepperArm::do_home(Nanoseconds timeout) {
+  halt();
   begin(Goal::home, 0);
   return finish(timeout);
 }
@@ -154,22 +183,27 @@ DeviceStatus StepperArm::carry_out(Goal goal, std::int64_t target) {
   return goal == Goal::home ? go_home() : go_to(target);
 }
 
-// Off the switch when it is closed, then slowly onto it: the place where it closes is 0.
+// Off the switch when it is closed, then slowly onto it and a little further: that place is 0.
 DeviceStatus StepperArm::go_home() {
-  const std::int64_t reach = steps_at(params_.limits.max_deg + kSearchMargin_deg);
+  const double speed = params_.homing_speed_deg_per_s;
   bool is_closed = false;
   DeviceStatus status = lines_.home->read(is_closed);
   if (status.ok() && is_closed) {
-    status = run(steps_at(params_.home_overlap_deg) + 1, true, params_.homing_speed_deg_per_s, false);
+    status = run(steps_at(off_switch_deg(params_)) + 1, true, speed);
     if (status.ok()) {
-      status =
-          expect_switch(false, "the home switch stays closed: the arm does not move, or the switch hangs");
+      status = expect_switch(false,
+                             "the home switch stays closed: the arm does not move, or the switch hangs or is "
+                             "inverted");
     }
   }
-  if (status.ok()) status = run(reach, false, params_.homing_speed_deg_per_s, true);
+  if (status.ok()) status = run(steps_at(search_deg(params_)), false, speed, kNowhere);
   if (status.ok()) {
     status =
         expect_switch(true, "the home switch did not close: check the switch, the motor and what blocks it");
+  }
+  if (status.ok()) status = run(closing_step(), false, speed);
+  if (status.ok()) {
+    status = expect_switch(true, "the home switch opens behind where it closes: check how it is mounted");
   }
   if (status.ok()) position_ = 0;
   return status;
@@ -177,13 +211,27 @@ DeviceStatus StepperArm::go_home() {
 
 DeviceStatus StepperArm::go_to(std::int64_t target) {
   const std::int64_t from = position_;
-  const DeviceStatus status =
-      run(std::abs(target - from), target > from, params_.speed_deg_per_s, std::nullopt);
-  if (!status.ok()) return status;
-  if (target == 0) return expect_switch(true, "back at 0 the home switch is open: steps were lost");
-  if (target > steps_at(params_.home_overlap_deg)) {
-    return expect_switch(false, "away from home the home switch is closed: the arm does not move");
+  const std::int64_t overlap = steps_at(params_.home_overlap_deg);
+  const bool comes_back = target < from && from > overlap;
+  const auto open_until = closing_step() + steps_at(params_.home_tolerance_deg);
+  const DeviceStatus status = run(std::abs(target - from), target > from, params_.speed_deg_per_s,
+                                  comes_back ? std::optional(open_until) : std::nullopt);
+  if (!status.ok() || must_halt_) return status;
+  if (target < from) return check_return(comes_back, target);
+  if (target <= overlap) return status;
+  return expect_switch(false, "away from home the home switch is closed: the arm does not move");
+}
+
+DeviceStatus StepperArm::check_return(bool was_beyond_switch, std::int64_t target) {
+  const std::int64_t tolerance = steps_at(params_.home_tolerance_deg);
+  if (was_beyond_switch && closed_at_ && *closed_at_ > closing_step() + tolerance) {
+    return stall(
+        "on the way back the home switch closed too early: the arm had not gone as far as it was told");
   }
+  if (target == 0 && was_beyond_switch && closed_at_ && *closed_at_ < closing_step() - tolerance) {
+    return stall("on the way back the home switch closed too late: steps were lost");
+  }
+  if (target == 0) return expect_switch(true, "back at 0 the home switch is open: steps were lost");
   return DeviceCode::ok;
 }
 
@@ -191,13 +239,18 @@ DeviceStatus StepperArm::expect_switch(bool closed, const char* otherwise) {
   bool is_closed = false;
   const DeviceStatus status = lines_.home->read(is_closed);
   if (!status.ok() || is_closed == closed || must_halt_) return status;
+  return stall(otherwise);
+}
+
+DeviceStatus StepperArm::stall(const char* problem) {
   const std::lock_guard lock(mutex_);
-  problem_ = otherwise;
+  problem_ = problem;
   return DeviceCode::stalled;
 }
 
 DeviceStatus StepperArm::run(std::int64_t steps, bool away, double speed_deg_per_s,
-                             std::optional<bool> until) {
+                             std::optional<std::int64_t> open_until) {
+  closed_at_.reset();
   DeviceStatus status = lines_.direction->write(away);
   clock_.sleep_for(kDirectionSetup);
   const double speed = speed_deg_per_s * params_.steps_per_deg;
@@ -217,11 +270,12 @@ DeviceStatus StepperArm::run(std::int64_t steps, bool away, double speed_deg_per
       begun_at = clock_.now();
     }
     status = make_step(away);
+    if (!status.ok() || !open_until || closed_at_) continue;
     bool is_closed = false;
-    if (status.ok() && until) {
-      status = lines_.home->read(is_closed);
-      if (is_closed == *until) break;
-    }
+    status = lines_.home->read(is_closed);
+    if (!is_closed) continue;
+    closed_at_ = position_;
+    if (position_ > *open_until) break;
   }
   return status;
 }

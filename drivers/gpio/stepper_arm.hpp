@@ -19,11 +19,19 @@ struct StepperArmParams {
   ArmLimits limits{0.0, 45.0};    // min_deg is 0: the switch is at the lower end
   double speed_deg_per_s = 30.0;
   double acceleration_deg_per_s2 = 60.0;
-  double homing_speed_deg_per_s = 5.0;               // also where the switch closes exactly
-  double home_overlap_deg = 2.0;                     // the switch is closed up to here at most
+  double homing_speed_deg_per_s = 5.0;  // also where the switch closes exactly
+  // The switch is closed up to here at most. 0 lies half of it inside of where the switch closes, so that at
+  // 0 neither its hysteresis nor a hair's breadth opens it.
+  double home_overlap_deg = 2.0;
+  // Coming back, the switch closes as far from where it did at homing at most. Beyond, steps were lost: scans
+  // refuse an angle that is off by as much.
+  double home_tolerance_deg = 0.5;
   Nanoseconds pulse = std::chrono::microseconds(5);  // driver chips ask for 1 to 2.5
   Nanoseconds settling_time = std::chrono::milliseconds(300);
 };
+
+// How long going home from anywhere, or any move, may take on a busy board.
+Nanoseconds longest_move(const StepperArmParams& params);
 
 struct StepperLines {
   std::unique_ptr<GpioLine> step;
@@ -33,7 +41,8 @@ struct StepperLines {
 };
 
 // Steps are counted. The switch catches what the count cannot know: at 0 it must be closed, and open beyond
-// home_overlap_deg; else steps were lost, and the move ends with `stalled`.
+// home_overlap_deg; and on the way back it must close where it did at homing. Else steps were lost, and the
+// move ends with `stalled`.
 class StepperArm final : public Arm {
  public:
   // `clock` outlives the arm.
@@ -58,14 +67,22 @@ class StepperArm final : public Arm {
   DeviceStatus carry_out(Goal goal, std::int64_t target);
   DeviceStatus go_home();
   DeviceStatus go_to(std::int64_t target);
-  // Up to `steps` in one direction, fewer when the switch comes to say `until`.
-  DeviceStatus run(std::int64_t steps, bool away, double speed_deg_per_s, std::optional<bool> until);
+  DeviceStatus check_return(bool was_beyond_switch, std::int64_t target);
+  // Up to `steps` in one direction, fewer when the switch closes beyond `open_until`; notes where it closes.
+  // Without `open_until` the switch is not looked at.
+  DeviceStatus run(std::int64_t steps, bool away, double speed_deg_per_s,
+                   std::optional<std::int64_t> open_until = std::nullopt);
   DeviceStatus make_step(bool away);
   DeviceStatus expect_switch(bool closed, const char* otherwise);
+  DeviceStatus stall(const char* problem);
 
   void begin(Goal goal, std::int64_t target);
+  void halt();
+  bool is_busy();
   DeviceStatus finish(Nanoseconds timeout);
   std::int64_t steps_at(double angle_deg) const;
+  // Where the switch closes.
+  std::int64_t closing_step() const { return steps_at(params_.home_overlap_deg / 2.0); }
 
   StepperLines lines_;
   Clock& clock_;
@@ -80,6 +97,7 @@ class StepperArm final : public Arm {
   const char* problem_ = "";
   std::atomic<bool> must_halt_ = false;
   std::atomic<std::int64_t> position_ = 0;  // steps from home
+  std::optional<std::int64_t> closed_at_;   // where the switch closed in the last run; the worker's
 };
 
 }  // namespace traygauge

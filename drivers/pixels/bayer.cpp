@@ -6,22 +6,6 @@
 namespace traygauge {
 namespace {
 
-void unpack_row(const RawFormat& format, const std::uint8_t* from, int width, std::uint8_t* to) {
-  if (format.is_packed) {  // upper bytes first, the rest of the bits behind each group
-    const int group = format.bits == 10 ? 4 : 2;
-    for (int x = 0; x < width; x += group, from += group + 1, to += group) {
-      std::memcpy(to, from, static_cast<std::size_t>(group));
-    }
-  } else if (format.bits == 8) {
-    std::memcpy(to, from, static_cast<std::size_t>(width));
-  } else {
-    const int shift = format.bits - 8;
-    for (int x = 0; x < width; ++x) {
-      to[x] = static_cast<std::uint8_t>((from[2 * x] | from[2 * x + 1] << 8) >> shift);
-    }
-  }
-}
-
 std::uint8_t mean(int a, int b) {
   return static_cast<std::uint8_t>((a + b + 1) >> 1);
 }
@@ -54,6 +38,24 @@ void convert_row(const std::array<const std::uint8_t*, 3>& rows, int width, bool
 
 }  // namespace
 
+void unpack_bayer_row(const RawFormat& format, const std::uint8_t* row, int width, std::uint8_t* samples) {
+  const std::uint8_t* from = row;
+  std::uint8_t* to = samples;
+  if (format.is_packed) {  // upper bytes first, the rest of the bits behind each group
+    const int group = format.bits == 10 ? 4 : 2;
+    for (int x = 0; x < width; x += group, from += group + 1, to += group) {
+      std::memcpy(to, from, static_cast<std::size_t>(group));
+    }
+  } else if (format.bits == 8) {
+    std::memcpy(to, from, static_cast<std::size_t>(width));
+  } else {
+    const int shift = format.bits - 8;
+    for (int x = 0; x < width; ++x) {
+      to[x] = static_cast<std::uint8_t>((from[2 * x] | from[2 * x + 1] << 8) >> shift);
+    }
+  }
+}
+
 void convert_bayer(const RawFormat& format, const RawFrame& frame, std::span<std::uint8_t> scratch,
                    std::uint8_t* bgr) {
   const bool starts_green = format.pattern == BayerPattern::grbg || format.pattern == BayerPattern::gbrg;
@@ -61,7 +63,7 @@ void convert_bayer(const RawFormat& format, const RawFrame& frame, std::span<std
   const std::ptrdiff_t row_bytes = std::ptrdiff_t{3} * frame.width;
   const auto row_at = [&](int y) { return scratch.data() + y % 3 * std::ptrdiff_t{frame.width}; };
   const auto unpack = [&](int y) {
-    unpack_row(format, frame.bytes.data() + y * frame.stride_bytes, frame.width, row_at(y));
+    unpack_bayer_row(format, frame.bytes.data() + y * frame.stride_bytes, frame.width, row_at(y));
   };
   unpack(0);
   unpack(1);

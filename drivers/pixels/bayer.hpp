@@ -13,6 +13,9 @@ constexpr std::size_t bayer_scratch_bytes(int width) {
   return 3 * static_cast<std::size_t>(width);
 }
 
+// One row's samples, a byte each.
+void unpack_bayer_row(const RawFormat& format, const std::uint8_t* row, int width, std::uint8_t* samples);
+
 // Samples above 8 bits keep their upper 8. The outermost rows and columns, which miss neighbours, repeat the
 // ones beside them. `scratch` has bayer_scratch_bytes(); `bgr` as for convert_yuyv.
 void convert_bayer(const RawFormat& format, const RawFrame& frame, std::span<std::uint8_t> scratch,

@@ -8,9 +8,15 @@
 #include "drivers/pixels/yuv.hpp"
 
 namespace traygauge {
+namespace {
 
-FrameConverter::FrameConverter(const RawFormat& format, int width, int height, std::ptrdiff_t stride_bytes)
-    : format_(format), width_(width), height_(height), stride_bytes_(stride_bytes) {
+constexpr int kRowStep = 8;  // of the rows that tell how bright and how sharp a picture is
+
+}  // namespace
+
+FrameConverter::FrameConverter(const RawFormat& format, int width, int height, std::ptrdiff_t stride_bytes,
+                               const YuvCoding& coding)
+    : format_(format), width_(width), height_(height), stride_bytes_(stride_bytes), coding_(coding) {
   if (format.encoding == RawEncoding::bayer) scratch_.resize(bayer_scratch_bytes(width));
   if (format.encoding == RawEncoding::mjpeg) jpeg_.emplace();
 }
@@ -29,10 +35,10 @@ bool FrameConverter::convert(std::span<const std::uint8_t> bytes, std::uint8_t* 
   const RawFrame frame{bytes, width_, height_, stride_bytes_};
   switch (format_.encoding) {
     case RawEncoding::yuyv:
-      convert_yuyv(frame, out);
+      convert_yuyv(frame, coding_, out);
       break;
     case RawEncoding::nv12:
-      convert_nv12(frame, out);
+      convert_nv12(frame, coding_, out);
       break;
     case RawEncoding::bayer:
       convert_bayer(format_, frame, scratch_, out);
@@ -57,21 +63,40 @@ void FrameConverter::copy_rows(const RawFrame& frame, std::uint8_t* out) const {
   }
 }
 
-// Differences between neighbours of one colour, squared, in every eighth row.
-double FrameConverter::sharpness(std::span<const std::uint8_t> bytes) const {
+FrameConverter::Samples FrameConverter::samples_at(std::span<const std::uint8_t> bytes, int y) {
+  const std::uint8_t* const row = bytes.data() + y * stride_bytes_;
+  if (format_.encoding == RawEncoding::bayer) {
+    unpack_bayer_row(format_, row, width_, scratch_.data());
+    return {scratch_.data(), static_cast<std::size_t>(width_), 2};
+  }
+  const bool has_three = format_.encoding == RawEncoding::rgb24 || format_.encoding == RawEncoding::bgr24;
+  return {row, row_bytes(format_, width_), std::size_t{has_three ? 3U : 2U}};  // YUYV: grey to grey
+}
+
+std::optional<double> FrameConverter::brightness(std::span<const std::uint8_t> bytes) {
+  if (jpeg_) return jpeg_->mean_grey(bytes.first(jpeg_length(bytes)));
+  const std::size_t step = format_.encoding == RawEncoding::yuyv ? 2 : 1;
+  double sum = 0.0;
+  double count = 0.0;
+  for (int y = 0; y < height_; y += kRowStep) {
+    const Samples samples = samples_at(bytes, y);
+    std::uint64_t row_sum = 0;
+    for (std::size_t i = 0; i < samples.count; i += step) row_sum += samples.first[i];
+    sum += static_cast<double>(row_sum);
+    count += static_cast<double>(samples.count / step);
+  }
+  return sum / count;
+}
+
+// Differences between neighbours of one colour, squared.
+double FrameConverter::sharpness(std::span<const std::uint8_t> bytes) {
   if (format_.encoding == RawEncoding::mjpeg) return static_cast<double>(jpeg_length(bytes));
-  const bool has_two_bytes = format_.encoding == RawEncoding::bayer && format_.bits > 8 && !format_.is_packed;
-  const std::size_t row = row_bytes(format_, width_);
-  std::size_t step = 2;  // YUYV: grey to grey; mosaic: colour to colour
-  if (format_.encoding == RawEncoding::rgb24 || format_.encoding == RawEncoding::bgr24) step = 3;
-  if (has_two_bytes) step = 4;
-  constexpr int kRowStep = 8;
   double sum = 0.0;
   for (int y = 0; y < height_; y += kRowStep) {
-    const std::uint8_t* const pixels = bytes.data() + y * stride_bytes_ + (has_two_bytes ? 1 : 0);
+    const auto [first, count, step] = samples_at(bytes, y);
     std::int64_t row_sum = 0;
-    for (std::size_t i = 0; i + step < row - (has_two_bytes ? 1 : 0); i += step) {
-      const int difference = pixels[i] - pixels[i + step];
+    for (std::size_t i = 0; i + step < count; i += step) {
+      const int difference = first[i] - first[i + step];
       row_sum += std::int64_t{difference} * difference;
     }
     sum += static_cast<double>(row_sum);

@@ -5,6 +5,8 @@
 #include <cstdio>  // jpeglib.h needs FILE
 // jpeglib.h relies on the two above.
 #include <jpeglib.h>
+// and this on the one before.
+#include <jerror.h>
 
 #include <algorithm>
 #include <array>
@@ -15,6 +17,7 @@ namespace {
 constexpr std::uint8_t kMarker = 0xFF;
 constexpr std::uint8_t kStart = 0xD8;
 constexpr std::uint8_t kEnd = 0xD9;
+constexpr std::size_t kMaxSide = 65'536;
 constexpr int kRowsAtOnce = 16;  // what the library decodes at once when colours have half the resolution
 
 }  // namespace
@@ -42,7 +45,7 @@ struct JpegDecoder::State {
     errors.error_exit = [](j_common_ptr common) { of(common).leave(); };
     errors.emit_message = [](j_common_ptr common, int level) {
       // Damaged data is a warning to the library, which invents the rest.
-      if (level < 0) of(common).leave();
+      if (level < 0 && !is_harmless(*common->err)) of(common).leave();
     };
     errors.output_message = [](j_common_ptr) {};
     jpeg_create_decompress(&library);
@@ -50,6 +53,13 @@ struct JpegDecoder::State {
   State(const State&) = delete;
   State& operator=(const State&) = delete;
   ~State() { jpeg_destroy_decompress(&library); }
+
+  // Several cameras send a few bytes too many before a marker, in every picture; many are left over where
+  // others are missing.
+  static bool is_harmless(const jpeg_error_mgr& warning) {
+    constexpr int kMostBytes = 16;
+    return warning.msg_code == JWRN_EXTRANEOUS_DATA && warning.msg_parm.i[0] <= kMostBytes;
+  }
 
   [[noreturn]] void leave() {
     errors.format_message(reinterpret_cast<j_common_ptr>(&library), message.data());
@@ -84,6 +94,30 @@ struct JpegDecoder::State {
     jpeg_finish_decompress(&library);
     return true;
   }
+
+  // `row` has room for an eighth of the widest picture.
+  bool sum_grey(std::span<const std::uint8_t> bytes, std::span<std::uint8_t> row, double& mean) {
+    if (setjmp(escape) != 0) {
+      jpeg_abort_decompress(&library);
+      return false;
+    }
+    jpeg_mem_src(&library, bytes.data(), bytes.size());
+    jpeg_read_header(&library, TRUE);
+    library.out_color_space = JCS_GRAYSCALE;
+    library.scale_num = 1;
+    library.scale_denom = 8;
+    jpeg_start_decompress(&library);
+    double sum = 0.0;
+    const bool has_room = library.output_width <= row.size();
+    while (has_room && library.output_scanline < library.output_height) {
+      JSAMPROW rows[] = {row.data()};
+      jpeg_read_scanlines(&library, rows, 1);
+      for (JDIMENSION x = 0; x < library.output_width; ++x) sum += row[x];
+    }
+    mean = sum / (static_cast<double>(library.output_width) * library.output_height);
+    jpeg_abort_decompress(&library);
+    return has_room;
+  }
 };
 
 JpegDecoder::JpegDecoder() : state_(std::make_unique<State>()) {}
@@ -91,6 +125,12 @@ JpegDecoder::~JpegDecoder() = default;
 
 bool JpegDecoder::decode(std::span<const std::uint8_t> bytes, int width, int height, std::uint8_t* rgb) {
   return state_->decode(bytes, width, height, rgb);
+}
+
+std::optional<double> JpegDecoder::mean_grey(std::span<const std::uint8_t> bytes) {
+  std::array<std::uint8_t, kMaxSide / 8> row{};
+  double mean = 0.0;
+  return state_->sum_grey(bytes, row, mean) ? std::optional(mean) : std::nullopt;
 }
 
 std::string_view JpegDecoder::problem() const {

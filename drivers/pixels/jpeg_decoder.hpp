@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string_view>
 
@@ -21,8 +22,11 @@ class JpegDecoder {
   JpegDecoder& operator=(const JpegDecoder&) = delete;
 
   // Red, green, blue, rows without padding; `rgb` has room for width × height × 3. False when the picture is
-  // damaged anywhere, or of another size: problem() says which.
+  // damaged anywhere, or of another size: problem() says which. A few superfluous bytes before a marker are
+  // no damage.
   bool decode(std::span<const std::uint8_t> bytes, int width, int height, std::uint8_t* rgb);
+  // Of all pixels, 0 to 255, at an eighth of the resolution; nothing when the picture is damaged.
+  std::optional<double> mean_grey(std::span<const std::uint8_t> bytes);
   std::string_view problem() const;
 
  private:

@@ -24,6 +24,14 @@ struct RawFormat {
   bool operator==(const RawFormat&) const = default;
 };
 
+// What the numbers of YUYV and NV12 mean.
+struct YuvCoding {
+  bool is_full_range = false;  // grey from 0 to 255; else 16 to 235, as in video
+  bool is_bt709 = false;       // else BT.601
+
+  bool operator==(const YuvCoding&) const = default;
+};
+
 // One picture's bytes. NV12 has its colours right behind the last row of grey, in rows of the same stride.
 struct RawFrame {
   std::span<const std::uint8_t> bytes;

@@ -1,4 +1,4 @@
-// Grey and shared colours to blue, green, red: ITU-R BT.601 with the range of video, 16 to 235.
+// Grey and shared colours to blue, green, red.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,7 @@ namespace traygauge {
 
 // `bgr` has room for width × height × 3 bytes, rows without padding. The frame is whole: frame_bytes().
 // Widths are even, for NV12 heights too. To the nearest integer at 20 fractional bits of the coefficients.
-void convert_yuyv(const RawFrame& frame, std::uint8_t* bgr);
-void convert_nv12(const RawFrame& frame, std::uint8_t* bgr);
+void convert_yuyv(const RawFrame& frame, const YuvCoding& coding, std::uint8_t* bgr);
+void convert_nv12(const RawFrame& frame, const YuvCoding& coding, std::uint8_t* bgr);
 
 }  // namespace traygauge

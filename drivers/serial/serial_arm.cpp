@@ -1,6 +1,7 @@
 #include "drivers/serial/serial_arm.hpp"
 
 #include <array>
+#include <cmath>
 #include <cstdio>
 #include <sstream>
 
@@ -90,6 +91,7 @@ DeviceStatus SerialArm::read_report(Report& report) {
 }
 
 DeviceStatus SerialArm::do_home(Nanoseconds timeout) {
+  target_deg_ = 0.0;
   const DeviceStatus status = command("HOME");
   return status.ok() ? do_wait_until_still(timeout) : status;
 }
@@ -98,6 +100,7 @@ DeviceStatus SerialArm::do_begin_move_to(double angle_deg) {
   Report report;
   if (const DeviceStatus status = read_report(report); !status.ok()) return status;
   if (report.state == "MOVING") return DeviceCode::busy;
+  target_deg_ = angle_deg;
   std::array<char, 48> request{};
   std::snprintf(request.data(), request.size(), "MOVE %.3f", angle_deg);
   return command(request.data());
@@ -115,6 +118,13 @@ DeviceStatus SerialArm::do_wait_until_still(Nanoseconds timeout) {
     }
     const bool is_still = report.state == "STILL";
     if (!is_still && report.state != "MOVING") return refuse("WHERE", report.state);
+    if (is_still && std::abs(report.angle_deg - target_deg_) > params_.tolerance_deg) {
+      std::array<char, 80> text{};
+      std::snprintf(text.data(), text.size(), "it stands still at %.2f degrees, sent to %.2f",
+                    report.angle_deg, target_deg_);
+      set_detail(text.data());
+      return DeviceCode::stalled;
+    }
     if (is_still && clock_.now() + params_.settling_time <= deadline) {
       clock_.sleep_for(params_.settling_time);
       return DeviceCode::ok;

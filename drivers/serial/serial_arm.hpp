@@ -11,10 +11,12 @@ namespace traygauge {
 
 struct SerialArmParams {
   std::string device = "/dev/serial/by-id/arm";
+  double tolerance_deg = 0.5;  // where it stands against where it was sent; beyond, scans are refused
   int baud = 115200;
   Nanoseconds reply_timeout = std::chrono::milliseconds(500);
   // Many controllers start anew when the line is opened, which takes a second or two.
   Nanoseconds boot_timeout = std::chrono::seconds(4);
+  Nanoseconds longest_move = std::chrono::seconds(30);  // home from anywhere included
   Nanoseconds settling_time = std::chrono::milliseconds(300);
 };
 
@@ -47,7 +49,8 @@ class SerialArm final : public Arm {
   Clock& clock_;
   SerialArmParams params_;
   SerialPort port_;
-  ArmLimits limits_;  // as the controller says
+  ArmLimits limits_;         // as the controller says
+  double target_deg_ = 0.0;  // where it was last sent
 };
 
 }  // namespace traygauge

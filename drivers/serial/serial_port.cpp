@@ -2,6 +2,8 @@
 
 #include <fcntl.h>
 #include <poll.h>
+#include <sys/file.h>
+#include <sys/ioctl.h>
 #include <termios.h>
 #include <unistd.h>
 
@@ -23,6 +25,13 @@ DeviceStatus status_of_failure(int error_number) {
   return error_number == EIO ? DeviceStatus(DeviceCode::device_gone, EIO) : status_of_errno(error_number);
 }
 
+// Two programs on one line read each other's answers. The lock is for those that ask for it, and the other
+// for those that do not; neither alone stops both a second station of root's and a terminal program.
+int take_alone(int descriptor) {
+  if (::flock(descriptor, LOCK_EX | LOCK_NB) != 0) return errno == EWOULDBLOCK ? EBUSY : errno;
+  return ::ioctl(descriptor, TIOCEXCL) != 0 && errno != ENOTTY ? errno : 0;
+}
+
 int configure(int descriptor, speed_t speed) {
   termios settings{};
   if (tcgetattr(descriptor, &settings) != 0) return errno;
@@ -36,6 +45,11 @@ int configure(int descriptor, speed_t speed) {
 
 }  // namespace
 
+bool is_serial_speed(int baud) {
+  return std::any_of(kSpeeds.begin(), kSpeeds.end(),
+                     [baud](const auto& known) { return known.first == baud; });
+}
+
 DeviceStatus SerialPort::open(const std::string& path, int baud) {
   close();
   const auto speed =
@@ -43,6 +57,11 @@ DeviceStatus SerialPort::open(const std::string& path, int baud) {
   if (speed == kSpeeds.end()) return DeviceCode::invalid_argument;
   descriptor_ = ::open(path.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC);
   if (descriptor_ < 0) return status_of_errno(errno);
+  if (const int error = take_alone(descriptor_); error != 0) {
+    ::close(descriptor_);
+    descriptor_ = -1;
+    return status_of_errno(error);
+  }
   if (const int error = configure(descriptor_, speed->second); error != 0) {
     close();
     return error == ENOTTY ? DeviceStatus(DeviceCode::unsupported, error) : status_of_errno(error);
@@ -51,7 +70,10 @@ DeviceStatus SerialPort::open(const std::string& path, int baud) {
 }
 
 void SerialPort::close() {
-  if (descriptor_ >= 0) ::close(descriptor_);
+  if (descriptor_ >= 0) {
+    ::ioctl(descriptor_, TIOCNXCL);
+    ::close(descriptor_);
+  }
   descriptor_ = -1;
   received_.clear();
 }

@@ -9,6 +9,9 @@
 
 namespace traygauge {
 
+// Whether a line can run so fast: 9600, 19200, 38400, 57600, 115200 or 230400 baud.
+bool is_serial_speed(int baud);
+
 class SerialPort {
  public:
   SerialPort() = default;
@@ -16,8 +19,8 @@ class SerialPort {
   SerialPort& operator=(const SerialPort&) = delete;
   ~SerialPort() { close(); }
 
-  // 8 bits, no parity, one stop bit, no flow control; forgets what was received before. `baud`: 9600, 19200,
-  // 38400, 57600, 115200 or 230400, else invalid_argument.
+  // 8 bits, no parity, one stop bit, no flow control; forgets what was received before. Another `baud` than
+  // is_serial_speed() is an invalid_argument. in_use while another program has it.
   DeviceStatus open(const std::string& path, int baud);
   void close();
   bool is_open() const { return descriptor_ >= 0; }

@@ -10,7 +10,8 @@
 namespace traygauge {
 namespace {
 
-// How the kernel names a control. `unit`: of the configuration's number in steps of the kernel.
+// How the kernel names a control. `unit`: of the configuration's number in steps of the kernel; 0 where the
+// driver alone knows, such as the lines of a sensor.
 struct Value {
   std::uint32_t id;
   int unit;
@@ -29,7 +30,7 @@ struct Description {
 constexpr std::array<Description, kCameraControlCount> kDescriptions = {{
     {"exposure_us",
      {V4L2_CID_EXPOSURE_AUTO, V4L2_EXPOSURE_MANUAL, {V4L2_EXPOSURE_AUTO, V4L2_EXPOSURE_APERTURE_PRIORITY}},
-     {{{V4L2_CID_EXPOSURE_ABSOLUTE, 100}, {V4L2_CID_EXPOSURE, 1}}}},
+     {{{V4L2_CID_EXPOSURE_ABSOLUTE, 100}, {V4L2_CID_EXPOSURE, 0}}}},
     {"gain", {V4L2_CID_AUTOGAIN, 0, {1, 1}}, {{{V4L2_CID_GAIN, 1}, {V4L2_CID_ANALOGUE_GAIN, 1}}}},
     {"white_balance_k",
      {V4L2_CID_AUTO_WHITE_BALANCE, 0, {1, 1}},
@@ -49,6 +50,16 @@ std::optional<v4l2_queryctrl> find_control(VideoDevice& device, std::uint32_t id
   if (device.request(VIDIOC_QUERYCTRL, &query) != 0) return std::nullopt;
   if ((query.flags & V4L2_CTRL_FLAG_DISABLED) != 0) return std::nullopt;
   return query;
+}
+
+bool has_value(VideoDevice& device, CameraControl control) {
+  const auto& values = description(control).values;
+  return std::any_of(values.begin(), values.end(),
+                     [&device](const Value& value) { return find_control(device, value.id).has_value(); });
+}
+
+std::string in_unit(int value, int unit) {
+  return unit == 0 ? std::to_string(value) + " of its own" : std::to_string(value * unit);
 }
 
 int read_control(VideoDevice& device, std::uint32_t id, int& value) {
@@ -84,7 +95,10 @@ DeviceStatus CameraControls::switch_automatic(CameraControl control, bool on) {
     error = write_control(device_, automatic.id, choice);
     int found = 0;
     if (error == 0) error = read_control(device_, automatic.id, found);
-    if (error == 0 && found == choice) return DeviceCode::ok;
+    if (error == 0 && found == choice) {
+      is_automatic_ = is_automatic_ || on;
+      return DeviceCode::ok;
+    }
     if (error != 0 && status_of_errno(error).code() == DeviceCode::device_gone) break;
   }
   if (on && error == EINVAL) return DeviceCode::ok;  // it has only the manual setting
@@ -100,6 +114,11 @@ DeviceStatus CameraControls::set_value(CameraControl control, int value) {
   for (const Value& known : description(control).values) {
     const auto query = find_control(device_, known.id);
     if (!query) continue;
+    if (known.unit == 0) {
+      return fail(control, DeviceCode::unsupported,
+                  "the camera counts in a unit of its own, such as lines; set it with v4l2-ctl before the "
+                  "station starts, and write \"hold\" here");
+    }
     const int steps = value / known.unit;
     if (steps < query->minimum || steps > query->maximum) {
       return fail(control, DeviceCode::unsupported,
@@ -128,10 +147,18 @@ DeviceStatus CameraControls::set_value(CameraControl control, int value) {
 // Automatics first: while one is on, its value cannot be set.
 DeviceStatus CameraControls::prepare(const ControlWishes& wishes) {
   held_ = {};
+  is_automatic_ = false;
   for (std::size_t i = 0; i < kCameraControlCount; ++i) {
     const auto control = static_cast<CameraControl>(i);
     if (wishes[i].kind == ControlWish::Kind::leave) continue;
     const bool holds = wishes[i].kind == ControlWish::Kind::hold;
+    // What every camera has; where this node cannot hold it, something else moves it.
+    if (holds && control == CameraControl::exposure && !has_value(device_, control)) {
+      return fail(control, DeviceCode::unsupported,
+                  "the camera's node has no control that could hold it. A sensor on the board has its own on "
+                  "another node: set exposure and gain there (v4l2-ctl --list-devices), and write \"leave\" "
+                  "here");
+    }
     DeviceStatus status = switch_automatic(control, holds);
     if (status.ok() && !holds) status = set_value(control, wishes[i].value);
     if (!status.ok()) return status;
@@ -139,11 +166,37 @@ DeviceStatus CameraControls::prepare(const ControlWishes& wishes) {
   return DeviceCode::ok;
 }
 
-DeviceStatus CameraControls::lock(const ControlWishes& wishes) {
-  for (std::size_t i = 0; i < kCameraControlCount; ++i) {
+DeviceStatus CameraControls::release(const ControlWishes& wishes) {
+  is_automatic_ = false;
+  DeviceStatus status;
+  for (std::size_t i = 0; status.ok() && i < kCameraControlCount; ++i) {
     const auto control = static_cast<CameraControl>(i);
+    const bool is_held = wishes[i].kind == ControlWish::Kind::hold && control != CameraControl::focus;
+    if (is_held) status = switch_automatic(control, true);
+  }
+  return status;
+}
+
+// Read while the automatics are on, all before the first is switched off: exposure's takes gain along. Some
+// cameras go back to the last value that was set by hand, so what was found is written.
+DeviceStatus CameraControls::lock(const ControlWishes& wishes) {
+  DeviceStatus status = find_settled(wishes);
+  for (std::size_t i = 0; status.ok() && i < kCameraControlCount; ++i) {
+    if (wishes[i].kind == ControlWish::Kind::hold)
+      status = switch_automatic(static_cast<CameraControl>(i), false);
+  }
+  for (std::size_t i = 0; status.ok() && i < kCameraControlCount; ++i) {
+    if (wishes[i].kind == ControlWish::Kind::hold && held_[i].id != 0)
+      status = hold(static_cast<CameraControl>(i));
+  }
+  is_automatic_ = is_automatic_ && !status.ok();
+  return status.ok() ? verify() : status;
+}
+
+DeviceStatus CameraControls::find_settled(const ControlWishes& wishes) {
+  for (std::size_t i = 0; i < kCameraControlCount; ++i) {
     if (wishes[i].kind != ControlWish::Kind::hold) continue;
-    if (const DeviceStatus status = switch_automatic(control, false); !status.ok()) return status;
+    const auto control = static_cast<CameraControl>(i);
     for (const Value& known : description(control).values) {
       if (!find_control(device_, known.id)) continue;
       int found = 0;
@@ -154,6 +207,28 @@ DeviceStatus CameraControls::lock(const ControlWishes& wishes) {
       break;
     }
   }
+  return DeviceCode::ok;
+}
+
+DeviceStatus CameraControls::hold(CameraControl control) {
+  Held& held = held_[static_cast<std::size_t>(control)];
+  const auto query = find_control(device_, held.id);
+  if (!query || (query->flags & V4L2_CTRL_FLAG_READ_ONLY) != 0) return DeviceCode::ok;
+  const int settled = std::clamp(held.value, query->minimum, query->maximum);
+  if (const int error = write_control(device_, held.id, settled); error != 0) {
+    return fail(control, status_of_errno(error),
+                "it settled at " + in_unit(settled, held.unit) + " and cannot be held there");
+  }
+  if (const int error = read_control(device_, held.id, held.value); error != 0) {
+    return fail(control, status_of_errno(error), "it cannot be read back");
+  }
+  if (std::abs(held.value - settled) <= std::max(0, query->step - 1)) return DeviceCode::ok;
+  return fail(control, DeviceCode::unsupported,
+              "it settled at " + in_unit(settled, held.unit) + ", held the camera says " +
+                  in_unit(held.value, held.unit));
+}
+
+DeviceStatus CameraControls::verify() {
   for (std::size_t i = 0; i < kCameraControlCount; ++i) {
     const Held& held = held_[i];
     int found = 0;
@@ -163,8 +238,8 @@ DeviceStatus CameraControls::lock(const ControlWishes& wishes) {
     }
     if (found != held.value) {
       return fail(static_cast<CameraControl>(i), DeviceCode::unsupported,
-                  "it stood at " + std::to_string(held.value * held.unit) + " and went to " +
-                      std::to_string(found * held.unit) + " by itself");
+                  "it stood at " + in_unit(held.value, held.unit) + " and went to " +
+                      in_unit(found, held.unit) + " by itself");
     }
   }
   return DeviceCode::ok;
@@ -172,7 +247,7 @@ DeviceStatus CameraControls::lock(const ControlWishes& wishes) {
 
 std::optional<int> CameraControls::held(CameraControl control) const {
   const Held& held = held_[static_cast<std::size_t>(control)];
-  return held.id != 0 ? std::optional(held.value * held.unit) : std::nullopt;
+  return held.id != 0 && held.unit != 0 ? std::optional(held.value * held.unit) : std::nullopt;
 }
 
 std::string CameraControls::describe() const {
@@ -180,7 +255,7 @@ std::string CameraControls::describe() const {
   for (std::size_t i = 0; i < kCameraControlCount; ++i) {
     if (held_[i].id == 0) continue;
     text += (text.empty() ? "" : ", ") + std::string(kDescriptions[i].name) + " " +
-            std::to_string(held_[i].value * held_[i].unit);
+            in_unit(held_[i].value, held_[i].unit);
   }
   return text.empty() ? "the camera has nothing to hold" : text;
 }

@@ -19,7 +19,9 @@ const char* name(CameraControl control);
 
 struct ControlWish {
   enum class Kind : std::uint8_t {
-    hold,   // the camera's automatic settles, then keeps its value; nothing where there is no such control
+    // The camera's automatic settles, then keeps its value. Nothing where there is no such control, but for
+    // exposure, which every camera has: that it cannot be held is told.
+    hold,
     value,  // this value, from the start
     leave,  // as it is
   };
@@ -34,12 +36,18 @@ class CameraControls {
 
   // Sets the given values, and switches the automatics of those to hold on.
   DeviceStatus prepare(const ControlWishes& wishes);
-  // After the picture has settled: switches every automatic off and holds what it found. Then each value
-  // that was set or is held is what the camera says.
+  // Switches the automatics of those to hold on again, but for focus: the lens was calibrated at the one that
+  // is held.
+  DeviceStatus release(const ControlWishes& wishes);
+  // Whether any automatic is on that lock() will switch off.
+  bool is_automatic() const { return is_automatic_; }
+  // After the picture has settled: switches every automatic off and sets what it found. Then each value that
+  // was set or is held is what the camera says.
   DeviceStatus lock(const ControlWishes& wishes);
   // Which control, what was set and what the camera says; after a failure.
   const std::string& problem() const { return problem_; }
-  // What is held of a control, in the unit of its name; nothing where the camera has none, or it may vary.
+  // What is held of a control, in the unit of its name; nothing where the camera has none, or it may vary,
+  // or counts in a unit of its own.
   std::optional<int> held(CameraControl control) const;
   // "exposure_us 15600, focus 30": what is held, after lock().
   std::string describe() const;
@@ -48,14 +56,18 @@ class CameraControls {
   struct Held {
     std::uint32_t id = 0;  // 0: the camera has no such control
     int value = 0;
-    int unit = 1;  // of the name in steps of the camera
+    int unit = 1;  // of the name in steps of the camera; 0: not known
   };
   DeviceStatus set_value(CameraControl control, int value);
+  DeviceStatus find_settled(const ControlWishes& wishes);
+  DeviceStatus hold(CameraControl control);
+  DeviceStatus verify();
   DeviceStatus switch_automatic(CameraControl control, bool on);
   DeviceStatus fail(CameraControl control, DeviceStatus status, const std::string& what);
 
   VideoDevice& device_;
   std::array<Held, kCameraControlCount> held_{};
+  bool is_automatic_ = false;
   std::string problem_;
 };
 

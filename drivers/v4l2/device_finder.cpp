@@ -30,8 +30,7 @@ std::string read_line(const fs::path& file) {
 }
 
 bool delivers_pictures(const v4l2_capability& capability) {
-  const std::uint32_t own = (capability.capabilities & V4L2_CAP_DEVICE_CAPS) != 0 ? capability.device_caps
-                                                                                  : capability.capabilities;
+  const std::uint32_t own = node_capabilities(capability);
   return (own & V4L2_CAP_VIDEO_CAPTURE) != 0 && (own & V4L2_CAP_STREAMING) != 0;
 }
 
@@ -52,6 +51,11 @@ bool is_called(const FoundCamera& camera, const std::string& wanted) {
 
 }  // namespace
 
+std::uint32_t node_capabilities(const v4l2_capability& capability) {
+  const bool knows_own = (capability.capabilities & V4L2_CAP_DEVICE_CAPS) != 0;
+  return knows_own ? capability.device_caps : capability.capabilities;
+}
+
 bool is_camera_name(const std::string& wanted) {
   if (wanted.starts_with("/")) return true;
   for (const char* const prefix : {kSerial, kPort, kName}) {
@@ -68,7 +72,11 @@ CameraList list_cameras(VideoDevice& device, const CameraFolders& folders) {
     camera.node = folders.nodes / entry.path().filename();
     if (const int error = device.open(camera.node); error != 0) {
       device.close();
-      if (status_of_errno(error).code() == DeviceCode::no_permission) list.closed_node = camera.node;
+      const DeviceStatus status = status_of_errno(error);
+      if (status.code() != DeviceCode::device_gone) {
+        list.closed_node = camera.node;
+        list.closed_status = status;
+      }
       continue;
     }
     v4l2_capability capability{};
@@ -92,12 +100,12 @@ DeviceStatus find_camera(VideoDevice& device, const std::string& wanted, std::st
     node = wanted;
     return DeviceCode::ok;
   }
-  const auto [cameras, closed_node] = list_cameras(device, folders);
+  const auto [cameras, closed_node, closed_status] = list_cameras(device, folders);
   const auto is_wanted = [&wanted](const FoundCamera& camera) { return is_called(camera, wanted); };
   const auto found = std::find_if(cameras.begin(), cameras.end(), is_wanted);
   if (found == cameras.end() && !closed_node.empty()) {
-    problem = closed_node + " may be \"" + wanted + "\" and may not be opened";
-    return DeviceCode::no_permission;
+    problem = closed_node + " may be \"" + wanted + "\" and could not be opened";
+    return closed_status;
   }
   if (found == cameras.end()) {
     problem = "\"" + wanted + "\" is not there; " + describe(cameras);

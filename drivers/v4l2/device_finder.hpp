@@ -1,12 +1,15 @@
 // Cameras by a name that stays when the cable is plugged in again.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <vector>
 
 #include "drivers/device_status.hpp"
 #include "drivers/v4l2/video_device.hpp"
+
+struct v4l2_capability;
 
 namespace traygauge {
 
@@ -25,14 +28,18 @@ struct CameraFolders {
 
 struct CameraList {
   std::vector<FoundCamera> cameras;  // by node
-  std::string closed_node;           // one that this user may not open; empty: none
+  std::string closed_node;           // one that is there and could not be opened; empty: none
+  DeviceStatus closed_status;        // why
 };
+
+// What a node itself can do, of V4L2_CAP_….
+std::uint32_t node_capabilities(const v4l2_capability& capability);
 
 // `device` is closed, and is again.
 CameraList list_cameras(VideoDevice& device, const CameraFolders& folders = {});
 
 // The node that `wanted` names: a path ("/dev/video0", "/dev/v4l/by-id/…"), "serial:…", "port:…" or "name:…".
-// device_gone when there is none, no_permission when it may be one that this user may not open,
+// device_gone when there is none, no_permission, in_use when it may be one that could not be opened,
 // invalid_argument when several have that name; `problem` then says what is there.
 DeviceStatus find_camera(VideoDevice& device, const std::string& wanted, std::string& node,
                          std::string& problem, const CameraFolders& folders = {});

@@ -6,6 +6,7 @@
 #include <cerrno>
 #include <utility>
 
+#include "drivers/v4l2/brightness_watch.hpp"
 #include "drivers/v4l2/device_finder.hpp"
 
 namespace traygauge {
@@ -43,15 +44,37 @@ DeviceStatus V4l2Camera::do_start() {
   DeviceStatus status = open_and_set_up();
   if (status.ok()) status = controls_.prepare(params_.controls);
   if (!status.ok() && !controls_.problem().empty()) set_detail(controls_.problem());
-  if (status.ok()) status = stream_.start(std::min(params_.burst, kKeptFrames) + kSpareBuffers);
+  if (status.ok()) status = start_stream();
   if (status.ok()) status = settle();
-  if (status.ok()) {
-    status = controls_.lock(params_.controls);
-    if (!status.ok()) set_detail(controls_.problem());
-  }
+  if (status.ok()) status = lock_controls();
   status = notice_removal(status);
   if (!status.ok()) do_stop();
   return status;
+}
+
+// The camera may take another rate than it was asked for, and says which.
+void V4l2Camera::set_rate() {
+  if (mode_.frames_per_s <= 0.0) return;
+  constexpr double kFractions = 10'000.0;
+  v4l2_streamparm rate{};
+  rate.type = V4L2_BUF_TYPE_VIDEO_CAPTURE;
+  v4l2_fract& interval = rate.parm.capture.timeperframe;
+  interval.numerator = static_cast<std::uint32_t>(kFractions);
+  interval.denominator = static_cast<std::uint32_t>(mode_.frames_per_s * kFractions + 0.5);
+  if (device_->request(VIDIOC_S_PARM, &rate) != 0) {
+    mode_.frames_per_s = 0.0;
+  } else if (interval.numerator > 0 && interval.denominator > 0) {
+    mode_.frames_per_s = static_cast<double>(interval.denominator) / interval.numerator;
+  }
+}
+
+DeviceStatus V4l2Camera::start_stream() {
+  const DeviceStatus status = stream_.start(std::min(params_.burst, kKeptFrames) + kSpareBuffers);
+  if (status.error_number() != EPIPE) return status;
+  return fail({DeviceCode::unsupported, EPIPE},
+              "the parts behind " + node_ +
+                  " are not connected, or set to another format; set each link to " +
+                  describe_wish(params_.mode) + " with media-ctl before the station starts");
 }
 
 // A camera that is being unplugged may fail in any way before the kernel has removed it.
@@ -85,13 +108,24 @@ DeviceStatus V4l2Camera::open_and_set_up() {
   const int error = device_->request(VIDIOC_QUERYCAP, &capability);
   if (error == ENOTTY || error == EINVAL) return fail(DeviceCode::unsupported, node_ + " is no camera");
   if (error != 0) return fail(status_of_errno(error), node_);
-  return set_mode();
+  const std::uint32_t own = node_capabilities(capability);
+  if ((own & V4L2_CAP_VIDEO_CAPTURE) != 0) return set_mode();
+  if ((own & V4L2_CAP_VIDEO_CAPTURE_MPLANE) != 0) {
+    return fail(DeviceCode::unsupported,
+                node_ +
+                    " keeps a picture in several memories (multi-planar), which is not read here; choose a "
+                    "USB camera, or a node of the sensor's that v4l2-ctl --all calls \"Video Capture\"");
+  }
+  return fail(
+      DeviceCode::unsupported,
+      node_ + " delivers no pictures; a camera may have several nodes, of which the first usually does");
 }
 
 DeviceStatus V4l2Camera::set_mode() {
   std::vector<OfferedMode> modes;
   std::vector<std::string> unknown;
-  if (const DeviceStatus status = list_modes(*device_, modes, unknown); !status.ok()) return status;
+  if (const DeviceStatus status = list_modes(*device_, params_.mode, modes, unknown); !status.ok())
+    return status;
   const auto chosen = choose_mode(modes, params_.mode);
   const auto refuse = [&](const std::string& what) {
     return fail(DeviceCode::unsupported, what + "; it offers " + describe_modes(modes, unknown));
@@ -104,6 +138,7 @@ DeviceStatus V4l2Camera::set_mode() {
   format.fmt.pix.height = static_cast<std::uint32_t>(mode_.height);
   format.fmt.pix.pixelformat = mode_.fourcc;
   format.fmt.pix.field = V4L2_FIELD_NONE;
+  format.fmt.pix.priv = V4L2_PIX_FMT_PRIV_MAGIC;  // else the kernel leaves the colours' coding out
   if (const int error = device_->request(VIDIOC_S_FMT, &format); error != 0) {
     return fail(status_of_errno(error), "the format could not be set");
   }
@@ -113,32 +148,55 @@ DeviceStatus V4l2Camera::set_mode() {
                       pix.pixelformat == mode_.fourcc;
   if (!is_set) return refuse("asked for " + describe_wish(params_.mode) + ", which it then did not do");
   if (pix.field != V4L2_FIELD_NONE) return refuse("its pictures are interlaced");
-  if (mode_.frames_per_s > 0.0) {
-    v4l2_streamparm rate{};
-    rate.type = V4L2_BUF_TYPE_VIDEO_CAPTURE;
-    rate.parm.capture.timeperframe.numerator = 10'000;
-    rate.parm.capture.timeperframe.denominator =
-        static_cast<std::uint32_t>(mode_.frames_per_s * 10'000.0 + 0.5);
-    // What cannot be set is told by the frames' times.
-    if (device_->request(VIDIOC_S_PARM, &rate) != 0) mode_.frames_per_s = 0.0;
-  }
+  set_rate();
   const auto least = static_cast<std::ptrdiff_t>(row_bytes(mode_.format, mode_.width));
   converter_.emplace(mode_.format, mode_.width, mode_.height,
-                     std::max<std::ptrdiff_t>(least, pix.bytesperline));
+                     std::max<std::ptrdiff_t>(least, pix.bytesperline),
+                     yuv_coding_of(pix.colorspace, pix.ycbcr_enc, pix.quantization));
   return DeviceCode::ok;
 }
 
-// The first frames: automatics still move, and some cameras begin with damaged ones.
+DeviceStatus V4l2Camera::take(Instant deadline, FilledBuffer& filled) {
+  while (true) {
+    const Nanoseconds left = deadline - clock_.now();
+    const DeviceStatus status = stream_.take(std::max(left, Nanoseconds::zero()), filled);
+    if (status.code() != DeviceCode::timed_out || clock_.now() >= deadline) return status;
+  }
+}
+
+// The first frames, and those in which an automatic still moves.
 DeviceStatus V4l2Camera::settle() {
-  for (int i = 0; i < params_.settle_frames; ++i) {
+  BrightnessWatch watch;
+  const bool watches = params_.settle_frames > 0 && controls_.is_automatic();
+  const int limit = watches ? std::max(params_.settle_frames, params_.settle_frames_at_most) : 0;
+  for (int i = 0; i < params_.settle_frames || (i < limit && !watch.is_steady()); ++i) {
     FilledBuffer filled;
-    DeviceStatus status = stream_.take(params_.first_frame_timeout, filled);
+    DeviceStatus status = take(clock_.now() + params_.first_frame_timeout, filled);
     if (status.code() == DeviceCode::timed_out) return fail(status, "it streams no pictures");
-    if (status.ok()) count(filled);
-    if (status.ok()) status = stream_.give_back(filled);
+    if (!status.ok()) return status;
+    count(filled);
+    if (watches && !filled.is_damaged && converter_->is_whole(filled.bytes)) {
+      if (const auto mean = converter_->brightness(filled.bytes)) watch.add(*mean);
+    }
+    status = stream_.give_back(filled);
     if (!status.ok()) return status;
   }
   return DeviceCode::ok;
+}
+
+DeviceStatus V4l2Camera::lock_controls() {
+  const DeviceStatus status = controls_.lock(params_.controls);
+  return status.ok() ? status : fail(status, controls_.problem());
+}
+
+DeviceStatus V4l2Camera::do_settle_again() {
+  DeviceStatus status = controls_.release(params_.controls);
+  if (!status.ok()) set_detail(controls_.problem());
+  if (status.ok() && controls_.is_automatic()) {
+    status = settle();
+    if (status.ok()) status = lock_controls();
+  }
+  return notice_removal(status);
 }
 
 CameraFormat V4l2Camera::do_format() const {
@@ -155,17 +213,18 @@ void V4l2Camera::count(const FilledBuffer& filled) {
   if (!starts_anew) counters_.missed += step - 1;
 }
 
+// Also a stamp that is said to be of the exposure's start may come after it: uvcvideo's are of the first
+// bytes. Before these the exposure took an interval or what is held, and readout and packing take another.
 CapturedFrame V4l2Camera::date(const FilledBuffer& filled) const {
   CapturedFrame times;
   const double rate = mode_.frames_per_s > 0.0 ? mode_.frames_per_s : kAssumedRate_per_s;
   const auto interval = std::chrono::round<Nanoseconds>(std::chrono::duration<double>(1.0 / rate));
+  const Nanoseconds exposure = std::chrono::microseconds(held(CameraControl::exposure).value_or(0));
   const Instant now = clock_.now();
-  const bool knows_start = filled.stamped_at && filled.is_stamped_at_start;
   // Some drivers round their stamps up, into the future.
   const Instant stamped_at = std::min(filled.stamped_at.value_or(now), now);
-  times.delivered_at = knows_start ? now : stamped_at;
-  // Exposure and readout take an interval each at most.
-  times.exposed_at = knows_start ? stamped_at : stamped_at - 2 * interval;
+  times.delivered_at = filled.is_stamped_at_start ? now : stamped_at;
+  times.exposed_at = stamped_at - std::max(exposure, interval) - interval;
   times.sequence = number_;
   return times;
 }
@@ -185,11 +244,9 @@ DeviceStatus V4l2Camera::collect(Instant asked_at, Instant deadline) {
   bool saw_damage = false;
   int seen = 0;
   while (seen < std::max(1, params_.burst)) {
-    const Nanoseconds left = deadline - clock_.now();
     FilledBuffer filled;
-    const DeviceStatus status = stream_.take(std::max(left, Nanoseconds::zero()), filled);
+    const DeviceStatus status = take(deadline, filled);
     if (status.code() == DeviceCode::timed_out) {
-      if (clock_.now() < deadline) continue;
       if (!candidates_.empty()) return DeviceCode::ok;
       return saw_damage ? DeviceCode::torn_frame : DeviceCode::timed_out;
     }

@@ -20,8 +20,11 @@ struct V4l2CameraParams {
   std::string device = "/dev/video0";  // see find_camera
   ModeWish mode;
   ControlWishes controls;
-  int settle_frames = 10;  // dropped after the start: automatics settle, and first frames are often damaged
-  int burst = 3;           // frames of which the sharpest counts, 1 to 8; fewer when time runs out
+  // Dropped after the start, because first frames are often damaged, and then further ones while an automatic
+  // that is to be held still changes the brightness. 0: none at all.
+  int settle_frames = 10;
+  int settle_frames_at_most = 60;  // under light that never rests; two seconds at 30 a second
+  int burst = 3;                   // frames of which the sharpest counts, 1 to 8; fewer when time runs out
   // Two pictures of a real sensor never are the same bytes; those of a virtual camera are.
   bool may_repeat = false;
   Nanoseconds first_frame_timeout = std::chrono::seconds(3);  // some cameras need two seconds to begin
@@ -51,6 +54,7 @@ class V4l2Camera final : public Camera {
   void do_stop() override;
   CameraFormat do_format() const override;
   DeviceStatus do_capture(std::span<std::uint8_t> buffer, Nanoseconds timeout, CapturedFrame& frame) override;
+  DeviceStatus do_settle_again() override;
 
   // A frame that may be delivered.
   struct Candidate {
@@ -61,7 +65,11 @@ class V4l2Camera final : public Camera {
 
   DeviceStatus open_and_set_up();
   DeviceStatus set_mode();
+  void set_rate();
+  DeviceStatus start_stream();
+  DeviceStatus take(Instant deadline, FilledBuffer& filled);
   DeviceStatus settle();
+  DeviceStatus lock_controls();
   void count(const FilledBuffer& filled);
   CapturedFrame date(const FilledBuffer& filled) const;
   DeviceStatus collect(Instant asked_at, Instant deadline);

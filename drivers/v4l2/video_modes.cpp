@@ -70,7 +70,8 @@ std::vector<double> list_rates(VideoDevice& device, std::uint32_t fourcc, int wi
   return rates;
 }
 
-void add_sizes(VideoDevice& device, const OfferedMode& format, std::vector<OfferedMode>& modes) {
+void add_sizes(VideoDevice& device, const OfferedMode& format, const ModeWish& wish,
+               std::vector<OfferedMode>& modes) {
   for (std::uint32_t i = 0; i < kMaxEntries; ++i) {
     v4l2_frmsizeenum entry{};
     entry.index = i;
@@ -89,7 +90,10 @@ void add_sizes(VideoDevice& device, const OfferedMode& format, std::vector<Offer
       mode.step_width = std::max(1, static_cast<int>(entry.stepwise.step_width));
       mode.step_height = std::max(1, static_cast<int>(entry.stepwise.step_height));
     }
-    mode.rates_per_s = list_rates(device, mode.fourcc, mode.max_width, mode.max_height);
+    // The largest of a range is the slowest.
+    const bool has_wish = mode.has_size(wish.width, wish.height);
+    mode.rates_per_s = list_rates(device, mode.fourcc, has_wish ? wish.width : mode.max_width,
+                                  has_wish ? wish.height : mode.max_height);
     modes.push_back(mode);
     if (!is_discrete) return;
   }
@@ -141,7 +145,16 @@ std::optional<RawFormat> raw_format_of(std::uint32_t fourcc) {
   return kKnownFormats.at(index).format;
 }
 
-DeviceStatus list_modes(VideoDevice& device, std::vector<OfferedMode>& modes,
+YuvCoding yuv_coding_of(std::uint32_t colorspace, std::uint32_t encoding, std::uint32_t quantization) {
+  if (encoding == V4L2_YCBCR_ENC_DEFAULT) encoding = V4L2_MAP_YCBCR_ENC_DEFAULT(colorspace);
+  if (quantization == V4L2_QUANTIZATION_DEFAULT) {
+    quantization = V4L2_MAP_QUANTIZATION_DEFAULT(false, colorspace, encoding);
+  }
+  return {quantization == V4L2_QUANTIZATION_FULL_RANGE,
+          encoding == V4L2_YCBCR_ENC_709 || encoding == V4L2_YCBCR_ENC_XV709};
+}
+
+DeviceStatus list_modes(VideoDevice& device, const ModeWish& wish, std::vector<OfferedMode>& modes,
                         std::vector<std::string>& unknown) {
   for (std::uint32_t i = 0; i < kMaxEntries; ++i) {
     v4l2_fmtdesc entry{};
@@ -154,7 +167,7 @@ DeviceStatus list_modes(VideoDevice& device, std::vector<OfferedMode>& modes,
       OfferedMode mode;
       mode.format = *format;
       mode.fourcc = entry.pixelformat;
-      add_sizes(device, mode, modes);
+      add_sizes(device, mode, wish, modes);
     } else {
       unknown.emplace_back(reinterpret_cast<const char*>(entry.description));
     }

@@ -27,16 +27,17 @@ struct OfferedMode {
   bool has_size(int width, int height) const;
 };
 
-// Every mode in a format that we can convert. Others are named in `unknown`.
-DeviceStatus list_modes(VideoDevice& device, std::vector<OfferedMode>& modes,
-                        std::vector<std::string>& unknown);
-
 struct ModeWish {
   int width = 1600;
   int height = 1200;
   std::string format;         // by its name; empty: what is best
   double frames_per_s = 0.0;  // at least; 0: any, 10 and more where there is a choice
 };
+
+// Every mode in a format that we can convert, a range of sizes with its rates at the one that is wished.
+// Others are named in `unknown`.
+DeviceStatus list_modes(VideoDevice& device, const ModeWish& wish, std::vector<OfferedMode>& modes,
+                        std::vector<std::string>& unknown);
 
 struct ChosenMode {
   RawFormat format;
@@ -52,6 +53,9 @@ std::optional<ChosenMode> choose_mode(const std::vector<OfferedMode>& modes, con
 // "MJPEG 1600x1200 (30, 15 a second), YUYV 640x480 (30 a second)" and what else there is.
 std::string describe_modes(const std::vector<OfferedMode>& modes, const std::vector<std::string>& unknown);
 std::string describe_wish(const ModeWish& wish);
+
+// What the kernel says of the numbers of a format that was set.
+YuvCoding yuv_coding_of(std::uint32_t colorspace, std::uint32_t encoding, std::uint32_t quantization);
 
 // The format of the kernel's name; nothing when we cannot convert it.
 std::optional<RawFormat> raw_format_of(std::uint32_t fourcc);

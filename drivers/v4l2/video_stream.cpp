@@ -78,7 +78,7 @@ DeviceStatus VideoStream::take(Nanoseconds timeout, FilledBuffer& filled) {
   if (!has_news) return DeviceCode::timed_out;
   v4l2_buffer buffer = describe(0);
   const int error = device_.request(VIDIOC_DQBUF, &buffer);
-  // EAGAIN too: the news was no frame.
+  if (error == EAGAIN) return DeviceCode::timed_out;  // the news was no frame
   if (error != 0) return status_of_errno(error);
   if (buffer.index >= buffers_.size()) return DeviceCode::io_error;
   const std::span<const std::uint8_t> memory = buffers_[buffer.index];

@@ -17,7 +17,7 @@ struct FilledBuffer {
   std::span<const std::uint8_t> bytes;
   std::uint32_t sequence = 0;
   std::optional<Instant> stamped_at;  // by the kernel's monotonic clock, where it says so
-  bool is_stamped_at_start = false;   // of the exposure; else when the frame was complete
+  bool is_stamped_at_start = false;   // of the frame; else when it was complete
   bool is_damaged = false;            // the kernel says so
 };
 
@@ -35,7 +35,7 @@ class VideoStream {
   void stop();
   int buffer_count() const { return static_cast<int>(buffers_.size()); }
 
-  // A filled buffer, waiting at most `timeout`: timed_out when there was none.
+  // A filled buffer, waiting at most `timeout`: timed_out when there was none, which may be earlier.
   DeviceStatus take(Nanoseconds timeout, FilledBuffer& buffer);
   DeviceStatus give_back(const FilledBuffer& buffer);
 

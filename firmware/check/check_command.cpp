@@ -16,7 +16,6 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr Nanoseconds kArmTimeout = 30s;
 constexpr Nanoseconds kSignalShown = 300ms;
 
 CheckResult good(const Device& device, const std::string& text) {
@@ -71,14 +70,14 @@ CheckResult try_lamp(GpioIndicator& lamp, Clock& clock) {
   return status.ok() ? good(lamp, "showed every signal") : describe_failure(lamp, status);
 }
 
-CheckResult try_homing(Arm& arm) {
+CheckResult try_homing(Arm& arm, Nanoseconds timeout) {
   DeviceStatus status = arm.start();
-  if (status.ok()) status = arm.home(kArmTimeout);
+  if (status.ok()) status = arm.home(timeout);
   return status.ok() ? good(arm, "at home") : describe_failure(arm, status);
 }
 
-CheckResult try_move(Arm& arm, double angle_deg) {
-  const DeviceStatus status = arm.move_to(angle_deg, kArmTimeout);
+CheckResult try_move(Arm& arm, double angle_deg, Nanoseconds timeout) {
+  const DeviceStatus status = arm.move_to(angle_deg, timeout);
   return status.ok() ? good(arm, "at " + fixed(angle_deg, 1) + " degrees") : describe_failure(arm, status);
 }
 
@@ -101,7 +100,7 @@ class StationCheck {
 
   bool run() {
     knows_geometry_ = tell(try_geometry(station_, pattern_));
-    const bool arm_works = !station_.arm || tell(try_homing(*hardware_.arm()));
+    const bool arm_works = !station_.arm || tell(try_homing(*hardware_.arm(), longest_move(*station_.arm)));
     const auto first = look(hardware_.camera(), station_.camera, station_.lens, "lens");
     if (station_.second_camera) {
       look(*hardware_.second_camera(), *station_.second_camera, station_.second_lens, "second lens");
@@ -141,12 +140,13 @@ class StationCheck {
   void move_arm(const std::optional<Pose>& first) {
     Arm& arm = *hardware_.arm();
     const double second_deg = station_.arm->second_view_deg;
-    if (tell(try_move(arm, second_deg))) {
+    const Nanoseconds timeout = longest_move(*station_.arm);
+    if (tell(try_move(arm, second_deg, timeout))) {
       if (first && take_pictures(hardware_.camera(), 1, picture_).ok()) {
         if (const auto second = find_card(*station_.lens))
           tell(check_move(*second * first->inverse(), second_deg, station_.arm_geometry));
       }
-      tell(try_move(arm, 0.0));
+      tell(try_move(arm, 0.0, timeout));
     }
     arm.stop();
   }

@@ -52,6 +52,12 @@ CheckResult check_move(const Pose& second_from_first, double commanded_deg,
     }
     return result;
   }
+  if (std::abs(commanded_deg - geometry->commanded_deg) > params.max_angle_off_deg) {
+    result.is_good = false;
+    result.text += "; the arm was calibrated at " + fixed(geometry->commanded_deg, 2) +
+                   " degrees: set arm.second_view_deg to that, or calibrate the arm again.";
+    return result;
+  }
   const Vec3 turn(geometry->turn_deg[0], geometry->turn_deg[1], geometry->turn_deg[2]);
   const Vec3 shift(geometry->shift_mm[0], geometry->shift_mm[1], geometry->shift_mm[2]);
   const double off_deg =

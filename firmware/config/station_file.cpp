@@ -33,6 +33,10 @@ Nanoseconds milliseconds(const JsonNode& node, double min_ms, double max_ms) {
       std::chrono::duration<double, std::milli>(node.number({min_ms, max_ms})));
 }
 
+Nanoseconds read_seconds(const JsonNode& node, double min_s, double max_s) {
+  return std::chrono::round<Nanoseconds>(std::chrono::duration<double>(node.number({min_s, max_s})));
+}
+
 // `value` stays as it is where the key is not given.
 void take(const JsonNode& table, const char* key, int min, int max, int& value) {
   if (const auto node = table.find(key)) value = node->integer(min, max);
@@ -107,16 +111,15 @@ V4l2CameraParams read_camera(const JsonNode& table) {
 }
 
 GpioTriggerParams read_button(const JsonNode& table) {
-  expect(table, {"line", "active_low", "bias", "debounce_ms", "stuck_after_s", "long_press_s"});
+  expect(table,
+         {"line", "active_low", "bias", "debounce_ms", "least_closed_ms", "stuck_after_s", "long_press_s"});
   GpioTriggerParams button;
   button.line.line = read_line_name(table.member("line"));
   take(table, "active_low", button.line.is_active_low);
   if (const auto bias = table.find("bias")) button.line.bias = read_bias(*bias);
   take_ms(table, "debounce_ms", 1.0, 500.0, button.debounce);
-  if (const auto node = table.find("stuck_after_s")) {
-    button.stuck_after =
-        std::chrono::round<Nanoseconds>(std::chrono::duration<double>(node->number({1.0, 3600.0})));
-  }
+  take_ms(table, "least_closed_ms", 0.0, 30.0, button.least_closed);
+  if (const auto node = table.find("stuck_after_s")) button.stuck_after = read_seconds(*node, 1.0, 3600.0);
   return button;
 }
 
@@ -188,6 +191,7 @@ StepperConfig read_stepper(const JsonNode& table) {
   take(table, "acceleration_deg_per_s2", {0.1, 10'000.0}, motion.acceleration_deg_per_s2);
   take(table, "homing_speed_deg_per_s", {0.1, 1000.0}, motion.homing_speed_deg_per_s);
   take(table, "home_overlap_deg", {0.1, 20.0}, motion.home_overlap_deg);
+  take(table, "home_tolerance_deg", {0.1, 5.0}, motion.home_tolerance_deg);
   take_ms(table, "settling_ms", 0.0, 10'000.0, motion.settling_time);
   return stepper;
 }
@@ -195,8 +199,14 @@ StepperConfig read_stepper(const JsonNode& table) {
 SerialArmParams read_serial(const JsonNode& table) {
   SerialArmParams serial;
   serial.device = table.member("device").text();
-  take(table, "baud", 9600, 230'400, serial.baud);
+  take(table, "baud", 1, 10'000'000, serial.baud);
+  if (!is_serial_speed(serial.baud)) {
+    table.member("baud").fail("9600, 19200, 38400, 57600, 115200 or 230400",
+                              "set the arm's controller to one of these");
+  }
   take_ms(table, "settling_ms", 0.0, 10'000.0, serial.settling_time);
+  if (const auto longest = table.find("longest_move_s"))
+    serial.longest_move = read_seconds(*longest, 1.0, 600.0);
   return serial;
 }
 
@@ -207,10 +217,10 @@ ArmConfig read_arm(const JsonNode& table) {
   if (text == "stepper") {
     expect(table, {"kind", "second_view_deg", "step", "direction", "enable", "home", "home_bias", "inverted",
                    "steps_per_deg", "max_deg", "speed_deg_per_s", "acceleration_deg_per_s2",
-                   "homing_speed_deg_per_s", "home_overlap_deg", "settling_ms"});
+                   "homing_speed_deg_per_s", "home_overlap_deg", "home_tolerance_deg", "settling_ms"});
     arm.kind = read_stepper(table);
   } else if (text == "serial") {
-    expect(table, {"kind", "second_view_deg", "device", "baud", "settling_ms"});
+    expect(table, {"kind", "second_view_deg", "device", "baud", "settling_ms", "longest_move_s"});
     arm.kind = read_serial(table);
   } else {
     kind.fail("\"stepper\" or \"serial\"", "leave [arm] out where a hand moves the camera");

@@ -71,6 +71,7 @@ int run_record(const RecordOptions& options, const std::atomic<bool>& stop, std:
   CaptureRecorder recorder(options.out, {station_file.lens->camera, second.camera}, *station_file.card);
   RecordPrinter printer(recorder, options.out, out, log);
   Hardware hardware(station_file);
+  warn_of_changed_lenses(station_file, hardware, log);
   StationParams params = hardware_params(station_file);
   params.max_scans = options.count;
   params.seen_per_commanded = 1.0;  // captures have the commanded angle

@@ -1,7 +1,10 @@
 #include "firmware/station/hardware.hpp"
 
 #include <cmath>
+#include <ostream>
 #include <utility>
+
+#include "firmware/base/text.hpp"
 
 namespace traygauge {
 namespace {
@@ -25,6 +28,16 @@ std::unique_ptr<Arm> make_arm(const ArmConfig& config, Clock& clock) {
   return std::make_unique<StepperArm>(std::move(lines), clock, stepper.motion);
 }
 
+void warn_of_changed_lens(const std::optional<LensConfig>& lens, const V4l2CameraParams& params,
+                          V4l2Camera& camera, std::ostream& log) {
+  if (!lens) return;
+  // What keeps it from starting is the station's to tell.
+  const bool is_started = camera.start().ok();
+  const std::string change =
+      find_lens_change(*lens, params, is_started ? camera.held(CameraControl::focus) : std::nullopt);
+  if (!change.empty()) log << "Warning: " << camera.description() << ": " << printable(change) << std::endl;
+}
+
 }  // namespace
 
 Hardware::Hardware(const StationFile& station)
@@ -37,6 +50,17 @@ Hardware::Hardware(const StationFile& station)
   }
 }
 
+void warn_of_changed_lenses(const StationFile& station, Hardware& hardware, std::ostream& log) {
+  warn_of_changed_lens(station.lens, station.camera, hardware.camera(), log);
+  if (station.second_camera)
+    warn_of_changed_lens(station.second_lens, *station.second_camera, *hardware.second_camera(), log);
+}
+
+Nanoseconds longest_move(const ArmConfig& arm) {
+  if (const auto* serial = std::get_if<SerialArmParams>(&arm.kind)) return serial->longest_move;
+  return longest_move(std::get<StepperConfig>(arm.kind).motion);
+}
+
 StationParams hardware_params(const StationFile& station) {
   StationParams params;
   params.last_retry = std::chrono::seconds(1);
@@ -45,7 +69,10 @@ StationParams hardware_params(const StationFile& station) {
     params.seen_per_commanded =
         station.arm_geometry->angle_deg() / std::abs(station.arm_geometry->commanded_deg);
   }
-  if (station.arm) params.second_view_deg = station.arm->second_view_deg;
+  if (station.arm) {
+    params.second_view_deg = station.arm->second_view_deg;
+    params.arm_timeout = longest_move(*station.arm);
+  }
   return params;
 }
 

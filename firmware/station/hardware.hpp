@@ -1,6 +1,7 @@
 // The devices that a station file describes.
 #pragma once
 
+#include <iosfwd>
 #include <memory>
 #include <optional>
 
@@ -30,6 +31,13 @@ class Hardware {
   GpioIndicator lamp_;
   std::unique_ptr<Arm> arm_;
 };
+
+// Warns of lenses that have changed since they were calibrated, a line each, and that pictures are measured
+// with them all the same. Starts the cameras, for their focus.
+void warn_of_changed_lenses(const StationFile& station, Hardware& hardware, std::ostream& log);
+
+// How long going home or any move may take.
+Nanoseconds longest_move(const ArmConfig& arm);
 
 // What a loop on hardware does otherwise than one in simulated time: a device that is plugged in again works
 // within three seconds.

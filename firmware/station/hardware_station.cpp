@@ -38,6 +38,7 @@ int run_hardware_station(const StationCommand& command, const std::filesystem::p
   EstimatorMeasurer measurer(scene, scene.limits(), profile, command.seed);
   ScanPrinter printer(out, log, command.json ? ScanPrinter::Format::json : ScanPrinter::Format::text);
   Hardware hardware(station_file);
+  warn_of_changed_lenses(station_file, hardware, log);
   StationParams params = hardware_params(station_file);
   params.max_scans = command.scans;
   Station station(hardware.devices(), measurer, printer, stop, params);

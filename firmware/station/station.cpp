@@ -16,6 +16,10 @@ bool spoils_one_scan(DeviceCode code) {
   return code == DeviceCode::torn_frame || code == DeviceCode::unsteady || code == DeviceCode::unreadable;
 }
 
+bool shows_wrong_exposure(StatusCode code) {
+  return code == StatusCode::frame_too_dark || code == StatusCode::frame_too_bright;
+}
+
 Signal signal_for(std::optional<double> turned_deg, const HandGuideParams& params) {
   if (!turned_deg || *turned_deg < params.enough_from_deg) return Signal::move_on;
   return *turned_deg <= params.enough_to_deg ? Signal::far_enough : Signal::too_far;
@@ -106,6 +110,8 @@ StationState Station::wait_for_press() {
 StationState Station::take_first_view() {
   show(Signal::hold_still);
   measurer_.begin_scan();
+  if (const Opening settled = refresh_exposure(); settled.failed != nullptr)
+    return fail_scan(*settled.failed, settled.status);
   DeviceStatus status = capture(devices_.camera, first_);
   if (!status.ok()) return fail_scan(devices_.camera, status);
   if (devices_.arm != nullptr) {
@@ -195,6 +201,7 @@ StationState Station::measure() {
   show(Signal::busy);
   const DeviceStatus returning = begin_return();
   const Measurement& measurement = measurer_.measure();
+  exposure_is_doubtful_ = shows_wrong_exposure(measurement.status.code());
   const bool stood_elsewhere =
       devices_.arm != nullptr && is_measured(measurement) && contradicts_arm(measurement);
   if (stood_elsewhere && !is_repeated_) return repeat_scan(returning);

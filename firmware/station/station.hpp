@@ -44,7 +44,9 @@ struct StationParams {
   Nanoseconds capture_timeout = std::chrono::seconds(2);  // longer than any exposure; shorter hides no hang
   int capture_attempts = 6;  // 2 to 20: more than a camera queues old frames; two are needed
   SteadinessParams steadiness;
-  Nanoseconds arm_timeout = std::chrono::seconds(10);
+  // Daylight changes: older exposures settle again at the next press, with its tray in view.
+  Nanoseconds exposure_good_for = std::chrono::minutes(10);
+  Nanoseconds arm_timeout = std::chrono::seconds(10);  // longer than its longest move; hardware_params knows
   Nanoseconds second_press_timeout = std::chrono::seconds(60);
   // A worn contact bounces for up to 100 ms, when it is released too; nobody presses twice so fast.
   Nanoseconds bounce_time = std::chrono::milliseconds(300);
@@ -130,6 +132,7 @@ class Station {
   StationState fail_scan(Device& device, DeviceStatus status);
 
   Opening open_all();
+  Opening refresh_exposure();
   DeviceStatus open_camera(Camera& camera);
   StationState enter_fault(Device& device, DeviceStatus status);
   void remember_failure(Device& device, DeviceStatus status);
@@ -152,6 +155,8 @@ class Station {
   std::array<BlockMeans, 2> means_;  // of the last two pictures
   Signal guidance_ = Signal::off;    // for the picture that means_[0] is of
   Instant pressed_at_;
+  Instant settled_at_;                   // the cameras' exposure
+  bool exposure_is_doubtful_ = false;    // the last pictures were too dark or too bright
   bool is_repeated_ = false;             // this scan, because the arm stood elsewhere than it said
   std::optional<Instant> last_edge_at_;  // of the button
   Instant result_until_;                 // the lamp shows the last result

@@ -38,7 +38,21 @@ Station::Opening Station::open_all() {
   return status.ok() ? Opening{} : Opening{devices_.arm, status};
 }
 
+// For both views of a scan at once, since they have to be alike.
+Station::Opening Station::refresh_exposure() {
+  const Instant now = devices_.clock.now();
+  if (!exposure_is_doubtful_ && now - settled_at_ < params_.exposure_good_for) return {};
+  for (Camera* const camera : {&devices_.camera, devices_.second_camera}) {
+    if (camera == nullptr) continue;
+    if (const DeviceStatus status = camera->settle_again(); !status.ok()) return {camera, status};
+  }
+  settled_at_ = devices_.clock.now();
+  exposure_is_doubtful_ = false;
+  return {};
+}
+
 DeviceStatus Station::open_camera(Camera& camera) {
+  if (!camera.is_started()) settled_at_ = devices_.clock.now();
   const DeviceStatus status = camera.start();
   if (!status.ok()) return status;
   const CameraFormat format = camera.format();

@@ -29,12 +29,18 @@ class SimulatedCamera final : public Camera {
   // frame's number, stuck and mixed show what the sensor saw at the last capture; a frame that is late beyond
   // the timeout is lost.
   FaultScript& faults() { return faults_; }
+  // How often its exposure was asked to settle again.
+  int settled_again() const { return settled_again_; }
 
  private:
   DeviceStatus do_start() override { return faults_.next_start(clock_.now()); }
   void do_stop() override {}
   CameraFormat do_format() const override { return player_.captures().largest_frame(); }
   DeviceStatus do_capture(std::span<std::uint8_t> buffer, Nanoseconds timeout, CapturedFrame& frame) override;
+  DeviceStatus do_settle_again() override {
+    ++settled_again_;
+    return DeviceCode::ok;
+  }
 
   // The view that is seen now.
   PlayedFrame look() const;
@@ -51,6 +57,7 @@ class SimulatedCamera final : public Camera {
   const SimulatedArm* arm_;
   SimulatedCameraParams params_;
   FaultScript faults_;
+  int settled_again_ = 0;
   std::uint64_t last_sequence_ = 0;
   FrameView last_view_;                    // that the sensor saw; in last_pixels_
   std::vector<std::uint8_t> last_pixels_;  // kept while there are faults to play

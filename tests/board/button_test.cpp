@@ -78,7 +78,7 @@ TEST_F(ButtonOnKernel, ALineThatIsTakenIsInUse) {
   const auto holder = make_gpio_line(params_.line);
   ASSERT_TRUE(holder->open_input().ok());
   EXPECT_EQ(trigger_->start().code(), DeviceCode::in_use);
-  EXPECT_EQ(trigger_->detail(), "line TRIGGER");
+  EXPECT_EQ(trigger_->detail(), "line TRIGGER, which \"traygauge\" has taken");
   holder->close();
   EXPECT_TRUE(trigger_->start().ok());
 }

@@ -1,6 +1,7 @@
 // The camera driver behind the kernel's uvcvideo, with faults.
 #include <algorithm>
 #include <cstdlib>
+#include <thread>
 
 #include "drivers/pixels/jpeg_decoder.hpp"
 #include "tests/board/frames.hpp"
@@ -15,6 +16,7 @@ using namespace std::chrono_literals;
 constexpr int kWidth = 1600;
 constexpr int kHeight = 1200;
 constexpr double kFrames_per_s = 5.0;
+constexpr std::chrono::duration<double> kFrameTime(1.0 / kFrames_per_s);
 
 class UsbCameraOnKernel : public CameraOnKernel {
  protected:
@@ -67,10 +69,15 @@ TEST_F(UsbCameraOnKernel, DamagedFramesAreNeverDelivered) {
   for (const UsbFrameFault fault : {UsbFrameFault::flagged, UsbFrameFault::half, UsbFrameFault::junk}) {
     const std::uint64_t before = camera_->counters().damaged;
     int captures = 0;
-    // One that begins between two captures is too old for either, and not looked at.
+    // One that begins within two frames of the request is too old, and not looked at.
     while (camera_->counters().damaged == before && ++captures < 15) {
-      usb_.spoil_next(fault);
-      ASSERT_EQ(capture(), DeviceCode::ok) << camera_->detail();
+      std::thread spoiler([this, fault] {
+        clock_.sleep_for(std::chrono::duration_cast<Nanoseconds>(2.0 * kFrameTime));
+        usb_.spoil_next(fault);
+      });
+      const DeviceCode code = capture();
+      spoiler.join();
+      ASSERT_EQ(code, DeviceCode::ok) << camera_->detail();
       ASSERT_EQ(buffer_, expected) << static_cast<int>(fault);
     }
     EXPECT_GT(camera_->counters().damaged, before) << static_cast<int>(fault);

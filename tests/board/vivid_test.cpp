@@ -40,6 +40,8 @@ class Vivid : public CameraOnKernel {
     params_.device = "name:vivid";
     params_.mode = {640, 360, "YUYV", 15.0};
     params_.settle_frames = 1;
+    params_.controls[static_cast<std::size_t>(CameraControl::exposure)].kind =
+        ControlWish::Kind::leave;  // vivid has none
     params_.burst = 2;
     params_.may_repeat = true;
     make_camera();

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <functional>
 #include <memory>
+#include <random>
 #include <utility>
 
 #include "drivers/gpio/gpio_line.hpp"
@@ -39,9 +40,14 @@ class WatchedLine final : public GpioLine {
   std::function<void(bool)> on_write_;
 };
 
-// Its state is read by the test while the arm's thread writes steps.
+// Its state is read by the test while the arm's thread writes steps. As real ones do, the switch opens a
+// little further out than it closes, and each time a hair's breadth elsewhere.
 class ArmPlant {
  public:
+  static constexpr double kCloses_deg = 1.0;  // coming home; half the usual overlap
+  static constexpr double kHysteresis_deg = 0.3;
+  static constexpr double kJitter_deg = 0.1;  // either way
+
   // Quick, so that tests are: 18 degrees in a fifth of a second.
   static StepperArmParams params() {
     StepperArmParams params;
@@ -55,8 +61,8 @@ class ArmPlant {
   }
 
   explicit ArmPlant(GpioBench& bench, double at_deg = 12.0)
-      : bench_(bench), steps_(std::lround(at_deg * params().steps_per_deg)) {
-    bench_.set_input("HOME", is_home());
+      : bench_(bench), steps_(steps_at(at_deg)), is_closed_(at_deg <= kCloses_deg) {
+    bench_.set_input("HOME", is_closed_);
   }
 
   StepperLines lines() {
@@ -76,24 +82,33 @@ class ArmPlant {
   double angle_deg() const { return static_cast<double>(steps_) / params().steps_per_deg; }
 
   std::atomic<bool> is_blocked = false;
+  std::atomic<double> block_at_deg = 90.0;  // something stands in its way there
   std::atomic<bool> switch_is_dead = false;
   std::atomic<int> lose_every = 0;  // each so-many-th step; 0: none
   std::atomic<int> switched_off = 0;
   std::atomic<long> pulses = 0;
 
  private:
-  bool is_home() const { return steps_ <= 0; }
+  static long steps_at(double angle_deg) { return std::lround(angle_deg * params().steps_per_deg); }
   void step() {
     const long pulse = ++pulses;
     if (is_blocked || (lose_every > 0 && pulse % lose_every == 0)) return;
-    const bool was_home = is_home();
+    if (is_away_ && angle_deg() >= block_at_deg) return;
     steps_ += is_away_ ? 1 : -1;
-    if (is_home() != was_home && !switch_is_dead) bench_.set_input("HOME", is_home());
+    const double changes_deg = kCloses_deg + (is_closed_ ? kHysteresis_deg : 0.0) + off_deg_;
+    const bool is_closed = steps_ <= steps_at(changes_deg);
+    if (is_closed == is_closed_ || switch_is_dead) return;
+    is_closed_ = is_closed;
+    off_deg_ = std::uniform_real_distribution<double>(-kJitter_deg, kJitter_deg)(random_);
+    bench_.set_input("HOME", is_closed);
   }
 
   GpioBench& bench_;
   std::atomic<long> steps_;
   std::atomic<bool> is_away_ = false;
+  bool is_closed_;  // these three on the arm's thread
+  double off_deg_ = 0.0;
+  std::mt19937 random_{20261122};
 };
 
 }  // namespace traygauge

@@ -56,6 +56,8 @@ RigMakers<Rig<Camera>> v4l2_rigs() {
     params.mode.width = std::stoi(width);
     params.mode.height = std::stoi(height);
     params.settle_frames = 2;
+    params.controls[static_cast<std::size_t>(CameraControl::exposure)].kind =
+        ControlWish::Kind::leave;  // vivid has none
     params.may_repeat = true;
     const std::string name = "v4l2_" + params.mode.format + "_" + std::to_string(makers.size());
     makers.push_back({name, [params] { return std::make_unique<KernelCameraRig>(params); }});

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cerrno>
+
 #include <random>
 
 #include "simulator/devices/simulated_clock.hpp"
@@ -133,6 +135,29 @@ TEST_F(Button, NoPressIsMissedOrCountedTwiceWhateverTheBounces) {
   }
 }
 
+// What a motor couples into the wire, alone or just before somebody presses.
+TEST_F(Button, AGlitchIsNoPress) {
+  const Instant begun_at = clock_.now();
+  press(begun_at + 1s, 1us);
+  press(begun_at + 2s, 4ms);
+  press(begun_at + 3s, 3us);
+  press(begun_at + 3s + 100ms, 60ms);
+  for (int i = 0; i < 20; ++i) press(begun_at + 4s + i * 20ms, 5us);
+  press(begun_at + 6s, 60ms);
+  ASSERT_TRUE(trigger().start().ok());
+  EXPECT_EQ(presses(8s), (std::vector{begun_at + 3s + 100ms, begun_at + 6s}));
+}
+
+TEST_F(Button, APressIsToldAsSoonAsItIsSure) {
+  ASSERT_TRUE(trigger().start().ok());
+  const Instant pressed_at = clock_.now() + 1s;
+  press(pressed_at, 10s);
+  Press press_seen;
+  ASSERT_TRUE(trigger().wait_for_press(5s, press_seen).ok());
+  EXPECT_EQ(press_seen.at, pressed_at);
+  EXPECT_LE(clock_.now() - pressed_at, 6ms);
+}
+
 TEST_F(Button, APressWhoseFirstEdgeWasLostCountsOnce) {
   const Instant begun_at = clock_.now();
   press(begun_at + 1s, 100ms, 3);
@@ -194,6 +219,7 @@ TEST_F(Button, ThatStaysPressedIsToldAndComesBack) {
   EXPECT_NEAR(std::chrono::duration<double>(clock_.now() - pressed_at).count(), 20.0, 0.5);
   trigger().stop();
   EXPECT_EQ(trigger().start().code(), DeviceCode::stuck);
+  EXPECT_EQ(trigger().detail(), "if nobody presses it, active_low or bias of [button] is wrong");
   EXPECT_EQ(script_.open_now, 0);
   clock_.sleep_for(50s);
   ASSERT_TRUE(trigger().start().ok());
@@ -225,11 +251,18 @@ TEST(GpioPlace, IsANameOrAChipAndANumber) {
   }
 }
 
+TEST(GpioLine, ThatIsTakenNamesWhoHasIt) {
+  EXPECT_EQ(describe_line("LAMP", {DeviceCode::in_use, EBUSY}, "other"),
+            "line LAMP, which \"other\" has taken");
+  EXPECT_EQ(describe_line("LAMP", {DeviceCode::in_use, EBUSY}, ""), "line LAMP");
+}
+
 TEST(GpioLine, ThatDoesNotExistIsGone) {
   for (const char* name : {"NO-SUCH-LINE", "no-such-chip/3"}) {
     const auto line = make_gpio_line({name});
     EXPECT_NE(line->open_input().code(), DeviceCode::ok);
-    EXPECT_EQ(line->problem(), std::string("line ") + name);
+    EXPECT_EQ(line->problem(),
+              "line " + std::string(name) + ": no chip has it; gpioinfo lists those that there are");
   }
   EXPECT_EQ(make_gpio_line({""})->open_input().code(), DeviceCode::invalid_argument);
 }

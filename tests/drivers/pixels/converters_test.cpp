@@ -86,6 +86,31 @@ TEST_F(Converters, EveryByteOfGreyAndColourIsConvertedAsByOpenCv) {
   }
 }
 
+// OpenCV knows BT.601 in full range, by coefficients of three digits.
+TEST_F(Converters, FullRangeUsesAllOfGrey) {
+  const YuvCoding full{true, false};
+  cv::Mat ours(256, 256, CV_8UC3);
+  cv::Mat yuv(256, 256, CV_8UC3);
+  for (int grey = 0; grey < 256; grey += 5) {
+    std::vector<std::uint8_t> bytes(std::size_t{2} * 256 * 256);
+    for (std::size_t i = 0; i < bytes.size(); i += 4) {
+      const std::uint8_t u = static_cast<std::uint8_t>(i / 512);
+      const std::uint8_t v = static_cast<std::uint8_t>(i % 512 / 2);
+      bytes[i] = bytes[i + 2] = static_cast<std::uint8_t>(grey);
+      bytes[i + 1] = u;
+      bytes[i + 3] = v;
+      for (std::size_t k = 0; k < 2; ++k) {
+        std::uint8_t* const pixel = yuv.data + 3 * (i / 2 + k);
+        pixel[0] = static_cast<std::uint8_t>(grey), pixel[1] = v, pixel[2] = u;
+      }
+    }
+    cv::Mat theirs;
+    cv::cvtColor(yuv, theirs, cv::COLOR_YCrCb2BGR);
+    ASSERT_TRUE(FrameConverter({RawEncoding::yuyv}, 256, 256, 512, full).convert(bytes, ours.data));
+    EXPECT_LE(cv::norm(ours, theirs, cv::NORM_INF), 1.0) << grey;
+  }
+}
+
 int opencv_code(BayerPattern pattern) {
   switch (pattern) {  // OpenCV names the second row's second and third pixel
     case BayerPattern::rggb:
@@ -217,9 +242,52 @@ TEST_F(Converters, ABlurredPictureIsLessSharp) {
   };
   for (const RawFormat& format :
        {RawFormat{RawEncoding::yuyv}, RawFormat{RawEncoding::nv12}, RawFormat{RawEncoding::grey},
-        RawFormat{RawEncoding::rgb24}, RawFormat{RawEncoding::bgr24}, RawFormat{RawEncoding::bayer},
-        RawFormat{RawEncoding::bayer, BayerPattern::rggb, 12}}) {
+        RawFormat{RawEncoding::rgb24}, RawFormat{RawEncoding::bgr24}, RawFormat{RawEncoding::bayer}}) {
     EXPECT_GT(grade(format, sharp), 2.0 * grade(format, blurred)) << name(format);
+  }
+}
+
+// Neighbours in a mosaic have other colours, and what packed formats keep behind each group is no sample.
+TEST_F(Converters, SharpnessOfAMosaicComparesEqualColours) {
+  cv::Mat noise(120, 160, CV_8UC1);
+  cv::randu(noise, 0, 56);
+  cv::Mat blurred;
+  cv::GaussianBlur(noise, blurred, {5, 5}, 1.0);
+  const auto grade = [this](const RawFormat& format, const cv::Mat& grey) {
+    cv::Mat_<std::uint16_t> samples(grey.rows, grey.cols);
+    for (int y = 0; y < grey.rows; ++y) {
+      for (int x = 0; x < grey.cols; ++x) {
+        const int level = grey.at<std::uint8_t>(y, x) + ((x + y) % 2 == 0 ? 200 : 50);
+        samples(y, x) = static_cast<std::uint16_t>(level << (format.bits - 8));
+        samples(y, x) = static_cast<std::uint16_t>(samples(y, x) + draw(0, (1 << (format.bits - 8)) - 1));
+      }
+    }
+    const auto stride = static_cast<std::ptrdiff_t>(row_bytes(format, grey.cols));
+    return FrameConverter(format, grey.cols, grey.rows, stride).sharpness(store(format, samples, stride));
+  };
+  for (const auto& [bits, is_packed] : {std::pair{8, false}, std::pair{10, false}, std::pair{12, false},
+                                        std::pair{10, true}, std::pair{12, true}}) {
+    const RawFormat format{RawEncoding::bayer, BayerPattern::rggb, bits, is_packed};
+    EXPECT_EQ(grade(format, cv::Mat::zeros(120, 160, CV_8UC1)), 0.0) << name(format);
+    EXPECT_GT(grade(format, noise), 2.0 * grade(format, blurred)) << name(format);
+  }
+}
+
+TEST_F(Converters, BrightnessIsTheMeanGrey) {
+  for (const int level : {0, 60, 255}) {
+    for (const RawFormat& format :
+         {RawFormat{RawEncoding::yuyv}, RawFormat{RawEncoding::nv12}, RawFormat{RawEncoding::grey},
+          RawFormat{RawEncoding::rgb24}, RawFormat{RawEncoding::bayer}}) {
+      const auto stride = static_cast<std::ptrdiff_t>(row_bytes(format, 32));
+      std::vector<std::uint8_t> bytes(frame_bytes(format, 32, 24, stride), static_cast<std::uint8_t>(level));
+      if (format.encoding == RawEncoding::yuyv)
+        for (std::size_t i = 1; i < bytes.size(); i += 2) bytes[i] = 128;
+      EXPECT_EQ(FrameConverter(format, 32, 24, stride).brightness(bytes), level) << name(format);
+    }
+    const RawFormat format{RawEncoding::bayer, BayerPattern::rggb, 10, true};
+    const auto stride = static_cast<std::ptrdiff_t>(row_bytes(format, 32));
+    const cv::Mat_<std::uint16_t> samples(24, 32, static_cast<std::uint16_t>(level << 2));
+    EXPECT_EQ(FrameConverter(format, 32, 24, stride).brightness(store(format, samples, stride)), level);
   }
 }
 

@@ -97,6 +97,49 @@ TEST_F(Jpeg, RefusesAPictureWithAHole) {
   EXPECT_EQ(refused, 7);
 }
 
+// Several cameras send a few bytes too many before a marker, always.
+TEST_F(Jpeg, BytesTooManyBeforeAMarkerChangeNothing) {
+  const auto bytes = encode(4);
+  ASSERT_TRUE(decode(bytes));
+  const auto plain = rgb_;
+  for (const bool at_the_end : {false, true}) {
+    auto spliced = bytes;
+    const auto at = at_the_end ? spliced.end() - 2 : spliced.begin() + 2;
+    spliced.insert(at, {0x11, 0x22, 0x33});
+    rgb_.assign(rgb_.size(), 0);
+    ASSERT_TRUE(decode(spliced)) << decoder_.problem();
+    EXPECT_EQ(rgb_, plain);
+  }
+}
+
+TEST_F(Jpeg, TellsTheBrightnessCheaply) {
+  for (int seed = 0; seed < 3; ++seed) {
+    const auto bytes = encode(seed);
+    const double mean = cv::mean(cv::imdecode(bytes, cv::IMREAD_GRAYSCALE))[0];
+    const auto found = decoder_.mean_grey(bytes);
+    ASSERT_TRUE(found) << decoder_.problem();
+    EXPECT_NEAR(*found, mean, 1.0);
+  }
+  const auto bytes = encode(4);
+  EXPECT_FALSE(decoder_.mean_grey(std::span(bytes).first(bytes.size() / 2)));
+  EXPECT_TRUE(decode(encode(4)));
+}
+
+TEST_F(Jpeg, AHoleHardlyEverPassesForBytesTooMany) {
+  std::mt19937 random(20261123);
+  const auto bytes = encode(4);
+  int passed = 0;
+  for (int run = 0; run < 2000; ++run) {
+    auto holed = bytes;
+    const std::size_t length = 1 + random() % 4000;
+    const auto from =
+        holed.begin() + 700 + static_cast<std::ptrdiff_t>(random() % (holed.size() - 700 - length));
+    holed.erase(from, from + static_cast<std::ptrdiff_t>(length));
+    if (jpeg_length(holed) > 0 && decode(holed)) ++passed;
+  }
+  EXPECT_LE(passed, 40) << "more than those that leave no trace at all";
+}
+
 TEST_F(Jpeg, SurvivesAnyBytes) {
   std::mt19937 random(20261122);
   const auto bytes = encode(5);

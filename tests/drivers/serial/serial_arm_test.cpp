@@ -79,6 +79,25 @@ TEST_F(Serial, ReportsAStallAndALostHome) {
   EXPECT_TRUE(arm().home(5s).ok());
 }
 
+TEST_F(Serial, AnArmThatStandsStillElsewhereHasStalled) {
+  ASSERT_TRUE(arm().start().ok());
+  answer_to("WHERE", "AT 0.6 STILL");
+  EXPECT_EQ(arm().home(1s).code(), DeviceCode::stalled);
+  EXPECT_EQ(arm().detail(), "it stands still at 0.60 degrees, sent to 0.00");
+  answer_to("WHERE", "AT 0.4 STILL");
+  ASSERT_TRUE(arm().home(1s).ok());
+  EXPECT_EQ(arm().move_to(18.0, 1s).code(), DeviceCode::stalled);
+  EXPECT_FALSE(arm().is_homed());
+}
+
+TEST_F(Serial, ALineThatAnotherProgramHasIsInUse) {
+  ASSERT_TRUE(arm().start().ok());
+  SerialArm second(clock_, params_);
+  EXPECT_EQ(second.start().code(), DeviceCode::in_use);
+  arm().stop();
+  EXPECT_TRUE(second.start().ok());
+}
+
 TEST_F(Serial, ReportsRefusalsInTheControllersWords) {
   answer_to("HOME", "ERROR no power");
   ASSERT_TRUE(arm().start().ok());

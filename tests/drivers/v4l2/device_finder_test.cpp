@@ -21,7 +21,7 @@ class NamedNodes final : public VideoDevice {
     std::string name;
     std::string port;
     std::uint32_t capabilities = V4L2_CAP_VIDEO_CAPTURE | V4L2_CAP_STREAMING;
-    bool may_open = true;
+    int open_error = 0;
   };
   std::map<std::string, Node> nodes;
   int open_now = 0;
@@ -29,7 +29,7 @@ class NamedNodes final : public VideoDevice {
   int open(const std::string& path) override {
     const auto found = nodes.find(path);
     if (found == nodes.end()) return ENOENT;
-    if (!found->second.may_open) return EACCES;
+    if (found->second.open_error != 0) return found->second.open_error;
     opened_ = &found->second;
     ++open_now;
     return 0;
@@ -113,10 +113,16 @@ TEST_F(DeviceFinder, SaysWhatIsThere) {
 }
 
 TEST_F(DeviceFinder, TakesANodeThatMayNotBeOpenedForTheReason) {
-  nodes_.nodes["/nodes/video2"].may_open = false;
+  nodes_.nodes["/nodes/video2"].open_error = EACCES;
   EXPECT_EQ(find("serial:A2"), DeviceCode::no_permission);
-  EXPECT_EQ(problem_, "/nodes/video2 may be \"serial:A2\" and may not be opened");
+  EXPECT_EQ(problem_, "/nodes/video2 may be \"serial:A2\" and could not be opened");
   EXPECT_EQ(find("serial:A1"), DeviceCode::ok);
+}
+
+TEST_F(DeviceFinder, ANodeThatAnotherProgramHasIsInUseAndNotAbsent) {
+  nodes_.nodes["/nodes/video2"].open_error = EBUSY;
+  EXPECT_EQ(find("serial:A2"), DeviceCode::in_use);
+  EXPECT_EQ(problem_, "/nodes/video2 may be \"serial:A2\" and could not be opened");
 }
 
 TEST_F(DeviceFinder, KnowsTheFormsOfAName) {

@@ -14,6 +14,10 @@ namespace {
 constexpr Nanoseconds kFrameTime = std::chrono::nanoseconds(33'333'333);
 constexpr Nanoseconds kTransferTime = std::chrono::milliseconds(10);
 
+bool is_off(const v4l2_control& automatic) {
+  return automatic.value == (automatic.id == V4L2_CID_EXPOSURE_AUTO ? V4L2_EXPOSURE_MANUAL : 0);
+}
+
 template <class T>
 T& as(void* argument) {
   return *static_cast<T*>(argument);
@@ -93,7 +97,7 @@ int FakeVideoDevice::request(unsigned long code, void* argument) {
   }
   switch (code) {
     case VIDIOC_QUERYCAP:
-      as<v4l2_capability>(argument).capabilities = V4L2_CAP_VIDEO_CAPTURE | V4L2_CAP_STREAMING;
+      as<v4l2_capability>(argument).capabilities = camera_.capabilities;
       return 0;
     case VIDIOC_ENUM_FMT:
       return enumerate_format(as<v4l2_fmtdesc>(argument));
@@ -104,6 +108,8 @@ int FakeVideoDevice::request(unsigned long code, void* argument) {
     case VIDIOC_S_FMT:
       return set_format(as<v4l2_format>(argument));
     case VIDIOC_S_PARM:
+      if (camera_.granted_rate_per_s > 0)
+        as<v4l2_streamparm>(argument).parm.capture.timeperframe = {1, camera_.granted_rate_per_s};
       return 0;
     case VIDIOC_QUERYCTRL:
       return query_control(as<v4l2_queryctrl>(argument));
@@ -158,8 +164,10 @@ int FakeVideoDevice::enumerate_size(v4l2_frmsizeenum& entry) const {
   std::uint32_t index = 0;
   for (const FakeMode& mode : camera_.modes) {
     if (mode.fourcc != entry.pixel_format || index++ != entry.index) continue;
-    entry.type = V4L2_FRMSIZE_TYPE_DISCRETE;
-    entry.discrete = {mode.width, mode.height};
+    const bool is_range = mode.least_width > 0;
+    entry.type = is_range ? V4L2_FRMSIZE_TYPE_STEPWISE : V4L2_FRMSIZE_TYPE_DISCRETE;
+    if (is_range) entry.stepwise = {mode.least_width, mode.width, 8, mode.least_height, mode.height, 8};
+    if (!is_range) entry.discrete = {mode.width, mode.height};
     return 0;
   }
   return EINVAL;
@@ -167,11 +175,13 @@ int FakeVideoDevice::enumerate_size(v4l2_frmsizeenum& entry) const {
 
 int FakeVideoDevice::enumerate_rate(v4l2_frmivalenum& entry) const {
   for (const FakeMode& mode : camera_.modes) {
-    const bool is_it =
-        mode.fourcc == entry.pixel_format && mode.width == entry.width && mode.height == entry.height;
-    if (!is_it || entry.index >= mode.rates_per_s.size()) continue;
+    const bool is_least = mode.least_width == entry.width && mode.least_height == entry.height;
+    const bool is_it = mode.fourcc == entry.pixel_format &&
+                       (is_least || (mode.width == entry.width && mode.height == entry.height));
+    const auto& rates = is_least ? mode.rates_at_least : mode.rates_per_s;
+    if (!is_it || entry.index >= rates.size()) continue;
     entry.type = V4L2_FRMIVAL_TYPE_DISCRETE;
-    entry.discrete = {1, mode.rates_per_s[entry.index]};
+    entry.discrete = {1, rates[entry.index]};
     return 0;
   }
   return EINVAL;
@@ -182,12 +192,18 @@ int FakeVideoDevice::set_format(v4l2_format& format) {
   for (const FakeMode& mode : camera_.modes) {
     mode_ = mode;
     const auto& wanted = format.fmt.pix;
-    if (mode.fourcc == wanted.pixelformat && mode.width == wanted.width && mode.height == wanted.height)
-      break;
+    if (mode.fourcc != wanted.pixelformat) continue;
+    if (mode.width == wanted.width && mode.height == wanted.height) break;
+    if (mode.least_width == 0 || wanted.width > mode.width) continue;
+    mode_.width = wanted.width;
+    mode_.height = wanted.height;
+    break;
   }
   format.fmt.pix.width = mode_.width;
   format.fmt.pix.height = mode_.height;
   format.fmt.pix.pixelformat = mode_.fourcc;
+  format.fmt.pix.colorspace = camera_.colorspace;
+  if (format.fmt.pix.priv == V4L2_PIX_FMT_PRIV_MAGIC) format.fmt.pix.quantization = camera_.quantization;
   format.fmt.pix.bytesperline = static_cast<std::uint32_t>(fake_frame_bytes(mode_) / mode_.height);
   return 0;
 }
@@ -214,6 +230,10 @@ int FakeVideoDevice::write_control(const v4l2_control& control) {
   FakeControl& own = found->second;
   if (control.value < own.minimum || control.value > own.maximum) return ERANGE;
   camera_.set_controls.push_back(std::to_string(control.id) + "=" + std::to_string(control.value));
+  for (auto& [id, other] : camera_.controls) {
+    const bool is_its = other.automatic == control.id && own.value != control.value;
+    if (is_its && !own.is_stubborn && is_off(control)) other.value = other.by_hand;
+  }
   if (!own.is_stubborn) own.value = own.minimum + (control.value - own.minimum) / own.step * own.step;
   return 0;
 }
@@ -269,6 +289,7 @@ int FakeVideoDevice::wait(Nanoseconds timeout, bool& has_news) {
 
 void FakeVideoDevice::produce_until(Instant instant) {
   while (!camera_.is_gone && !camera_.is_silent && next_frame_at_ + kTransferTime <= instant) {
+    camera_.begun_at.push_back(next_frame_at_);
     fill(camera_.frame_count++, next_frame_at_);
     next_frame_at_ += kFrameTime;
   }

@@ -30,15 +30,22 @@ TEST_F(V4l2, ChoosesTheFormatWithoutLossThatIsFastEnough) {
                    {V4L2_PIX_FMT_MJPEG, 64, 48, {60, 30}},
                    {V4L2_PIX_FMT_YUYV, 64, 48, {15, 5}}};
   params_.settle_frames = 0;
-  EXPECT_EQ(chosen({64, 48, "", 0.0}),
-            "/dev/video7: YUYV 64x48 at 15 a second; the camera has nothing to hold");
-  EXPECT_EQ(chosen({64, 48, "", 5.0}),
-            "/dev/video7: YUYV 64x48 at 5 a second; the camera has nothing to hold");
-  EXPECT_EQ(chosen({64, 48, "", 20.0}),
-            "/dev/video7: MJPEG 64x48 at 30 a second; the camera has nothing to hold");
-  EXPECT_EQ(chosen({64, 48, "GREY", 0.0}),
-            "/dev/video7: GREY 64x48 at 60 a second; the camera has nothing to hold");
+  EXPECT_EQ(chosen({64, 48, "", 0.0}), "/dev/video7: YUYV 64x48 at 15 a second; exposure_us 15600");
+  EXPECT_EQ(chosen({64, 48, "", 5.0}), "/dev/video7: YUYV 64x48 at 5 a second; exposure_us 15600");
+  EXPECT_EQ(chosen({64, 48, "", 20.0}), "/dev/video7: MJPEG 64x48 at 30 a second; exposure_us 15600");
+  EXPECT_EQ(chosen({64, 48, "GREY", 0.0}), "/dev/video7: GREY 64x48 at 60 a second; exposure_us 15600");
   EXPECT_EQ(camera().format().pixels, PixelFormat::gray8);
+}
+
+TEST_F(V4l2, KnowsTheRateAtTheSizeThatIsAskedForAndTheOneThatItGot) {
+  kernel_.modes = {{V4L2_PIX_FMT_YUYV, 1600, 1200, {5}, 64, 48, {30}}};
+  params_.mode = {64, 48, "", 20.0};
+  ASSERT_EQ(start(), DeviceCode::ok) << camera().detail();
+  EXPECT_EQ(camera().describe_setup(), "/dev/video7: YUYV 64x48 at 30 a second; exposure_us 15600");
+  camera_.reset();
+  kernel_.granted_rate_per_s = 12;
+  ASSERT_EQ(start(), DeviceCode::ok) << camera().detail();
+  EXPECT_EQ(camera().describe_setup(), "/dev/video7: YUYV 64x48 at 12 a second; exposure_us 15600");
 }
 
 TEST_F(V4l2, SaysWhyTheNodeCannotBeOpened) {
@@ -55,6 +62,21 @@ TEST_F(V4l2, SaysWhyTheNodeCannotBeOpened) {
   kernel_.errors[VIDIOC_QUERYCAP] = ENOTTY;
   EXPECT_EQ(start(), DeviceCode::unsupported);
   EXPECT_EQ(start(), DeviceCode::ok);
+}
+
+TEST_F(V4l2, SaysWhichNodesAreOfNoUse) {
+  kernel_.capabilities = V4L2_CAP_VIDEO_CAPTURE_MPLANE | V4L2_CAP_STREAMING;
+  EXPECT_EQ(start(), DeviceCode::unsupported);
+  EXPECT_TRUE(detail_has("/dev/video7 keeps a picture in several memories")) << camera().detail();
+  kernel_.capabilities = V4L2_CAP_META_CAPTURE | V4L2_CAP_STREAMING;
+  EXPECT_EQ(start(), DeviceCode::unsupported);
+  EXPECT_TRUE(detail_has("/dev/video7 delivers no pictures")) << camera().detail();
+}
+
+TEST_F(V4l2, SaysThatTheLinksBehindANodeHaveToBeSet) {
+  kernel_.errors[VIDIOC_STREAMON] = EPIPE;
+  EXPECT_EQ(start(), DeviceCode::unsupported);
+  EXPECT_TRUE(detail_has("media-ctl")) << camera().detail();
 }
 
 TEST_F(V4l2, EveryRequestMayFailOnceAndNothingStaysBehind) {
@@ -95,6 +117,25 @@ TEST_F(V4l2, DeliversOnlyWhatWasExposedAfterTheRequest) {
       clock_.sleep_for(i * 17ms);
     }
     camera().stop();
+  }
+}
+
+// uvcvideo stamps the first bytes, which come once the exposure is over, and calls them its start.
+TEST_F(V4l2, AStampIsNotBelievedToBeTheStartOfTheExposure) {
+  params_.burst = 1;
+  for (const int exposure_ms : {20, 100}) {
+    params_.controls[0] = {ControlWish::Kind::value, exposure_ms * 1000};
+    camera_.reset();
+    kernel_.begun_at.clear();
+    kernel_.frame_count = 0;
+    ASSERT_EQ(start(), DeviceCode::ok) << camera().detail();
+    for (int i = 0; i < 20; ++i) {
+      const Instant asked_at = clock_.now();
+      ASSERT_EQ(capture(), DeviceCode::ok);
+      const Instant first_bytes_at = kernel_.begun_at.at(frame_.sequence - 1);
+      EXPECT_GE(first_bytes_at - std::chrono::milliseconds(exposure_ms) - 30ms, asked_at);
+      clock_.sleep_for(i * 7ms);
+    }
   }
 }
 
@@ -186,7 +227,7 @@ TEST_F(V4l2, DamagedJpegPicturesAreNeverDelivered) {
 
 TEST_F(V4l2, CountsLostFramesByTheGapsInTheirNumbers) {
   params_.burst = 1;
-  params_.settle_frames = 1;
+  params_.settle_frames = 0;
   for (const int lost : {3, 4, 9}) kernel_.frames[lost].is_lost = true;
   ASSERT_EQ(start(), DeviceCode::ok);
   std::uint64_t last = 0;
@@ -253,6 +294,14 @@ TEST_F(V4l2, UnplugThatBeginsWithAFailedBufferIsTold) {
   EXPECT_EQ(capture(), DeviceCode::device_gone);
 }
 
+// A wait may end without a frame.
+TEST_F(V4l2, NewsThatIsNoFrameIsWaitedOver) {
+  kernel_.errors[VIDIOC_DQBUF] = EAGAIN;
+  ASSERT_EQ(start(), DeviceCode::ok) << camera().detail();
+  kernel_.errors[VIDIOC_DQBUF] = EAGAIN;
+  EXPECT_EQ(capture(), DeviceCode::ok) << camera().detail();
+}
+
 TEST_F(V4l2, AFailedBufferOfACameraThatIsThereIsNoUnplug) {
   ASSERT_EQ(start(), DeviceCode::ok);
   kernel_.errors[VIDIOC_DQBUF] = EIO;
@@ -261,7 +310,7 @@ TEST_F(V4l2, AFailedBufferOfACameraThatIsThereIsNoUnplug) {
 }
 
 TEST_F(V4l2, AThousandStartsLeaveNothingOpen) {
-  params_.settle_frames = 1;
+  params_.settle_frames = 0;
   for (int i = 0; i < 1000; ++i) {
     ASSERT_EQ(start(), DeviceCode::ok);
     if (i % 10 == 0) {

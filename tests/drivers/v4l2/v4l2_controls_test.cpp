@@ -9,8 +9,6 @@ namespace {
 class V4l2Controls : public V4l2 {
  protected:
   V4l2Controls() {
-    kernel_.controls[V4L2_CID_EXPOSURE_AUTO] = {0, 3, 1, 3};
-    kernel_.controls[V4L2_CID_EXPOSURE_ABSOLUTE] = {1, 5000, 1, 156};
     kernel_.controls[V4L2_CID_AUTO_WHITE_BALANCE] = {0, 1, 1, 1};
     kernel_.controls[V4L2_CID_WHITE_BALANCE_TEMPERATURE] = {2800, 6500, 10, 4600};
     kernel_.controls[V4L2_CID_FOCUS_AUTO] = {0, 1, 1, 1};
@@ -27,6 +25,24 @@ TEST_F(V4l2Controls, AutomaticsSettleAndAreThenSwitchedOff) {
   EXPECT_EQ(value(V4L2_CID_FOCUS_AUTO), 0);
   EXPECT_EQ(camera().describe_setup(),
             "/dev/video7: YUYV 64x48 at 30 a second; exposure_us 15600, white_balance_k 4600, focus 30");
+}
+
+// Exposure's automatic sets the gain too, where that has none of its own.
+TEST_F(V4l2Controls, WhatTheAutomaticsFoundStaysWhereTheCameraWouldGoBackToItsOwn) {
+  kernel_.controls[V4L2_CID_GAIN] = {0, 255, 1, 77, false, V4L2_CID_EXPOSURE_AUTO, 0};
+  kernel_.controls[V4L2_CID_EXPOSURE_ABSOLUTE] = {1, 5000, 1, 156, false, V4L2_CID_EXPOSURE_AUTO, 3};
+  kernel_.controls[V4L2_CID_FOCUS_ABSOLUTE] = {0, 250, 5, 30, false, V4L2_CID_FOCUS_AUTO, 0};
+  ASSERT_EQ(start(), DeviceCode::ok) << camera().detail();
+  EXPECT_EQ(value(V4L2_CID_EXPOSURE_ABSOLUTE), 156);
+  EXPECT_EQ(value(V4L2_CID_GAIN), 77);
+  EXPECT_EQ(value(V4L2_CID_FOCUS_ABSOLUTE), 30);
+  EXPECT_EQ(camera().held(CameraControl::gain), 77);
+}
+
+TEST_F(V4l2Controls, WhatGoesBackToItsOwnAndStaysThereIsTold) {
+  kernel_.controls[V4L2_CID_EXPOSURE_ABSOLUTE] = {1, 5000, 1, 156, true, V4L2_CID_EXPOSURE_AUTO, 3};
+  EXPECT_EQ(start(), DeviceCode::unsupported);
+  EXPECT_EQ(camera().detail(), "exposure_us: it settled at 15600, held the camera says 300");
 }
 
 TEST_F(V4l2Controls, GivenValuesAreSetAfterTheirAutomaticIsOffAndReadBack) {
@@ -69,6 +85,32 @@ TEST_F(V4l2Controls, ValuesBeyondTheCamerasRangeAndAbsentControlsAreTold) {
   wish(CameraControl::gain) = {ControlWish::Kind::value, 3};
   EXPECT_EQ(start(), DeviceCode::unsupported);
   EXPECT_EQ(camera().detail(), "gain: the camera has no such control; remove the key from the configuration");
+}
+
+// Sensors on the board: their controls are on another node, or count lines.
+TEST_F(V4l2Controls, AnExposureThatNothingCanHoldIsTold) {
+  kernel_.controls.erase(V4L2_CID_EXPOSURE_AUTO);
+  kernel_.controls.erase(V4L2_CID_EXPOSURE_ABSOLUTE);
+  EXPECT_EQ(start(), DeviceCode::unsupported);
+  EXPECT_TRUE(detail_has("exposure_us: the camera's node has no control that could hold it"))
+      << camera().detail();
+  camera_.reset();
+  wish(CameraControl::exposure).kind = ControlWish::Kind::leave;
+  EXPECT_EQ(start(), DeviceCode::ok) << camera().detail();
+}
+
+TEST_F(V4l2Controls, AnExposureInLinesIsHeldButNeverTakenForMicroseconds) {
+  kernel_.controls.erase(V4L2_CID_EXPOSURE_AUTO);
+  kernel_.controls.erase(V4L2_CID_EXPOSURE_ABSOLUTE);
+  kernel_.controls[V4L2_CID_EXPOSURE] = {4, 4000, 1, 1200};
+  ASSERT_EQ(start(), DeviceCode::ok) << camera().detail();
+  EXPECT_FALSE(camera().held(CameraControl::exposure));
+  EXPECT_NE(camera().describe_setup().find("exposure_us 1200 of its own"), std::string::npos);
+  camera_.reset();
+  wish(CameraControl::exposure) = {ControlWish::Kind::value, 2000};
+  EXPECT_EQ(start(), DeviceCode::unsupported);
+  EXPECT_TRUE(detail_has("exposure_us: the camera counts in a unit of its own")) << camera().detail();
+  EXPECT_EQ(value(V4L2_CID_EXPOSURE), 1200);
 }
 
 TEST_F(V4l2Controls, AStepBesideTheWishIsNear) {

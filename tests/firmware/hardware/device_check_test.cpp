@@ -58,10 +58,11 @@ TEST(DeviceCheck, SaysWhatIsWrongInPlainWords) {
   const CheckResult result = check_camera(camera, picture);
   EXPECT_FALSE(result.is_good);
   EXPECT_EQ(result.device, "grey camera");
-  EXPECT_EQ(
-      result.text,
-      "This user may not open the device; add the user to its group (video, gpio, dialout) and log in again. "
-      "(/dev/video3) [Permission denied]");
+  EXPECT_EQ(result.text,
+            "This user may not open the device; add the user to its group and log in again: video for "
+            "cameras, dialout "
+            "for serial lines, gpio for lines of the board once config/60-traygauge-gpio.rules is installed. "
+            "(/dev/video3) [Permission denied]");
   GreyCamera torn;
   torn.capture_status = DeviceCode::torn_frame;
   EXPECT_FALSE(check_camera(torn, picture).is_good);

@@ -3,7 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <fstream>
 #include <random>
+#include <regex>
 
 #include "firmware/config/dish_choice.hpp"
 #include "firmware/config/dish_library.hpp"
@@ -51,6 +53,30 @@ TEST_F(StationFileTest, TheOneThatIsShippedIsReadable) {
   for (const ControlWish& wish : station.camera.controls) EXPECT_EQ(wish.kind, ControlWish::Kind::hold);
 }
 
+TEST_F(StationFileTest, TheOneThatIsShippedExplainsEveryKey) {
+  const auto read_all = [](const char* path) {
+    std::ifstream stream(std::filesystem::path(TRAYGAUGE_SOURCE_DIR) / path);
+    return std::string(std::istreambuf_iterator<char>(stream), {});
+  };
+  // The sections, as "[arm] … key …" where the reader accepts the key.
+  const std::string shipped = read_all("config/station.toml");
+  const std::string reader = read_all("firmware/config/station_file.cpp");
+  const std::regex list(R"(expect\((\w+),\s*\{([^}]*)\}\))");
+  const std::regex word("\"(\\w+)\"");
+  int keys = 0;
+  for (std::sregex_iterator at(reader.begin(), reader.end(), list), end; at != end; ++at) {
+    const std::string names = (*at)[2];
+    for (std::sregex_iterator key(names.begin(), names.end(), word); key != end; ++key) {
+      ++keys;
+      const std::string name = (*key)[1];
+      const bool is_table = (*at)[1] == "root";
+      const std::regex explained(is_table ? "\\[" + name + "\\]" : "(^|\n)(# )?" + name + " = ");
+      EXPECT_TRUE(std::regex_search(shipped, explained)) << name;
+    }
+  }
+  EXPECT_GT(keys, 60);
+}
+
 TEST_F(StationFileTest, TheSmallestHasACameraAndAButton) {
   const StationFile station = read(kSmallest);
   EXPECT_EQ(station.camera.device, "serial:A1");
@@ -67,7 +93,7 @@ TEST_F(StationFileTest, EveryKeyArrives) {
       "7.5\n"
       "exposure_us = 12000\ngain = \"leave\"\nwhite_balance_k = \"hold\"\nfocus = 30\nsettle_frames = 4\n"
       "burst = 5\nmay_repeat = true\n[button]\nline = \"x/3\"\nactive_low = false\nbias = \"pull-down\"\n"
-      "debounce_ms = 12.5\nstuck_after_s = 7\n" +
+      "debounce_ms = 12.5\nleast_closed_ms = 2.5\nstuck_after_s = 7\n" +
       std::string(kLamp) + kStepper +
       "enable = \"e\"\ninverted = [\"e\"]\nhome_bias = \"pull-up\"\nmax_deg = 30\nsecond_view_deg = 15\n"
       "speed_deg_per_s = 11\nacceleration_deg_per_s2 = 12\nhoming_speed_deg_per_s = 3\nhome_overlap_deg = "
@@ -90,6 +116,7 @@ TEST_F(StationFileTest, EveryKeyArrives) {
   EXPECT_FALSE(station.button.line.is_active_low);
   EXPECT_EQ(station.button.line.bias, GpioBias::pull_down);
   EXPECT_EQ(station.button.debounce, std::chrono::microseconds(12'500));
+  EXPECT_EQ(station.button.least_closed, std::chrono::microseconds(2500));
   EXPECT_EQ(station.button.stuck_after, std::chrono::seconds(7));
   EXPECT_EQ(station.lamp.table, (LampTable{0, 1, 2, 3, 1, 2, 2, 1, 2, 0}));
   const auto& stepper = std::get<StepperConfig>(station.arm->kind);
@@ -109,8 +136,10 @@ TEST_F(StationFileTest, EveryKeyArrives) {
 }
 
 TEST_F(StationFileTest, ASerialArmIsAnother) {
-  const StationFile station =
-      read(std::string(kSmallest) + "[arm]\nkind = \"serial\"\ndevice = \"/dev/ttyS7\"\nbaud = 9600\n");
+  const StationFile station = read(std::string(kSmallest) +
+                                   "[arm]\nkind = \"serial\"\ndevice = \"/dev/ttyS7\"\nbaud = 9600\n"
+                                   "longest_move_s = 45\nsettling_ms = 100\n");
+  EXPECT_EQ(std::get<SerialArmParams>(station.arm->kind).longest_move, std::chrono::seconds(45));
   EXPECT_EQ(std::get<SerialArmParams>(station.arm->kind).device, "/dev/ttyS7");
   EXPECT_EQ(std::get<SerialArmParams>(station.arm->kind).baud, 9600);
   EXPECT_EQ(station.arm->second_view_deg, 18.0);
@@ -145,6 +174,7 @@ TEST_F(StationFileTest, NamesTheKeyThatIsWrong) {
            {small + "[arm]\nkind = \"hydraulic\"\n", "arm.kind"},
            {small + kStepper + "second_view_deg = 60\n", "arm.second_view_deg"},
            {small + kStepper + "baud = 9600\n", "arm.baud"},
+           {small + "[arm]\nkind = \"serial\"\ndevice = \"/dev/t\"\nbaud = 100000\n", "arm.baud"},
            {small + "[lamp]\nlines = [\"G\"]\nready = [\"B\"]\n", "lamp.ready[0]"},
            {small + "[lamp]\nlines = [\"G\"]\nready = [\"G\"]\n", "lamp.hold_still"},
            {small + "[trays]\nlabels = [\"a.png\"]\n", "trays.labels"},

@@ -110,6 +110,9 @@ TEST(MoveCheck, AnArmOrCameraThatSitsOtherwiseIsTold) {
   const ArmGeometry geometry{18.0, {18.6, 0.0, 0.0}, {0.0, 150.0, 20.0}};
   EXPECT_TRUE(check_move(move(18.6, 0.0), 18.0, geometry).is_good);
   EXPECT_FALSE(check_move(move(18.0, 0.0), 18.0, geometry).is_good);
+  const CheckResult elsewhere = check_move(move(20.6, 16.0), 20.0, geometry);
+  EXPECT_FALSE(elsewhere.is_good);
+  EXPECT_NE(elsewhere.text.find("was calibrated at 18.00 degrees"), std::string::npos) << elsewhere.text;
   EXPECT_FALSE(check_move(move(18.6, 12.0), 18.0, geometry).is_good);
 }
 

@@ -51,6 +51,27 @@ TEST(Station, MeasuresSeveralTraysInARow) {
   EXPECT_EQ(rig.sink.lines, (Lines{measured(1, 0), measured(2, 1), measured(3, 2)}));
 }
 
+TEST(Station, LetsTheExposureSettleAgainAfterAScanThatWasTooDarkOrTooBright) {
+  for (const StatusCode code : {StatusCode::frame_too_dark, StatusCode::frame_too_bright}) {
+    StationRig rig(3);
+    rig.measurer.on_measure = [&rig, code] {
+      rig.measurer.status = rig.measurer.scans == 1 ? Status(code) : Status();
+    };
+    rig.run();
+    EXPECT_EQ(rig.camera.settled_again(), 1);
+    EXPECT_EQ(rig.station->totals().measured, 2U);
+  }
+}
+
+TEST(Station, LetsTheExposureSettleAgainWhenDaylightMayHaveChanged) {
+  StationRig rig(3);
+  rig.sink.on_delivery = [&rig] {
+    if (rig.measurer.scans == 1) rig.clock.advance(11min);
+  };
+  EXPECT_TRUE(rig.run().all_worked());
+  EXPECT_EQ(rig.camera.settled_again(), 1);
+}
+
 TEST(Station, WorksOnTheFirstViewWhileTheArmMoves) {
   StationRig rig(1);
   rig.run();
