@@ -1,6 +1,7 @@
 #include "tests/evaluation/tables/fingerprint.hpp"
 
 #include <array>
+#include <opencv2/core/utility.hpp>
 #include <ostream>
 #include <sstream>
 
@@ -8,14 +9,10 @@
 #include "simulator/capture/capture.hpp"
 #include "simulator/capture/input_bytes.hpp"
 #include "simulator/capture/picture.hpp"
-#include "tests/evaluation/core_fingerprint.hpp"
+#include "tests/evaluation/program_fingerprint.hpp"
 
 namespace traygauge::tables {
 namespace {
-
-// Raised when this program's own methods, or what the protocol stores, change. What core computes is
-// recognised by its archive.
-constexpr int kProtocolVersion = 1;
 
 void describe_dish(const DishDescription& dish, std::ostream& text) {
   text << "dish " << dish.label;
@@ -39,6 +36,14 @@ std::string fingerprint(std::span<const std::uint8_t> bytes) {
 
 std::string fingerprint(const std::string& text) {
   return fingerprint(std::span(reinterpret_cast<const std::uint8_t*>(text.data()), text.size()));
+}
+
+std::string describe_program() {
+  std::ostringstream text;
+  text << "core " << kCoreFingerprint << ", firmware " << kFirmwareFingerprint << ", simulator "
+       << kSimulatorFingerprint << ", methods " << kMethodsFingerprint << ", OpenCV "
+       << cv::getVersionString();
+  return text.str();
 }
 
 const std::string& PairKeys::of_file(const std::filesystem::path& file) {
@@ -68,8 +73,7 @@ const std::string& PairKeys::of_pair(const PairTask& task, const std::string& co
 
 std::string PairKeys::key_of(const PairTask& task, const Variant& variant, const std::string& config) {
   std::ostringstream text;
-  text << "protocol " << kProtocolVersion << "\ncore " << kCoreFingerprint << '\n'
-       << of_pair(task, config) << describe(variant);
+  text << describe_program() << '\n' << of_pair(task, config) << describe(variant);
   return text.str();
 }
 

@@ -18,6 +18,9 @@ namespace traygauge::tables {
 std::string fingerprint(std::span<const std::uint8_t> bytes);
 std::string fingerprint(const std::string& text);
 
+// What results are computed with: hashes of the libraries and of this program's methods, OpenCV's version.
+std::string describe_program();
+
 // Names of measurements. Files are read once.
 class PairKeys {
  public:
