@@ -50,7 +50,8 @@ Configuration configure(const Variant& variant) {
 
 std::string describe(const Variant& variant) {
   std::ostringstream text;
-  text << "method " << name(variant.method) << "\nprofile " << traygauge::name(variant.profile) << '\n';
+  text << "method " << name(variant.method) << "\nprofile " << traygauge::name(variant.profile)
+       << "\npictures " << describe(variant.pictures) << '\n';
   std::string parameters;
   for (const std::string& line : list_parameters(configure(variant))) parameters += line + "\n";
   text << "parameters " << fingerprint(parameters) << '\n';
