@@ -6,10 +6,10 @@
 #include <sstream>
 #include <system_error>
 
+#include "simulator/capture/content_hash.hpp"
 #include "simulator/capture/input_bytes.hpp"
 #include "simulator/capture/picture_file.hpp"
 #include "simulator/capture/png_writer.hpp"
-#include "tests/evaluation/tables/fingerprint.hpp"
 
 namespace traygauge::tables {
 namespace {
@@ -77,7 +77,7 @@ Capture change_views(Capture capture, const std::array<int, 2>& pair, const Pict
     ViewDescription& view = capture.views.at(static_cast<std::size_t>(index));
     const auto bytes = read_bytes(view.image, kMaxPictureFileBytes, "a readable picture");
     Picture picture = read_picture(view.image, view.camera.size);
-    change_picture(change, std::stoull(fingerprint(bytes), nullptr, 16), picture);
+    change_picture(change, std::stoull(content_hash(bytes), nullptr, 16), picture);
     view.image.path = folder.path() / ("view_" + std::to_string(index) + ".png");
     write_png(view.image.path, picture.frame());
   }

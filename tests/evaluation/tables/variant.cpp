@@ -7,7 +7,7 @@
 
 #include "firmware/config/parameters.hpp"
 #include "firmware/config/profile.hpp"
-#include "tests/evaluation/tables/fingerprint.hpp"
+#include "simulator/capture/content_hash.hpp"
 
 namespace traygauge::tables {
 namespace {
@@ -54,7 +54,7 @@ std::string describe(const Variant& variant) {
        << "\npictures " << describe(variant.pictures) << '\n';
   std::string parameters;
   for (const std::string& line : list_parameters(configure(variant))) parameters += line + "\n";
-  text << "parameters " << fingerprint(parameters) << '\n';
+  text << "parameters " << content_hash(parameters) << '\n';
   return text.str();
 }
 
