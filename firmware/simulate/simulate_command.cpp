@@ -64,9 +64,11 @@ int run_render(const RenderOptions& options, std::ostream& out, std::ostream& er
   const std::filesystem::path folder = options.out;
   const std::size_t all = scenes.size();
   std::erase_if(scenes, [&](const SceneDescription& scene) {
-    if (!is_complete_capture(folder / scene.name, scene)) return false;
-    update_description(folder / scene.name, scene);
-    return true;
+    const CaptureState state = state_of_capture(folder / scene.name, scene, settings);
+    if (state == CaptureState::stale)
+      error << scene.name << ": made from another description or by another program; rendered again\n";
+    if (state == CaptureState::complete) update_description(folder / scene.name, scene);
+    return state == CaptureState::complete;
   });
   std::size_t pictures = 0;
   for (const SceneDescription& scene : scenes) pictures += scene.views.size();

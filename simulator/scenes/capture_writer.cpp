@@ -21,6 +21,7 @@
 #include "simulator/scenes/capture_documents.hpp"
 #include "simulator/scenes/draws.hpp"
 #include "simulator/scenes/laid_scene.hpp"
+#include "simulator/scenes/scene_digest.hpp"
 #include "simulator/scenes/scene_poses.hpp"
 
 namespace traygauge {
@@ -28,6 +29,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr const char* kDigestKey = "made_from";
 constexpr double kDepthUnitMm = 0.02;
 constexpr double kMeanLevel = 0.30;    // of a phone's automatic exposure, linear
 constexpr double kBrightLevel = 0.75;  // what the brightest hundredth may reach
@@ -127,19 +129,23 @@ SensorSettings sensor_of(const SceneDescription& scene, const Photograph& view, 
 
 }  // namespace
 
-bool is_complete_capture(const fs::path& folder, const SceneDescription& scene) {
+CaptureState state_of_capture(const fs::path& folder, const SceneDescription& scene,
+                              const RenderSettings& settings) {
   std::error_code ignored;
   const auto has = [&](const std::string& name) { return fs::is_regular_file(folder / name, ignored); };
-  if (!has("capture.json") || !has("truth.json") || !has("card.png") || !has("depth_0.png")) return false;
+  if (!has("capture.json") || !has("truth.json") || !has("card.png") || !has("depth_0.png"))
+    return CaptureState::absent;
   for (std::size_t i = 0; i < scene.views.size(); ++i) {
-    if (!has(numbered("view", i, ".jpg")) || !has(numbered("labels", i, ".png"))) return false;
+    if (!has(numbered("view", i, ".jpg")) || !has(numbered("labels", i, ".png"))) return CaptureState::absent;
   }
   try {
     const nlohmann::json truth = read_json(folder / "truth.json");
-    const auto origin = truth.find("origin");
-    return origin != truth.end() && *origin == scene.origin;
-  } catch (const InputError&) {
-    return false;  // a damaged one is rendered again
+    const auto digest = truth.find(kDigestKey);
+    const bool is_same = digest != truth.end() && *digest == digest_of(scene, settings);
+    return is_same ? CaptureState::complete : CaptureState::stale;
+  } catch (const InputError& problem) {
+    if (problem.problem().file != folder / "truth.json") throw;
+    return CaptureState::absent;
   }
 }
 
@@ -156,6 +162,7 @@ void update_description(const fs::path& folder, const SceneDescription& scene) {
 
 void render_capture(const SceneDescription& scene, const fs::path& folder, const RenderSettings& settings,
                     const std::function<void(double share)>& progress) {
+  const std::string digest = digest_of(scene, settings);
   LaidScene laid(scene);
   UnfinishedFolder unfinished(folder);
   const fs::path& out = unfinished.path();
@@ -190,7 +197,9 @@ void render_capture(const SceneDescription& scene, const fs::path& folder, const
     for (const std::uint8_t label : view.labels) ++pixels[label];
   }
   write_text(out / "capture.json", compose_description(scene));
-  write_text(out / "truth.json", compose_truth(laid, visible).dump(1) + "\n");
+  auto truth = compose_truth(laid, visible);
+  truth[kDigestKey] = digest;
+  write_text(out / "truth.json", truth.dump(1) + "\n");
   unfinished.finish();
 }
 

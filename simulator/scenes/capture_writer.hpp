@@ -1,6 +1,7 @@
 // Scenes rendered into capture folders.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 
@@ -9,11 +10,19 @@
 
 namespace traygauge {
 
-// Whether `folder` holds all files of a capture of this scene, by its origin.
-bool is_complete_capture(const std::filesystem::path& folder, const SceneDescription& scene);
+enum class CaptureState : std::uint8_t {
+  absent,    // or damaged
+  stale,     // made from another description, with other settings or by another generator
+  complete,  // all files of this scene
+};
 
-// Writes capture.json of such a folder anew where this program describes the scene otherwise than the one
-// that rendered it. Throws OutputError.
+// Of what lies in `folder`, by the digest in its truth.json. Throws InputError for a mesh of the scene that
+// cannot be read.
+CaptureState state_of_capture(const std::filesystem::path& folder, const SceneDescription& scene,
+                              const RenderSettings& settings);
+
+// Writes capture.json of a complete capture anew where this program writes the same description otherwise
+// than the one that rendered it, or the arm's angles have changed. Throws OutputError.
 void update_description(const std::filesystem::path& folder, const SceneDescription& scene);
 
 // Renders every view of the scene and stores them with capture.json and truth.json in `folder`, which appears

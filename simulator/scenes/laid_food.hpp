@@ -29,9 +29,13 @@ struct ServedFood {
   int dish = 0;
 };
 
+// Throws std::invalid_argument where the two volumes contradict each other.
+void require_agreement(const ServedFood& food);
+
 // All foods of one dish, in their order; where two want one place the earlier stands there. `first_label`: of
 // the food that comes first in scene.foods. Throws InputError for a mesh that cannot be read,
-// std::invalid_argument for a kind or a level that does not exist.
+// std::invalid_argument for a kind or a level that does not exist, a scanned food that reaches into another
+// food, and volumes that contradict each other.
 std::vector<ServedFood> serve_foods(const SceneDescription& scene, int dish, const DishShell& shell,
                                     int first_label);
 

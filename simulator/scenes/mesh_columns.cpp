@@ -14,7 +14,7 @@ namespace {
 // Columns through the middles of squares that cover the mesh.
 class ColumnGrid {
  public:
-  ColumnGrid(const TriangleMesh& mesh, double step_mm) : mesh_(mesh), step_mm_(step_mm) {
+  ColumnGrid(const TriangleMesh& mesh, double step_mm) : step_mm_(step_mm) {
     Eigen::Vector3d high = Eigen::Vector3d::Constant(std::numeric_limits<double>::lowest());
     low_ = -high;
     for (const Eigen::Vector3f& vertex : mesh.vertices) {
@@ -31,10 +31,13 @@ class ColumnGrid {
   double x_mm(std::size_t cell) const { return middle(cell % static_cast<std::size_t>(columns_), low_.x()); }
   double y_mm(std::size_t cell) const { return middle(cell / static_cast<std::size_t>(columns_), low_.y()); }
 
-  // hit(cell, z, looks_up) wherever a column passes a triangle.
+  // hit(cell, z, looks_up) wherever a column passes a triangle of `mesh`.
   template <class Hit>
-  void pass(const Hit& hit) const {
-    for (const auto& [ia, ib, ic] : mesh_.triangles) {
+  void pass(const TriangleMesh& mesh, const Hit& hit) const {
+    const auto vertex = [&](std::uint32_t index) -> Eigen::Vector3d {
+      return mesh.vertices[index].cast<double>();
+    };
+    for (const auto& [ia, ib, ic] : mesh.triangles) {
       const Eigen::Vector3d a = vertex(ia);
       const Eigen::Vector3d ab = vertex(ib) - a;
       const Eigen::Vector3d ac = vertex(ic) - a;
@@ -60,7 +63,6 @@ class ColumnGrid {
   }
 
  private:
-  Eigen::Vector3d vertex(std::uint32_t index) const { return mesh_.vertices[index].cast<double>(); }
   double middle(std::size_t index, double low_mm) const {
     return low_mm + (static_cast<double>(index) + 0.5) * step_mm_;
   }
@@ -71,12 +73,34 @@ class ColumnGrid {
     return std::min(count - 1, static_cast<int>(std::floor(offset_mm / step_mm_ - 0.5)));
   }
 
-  const TriangleMesh& mesh_;
   double step_mm_;
   Eigen::Vector3d low_;
   int columns_ = 0;
   int rows_ = 0;
 };
+
+// Where a column enters (+1) or leaves (-1) one of two solids, from below.
+struct Crossing {
+  double z = 0.0;
+  int into_first = 0;
+  int into_second = 0;
+};
+
+double shared_length(std::vector<Crossing>& crossings) {
+  std::sort(crossings.begin(), crossings.end(),
+            [](const Crossing& a, const Crossing& b) { return a.z < b.z; });
+  double length = 0.0;
+  int in_first = 0;
+  int in_second = 0;
+  double last_z = 0.0;
+  for (const Crossing& crossing : crossings) {
+    if (in_first > 0 && in_second > 0) length += crossing.z - last_z;
+    in_first += crossing.into_first;
+    in_second += crossing.into_second;
+    last_z = crossing.z;
+  }
+  return length;
+}
 
 }  // namespace
 
@@ -85,7 +109,7 @@ Columns columns_above(const TriangleMesh& mesh, double step_mm,
   const ColumnGrid grid(mesh, step_mm);
   constexpr double kNothing = std::numeric_limits<double>::lowest();
   std::vector<double> top(grid.size(), kNothing);
-  grid.pass([&](std::size_t cell, double z, bool) { top[cell] = std::max(top[cell], z); });
+  grid.pass(mesh, [&](std::size_t cell, double z, bool) { top[cell] = std::max(top[cell], z); });
   Columns columns;
   for (std::size_t cell = 0; cell < top.size(); ++cell) {
     if (top[cell] == kNothing) continue;
@@ -99,7 +123,21 @@ Columns columns_above(const TriangleMesh& mesh, double step_mm,
 double solid_columns_mm3(const TriangleMesh& mesh, double step_mm) {
   const ColumnGrid grid(mesh, step_mm);
   double sum = 0.0;
-  grid.pass([&](std::size_t, double z, bool looks_up) { sum += looks_up ? z : -z; });
+  grid.pass(mesh, [&](std::size_t, double z, bool looks_up) { sum += looks_up ? z : -z; });
+  return sum * step_mm * step_mm;
+}
+
+double shared_columns_mm3(const TriangleMesh& first, const TriangleMesh& second, double step_mm) {
+  const ColumnGrid grid(first, step_mm);
+  std::vector<std::vector<Crossing>> crossings(grid.size());
+  grid.pass(first, [&](std::size_t cell, double z, bool looks_up) {
+    crossings[cell].push_back({z, looks_up ? -1 : 1, 0});
+  });
+  grid.pass(second, [&](std::size_t cell, double z, bool looks_up) {
+    if (!crossings[cell].empty()) crossings[cell].push_back({z, 0, looks_up ? -1 : 1});
+  });
+  double sum = 0.0;
+  for (std::vector<Crossing>& own : crossings) sum += shared_length(own);
   return sum * step_mm * step_mm;
 }
 

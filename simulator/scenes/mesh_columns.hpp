@@ -19,4 +19,7 @@ Columns columns_above(const TriangleMesh& mesh, double step_mm,
 // What a closed mesh encloses, as the lengths of columns inside of it.
 double solid_columns_mm3(const TriangleMesh& mesh, double step_mm);
 
+// What lies inside two closed meshes at once.
+double shared_columns_mm3(const TriangleMesh& first, const TriangleMesh& second, double step_mm);
+
 }  // namespace traygauge

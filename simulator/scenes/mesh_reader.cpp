@@ -7,7 +7,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -127,8 +126,12 @@ struct PlyElement {
   std::vector<PlyProperty> properties;
 };
 
+enum class PlyFormat : std::uint8_t { ascii, binary_little_endian, binary_big_endian };
+constexpr std::array<std::string_view, 3> kPlyFormats = {"ascii", "binary_little_endian",
+                                                         "binary_big_endian"};
+
 struct PlyHeader {
-  bool is_binary = false;
+  PlyFormat format = PlyFormat::ascii;
   std::vector<PlyElement> elements;
 };
 
@@ -141,8 +144,9 @@ PlyHeader read_ply_header(Lines& lines) {
     if (words.empty() || words[0] == "comment" || words[0] == "obj_info") continue;
     if (words[0] == "end_header") return header;
     if (words[0] == "format" && words.size() == 3) {
-      header.is_binary = words[1] == "binary_little_endian";
-      if (!header.is_binary && words[1] != "ascii") lines.fail("format ascii or binary_little_endian");
+      const auto* const known = std::find(kPlyFormats.begin(), kPlyFormats.end(), words[1]);
+      if (known == kPlyFormats.end()) lines.fail("format ascii, binary_little_endian or binary_big_endian");
+      header.format = static_cast<PlyFormat>(known - kPlyFormats.begin());
     } else if (words[0] == "element" && words.size() == 3) {
       const auto count = lines.number<std::size_t>(words[2], "how many there are");
       if (count > kMaxElements) lines.fail("at most 4 million vertices and faces");
@@ -163,19 +167,22 @@ PlyHeader read_ply_header(Lines& lines) {
 class PlyValues {
  public:
   PlyValues(const InputFile& file, const PlyHeader& header, std::string_view body, Lines& lines)
-      : file_(file), is_binary_(header.is_binary), body_(body), lines_(lines) {}
+      : file_(file), format_(header.format), body_(body), lines_(lines) {}
 
-  double next(const std::string& type) { return is_binary_ ? next_binary(type) : next_word(); }
+  double next(const std::string& type) {
+    return format_ == PlyFormat::ascii ? next_word() : next_binary(type);
+  }
 
  private:
   template <class Value>
   double take() {
     static_assert(std::endian::native == std::endian::little);
     if (body_.size() < sizeof(Value)) fail(file_, "a whole PLY file", "one that ends early");
-    Value value{};
-    std::memcpy(&value, body_.data(), sizeof(Value));
+    std::array<char, sizeof(Value)> bytes{};
+    std::copy_n(body_.begin(), sizeof(Value), bytes.begin());
+    if (format_ == PlyFormat::binary_big_endian) std::reverse(bytes.begin(), bytes.end());
     body_.remove_prefix(sizeof(Value));
-    return static_cast<double>(value);
+    return static_cast<double>(std::bit_cast<Value>(bytes));
   }
 
   double next_binary(const std::string& type) {
@@ -199,7 +206,7 @@ class PlyValues {
   }
 
   const InputFile& file_;
-  bool is_binary_;
+  PlyFormat format_;
   std::string_view body_;
   Lines& lines_;
   std::vector<std::string_view> words_;
@@ -245,10 +252,17 @@ TriangleMesh read_ply(const InputFile& file, std::string_view text) {
 
 }  // namespace
 
+std::vector<std::uint8_t> read_mesh_bytes(const InputFile& file) {
+  return read_bytes(file, kMaxMeshBytes, kExpected);
+}
+
 TriangleMesh read_mesh(const InputFile& file) {
-  const std::vector<std::uint8_t> bytes = read_bytes(file, kMaxMeshBytes, kExpected);
+  const std::vector<std::uint8_t> bytes = read_mesh_bytes(file);
   const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-  const std::string extension = file.path.extension().string();
+  std::string extension = file.path.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(), [](char letter) {
+    return letter >= 'A' && letter <= 'Z' ? char(letter - 'A' + 'a') : letter;
+  });
   if (extension != ".obj" && extension != ".ply")
     throw InputError(file, kExpected, "\"" + extension + "\"", "export the mesh as one of these");
   TriangleMesh mesh = extension == ".obj" ? read_obj(file, text) : read_ply(file, text);

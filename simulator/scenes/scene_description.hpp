@@ -114,8 +114,7 @@ struct PhotographySettings {
 
 struct SceneDescription {
   std::string name;
-  // What the scene was made from: a set and its seed, or the content of a file. A capture of the same origin
-  // is the same capture.
+  // What the scene was made from, for people: a set and its seed, or the content of a file.
   std::string origin;
   std::uint64_t seed = 1;  // of the renderer's and the sensor's noise
   std::vector<LaidDish> dishes;

@@ -1,12 +1,14 @@
 // Every method measures a rendered capture, each within what such a method can be held to.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
 #include "firmware/config/dish_choice.hpp"
 #include "firmware/measure/capture_session.hpp"
 #include "simulator/capture/truth.hpp"
+#include "tests/evaluation/methods/pair_features.hpp"
 #include "tests/evaluation/tables/pair_method.hpp"
 #include "tests/simulator/capture/temporary_capture.hpp"
 
@@ -37,6 +39,28 @@ TEST(MethodsOnCaptures, MeasureAMeal) {
       const double truth_ml = item.volume_above_bottom_plane_ml.value();
       EXPECT_NEAR(found->volume_ml, truth_ml, tolerance * truth_ml) << name(method) << ", " << item.name;
     }
+  }
+}
+
+// The card fills the picture that it is searched in, up to its edge.
+TEST(MethodsOnCaptures, FindPointsUpToTheCardsEdge) {
+  if (captures_folder().empty()) GTEST_SKIP() << "TRAYGAUGE_CAPTURES names no captures";
+  const Capture capture = read_capture(captures_folder() / "meals/m08");
+  const CaptureSession session(capture, {0, 1}, choose_dishes(capture, ""), configure({}));
+  constexpr double kEdgeMm = 5.0;  // 24 % of the card's area
+  for (const Detector detector : {Detector::sift, Detector::orb}) {
+    const PointFeatures features = find_on_pattern(session, detector);
+    ASSERT_EQ(features.descriptors.rows, static_cast<int>(features.pixels.size()));
+    double near_edge = 0.0;
+    for (const Vec2& at : features.pixels) {
+      const double from_side_mm = std::min(at.x(), capture.card.width_mm - at.x());
+      const double from_end_mm = std::min(at.y(), capture.card.height_mm - at.y());
+      ASSERT_GT(std::min(from_side_mm, from_end_mm), -0.5) << "beside the card";
+      near_edge += std::min(from_side_mm, from_end_mm) < kEdgeMm ? 1.0 : 0.0;
+    }
+    EXPECT_GT(near_edge, 0.1 * static_cast<double>(features.pixels.size())) << static_cast<int>(detector);
+    const PairMatches matches = match_pair(session, detector);
+    EXPECT_GT(matches.card_matches.size(), 50U) << static_cast<int>(detector);
   }
 }
 

@@ -19,6 +19,14 @@ constexpr double kSiftOffsetPx = 0.25;
 // Half of OpenCV's default, which leaves many foods without points: SIFT then finds about as many as SURF.
 constexpr double kSiftContrast = 0.02;
 constexpr int kSiftLayers = 3;
+// For the same reason half of OpenCV's default of ORB's corners.
+constexpr int kOrbFastThreshold = 10;
+constexpr float kOrbScale = 1.2F;
+constexpr int kOrbLevels = 8;
+constexpr int kOrbPatchPx = 31;
+// ORB leaves out what lies nearer to the border than its patch, in each level of its pyramid: on a card that
+// fills its picture, most of the print.
+const int kOrbBorderPx = cvCeil(kOrbPatchPx * std::pow(static_cast<double>(kOrbScale), kOrbLevels - 1));
 
 struct SearchedPart {
   cv::Rect box;        // of the stored picture
@@ -26,25 +34,35 @@ struct SearchedPart {
   int cap = 0;         // points
 };
 
+cv::Ptr<cv::Feature2D> make_finder(Detector detector, int cap) {
+  if (detector == Detector::sift) return cv::SIFT::create(cap, kSiftLayers, kSiftContrast);
+  return cv::ORB::create(cap, kOrbScale, kOrbLevels, kOrbPatchPx, 0, 2, cv::ORB::HARRIS_SCORE, kOrbPatchPx,
+                         kOrbFastThreshold);
+}
+
 PointFeatures detect(const cv::Mat& gray, const SearchedPart& part, Detector detector) {
   cv::Mat picture = gray(part.box);
   if (part.scale != 1.0)
     cv::resize(picture, picture, {}, part.scale, part.scale,
                part.scale < 1.0 ? cv::INTER_AREA : cv::INTER_CUBIC);
-  std::vector<cv::KeyPoint> keypoints;
-  PointFeatures features;
-  const cv::Ptr<cv::Feature2D> finder =
-      detector == Detector::sift
-          ? cv::Ptr<cv::Feature2D>(cv::SIFT::create(part.cap, kSiftLayers, kSiftContrast))
-          : cv::Ptr<cv::Feature2D>(cv::ORB::create(part.cap));
-  finder->detectAndCompute(picture, cv::noArray(), keypoints, features.descriptors);
-  const double offset_px = detector == Detector::sift ? kSiftOffsetPx : 0.0;
   const double scale_x = static_cast<double>(picture.cols) / part.box.width;
   const double scale_y = static_cast<double>(picture.rows) / part.box.height;
-  for (const cv::KeyPoint& keypoint : keypoints) {
-    features.pixels.emplace_back(
-        part.box.x + scale_coordinate(static_cast<double>(keypoint.pt.x) - offset_px, 1.0 / scale_x),
-        part.box.y + scale_coordinate(static_cast<double>(keypoint.pt.y) - offset_px, 1.0 / scale_y));
+  const int border_px = detector == Detector::orb ? kOrbBorderPx : 0;
+  const cv::Rect2d inside(border_px, border_px, picture.cols, picture.rows);
+  if (border_px > 0)
+    cv::copyMakeBorder(picture, picture, border_px, border_px, border_px, border_px,
+                       cv::BORDER_REPLICATE | cv::BORDER_ISOLATED);
+  std::vector<cv::KeyPoint> keypoints;
+  cv::Mat descriptors;
+  make_finder(detector, part.cap)->detectAndCompute(picture, cv::noArray(), keypoints, descriptors);
+  const double offset_px = detector == Detector::sift ? kSiftOffsetPx : border_px;
+  PointFeatures features;
+  for (std::size_t i = 0; i < keypoints.size(); ++i) {
+    const cv::Point2d at = keypoints[i].pt;
+    if (border_px > 0 && !inside.contains(at)) continue;
+    features.pixels.emplace_back(part.box.x + scale_coordinate(at.x - offset_px, 1.0 / scale_x),
+                                 part.box.y + scale_coordinate(at.y - offset_px, 1.0 / scale_y));
+    features.descriptors.push_back(descriptors.row(static_cast<int>(i)));
   }
   return features;
 }

@@ -1,21 +1,18 @@
 #include "tests/evaluation/tables/fingerprint.hpp"
 
-#include <array>
+#include <opencv2/core/utility.hpp>
 #include <ostream>
 #include <sstream>
 
 #include "firmware/config/dish_choice.hpp"
 #include "simulator/capture/capture.hpp"
+#include "simulator/capture/content_hash.hpp"
 #include "simulator/capture/input_bytes.hpp"
 #include "simulator/capture/picture.hpp"
-#include "tests/evaluation/core_fingerprint.hpp"
+#include "tests/evaluation/program_fingerprint.hpp"
 
 namespace traygauge::tables {
 namespace {
-
-// Raised when this program's own methods, or what the protocol stores, change. What core computes is
-// recognised by its archive.
-constexpr int kProtocolVersion = 1;
 
 void describe_dish(const DishDescription& dish, std::ostream& text) {
   text << "dish " << dish.label;
@@ -28,23 +25,18 @@ void describe_dish(const DishDescription& dish, std::ostream& text) {
 
 }  // namespace
 
-std::string fingerprint(std::span<const std::uint8_t> bytes) {
-  std::uint64_t hash = 0xcbf29ce484222325;
-  for (const std::uint8_t byte : bytes) hash = (hash ^ byte) * 0x100000001b3;
-  constexpr std::array<char, 17> digits = {"0123456789abcdef"};
-  std::string text(16, '0');
-  for (std::size_t i = 0; i < text.size(); ++i) text[i] = digits.at((hash >> (60U - 4U * i)) & 15U);
-  return text;
-}
-
-std::string fingerprint(const std::string& text) {
-  return fingerprint(std::span(reinterpret_cast<const std::uint8_t*>(text.data()), text.size()));
+std::string describe_program() {
+  std::ostringstream text;
+  text << "core " << kCoreFingerprint << ", firmware " << kFirmwareFingerprint << ", simulator "
+       << kSimulatorFingerprint << ", methods " << kMethodsFingerprint << ", OpenCV "
+       << cv::getVersionString();
+  return text.str();
 }
 
 const std::string& PairKeys::of_file(const std::filesystem::path& file) {
   const auto known = files_.find(file);
   if (known != files_.end()) return known->second;
-  return files_[file] = fingerprint(read_bytes({file, ""}, kMaxPictureFileBytes, "a readable file"));
+  return files_[file] = content_hash(read_bytes({file, ""}, kMaxPictureFileBytes, "a readable file"));
 }
 
 const std::string& PairKeys::of_pair(const PairTask& task, const std::string& config) {
@@ -68,8 +60,7 @@ const std::string& PairKeys::of_pair(const PairTask& task, const std::string& co
 
 std::string PairKeys::key_of(const PairTask& task, const Variant& variant, const std::string& config) {
   std::ostringstream text;
-  text << "protocol " << kProtocolVersion << "\ncore " << kCoreFingerprint << '\n'
-       << of_pair(task, config) << describe(variant);
+  text << describe_program() << '\n' << of_pair(task, config) << describe(variant);
   return text.str();
 }
 

@@ -1,11 +1,9 @@
-// Short names for contents: where a result is stored, and what it was computed from.
+// What a result was computed from.
 #pragma once
 
 #include <array>
-#include <cstdint>
 #include <filesystem>
 #include <map>
-#include <span>
 #include <string>
 #include <utility>
 
@@ -14,9 +12,8 @@
 
 namespace traygauge::tables {
 
-// FNV-1a of 64 bits as 16 hexadecimal digits.
-std::string fingerprint(std::span<const std::uint8_t> bytes);
-std::string fingerprint(const std::string& text);
+// What results are computed with: hashes of the libraries and of this program's methods, OpenCV's version.
+std::string describe_program();
 
 // Names of measurements. Files are read once.
 class PairKeys {

@@ -15,11 +15,20 @@ namespace {
 
 struct OpenPair {
   OpenPair(const PairTask& task, const Variant& variant, const std::string& config)
-      : capture(read_capture(task.folder)),
+      : capture(open_capture(task, variant.pictures)),
         session(capture, task.pair, choose_dishes(capture, config), configure(variant)) {}
 
+  std::unique_ptr<ScratchFolder> scratch;  // of changed pictures
   Capture capture;
   CaptureSession session;
+
+ private:
+  Capture open_capture(const PairTask& task, const PictureChange& change) {
+    Capture own = read_capture(task.folder);
+    if (change.is_none()) return own;
+    scratch = std::make_unique<ScratchFolder>();
+    return change_views(std::move(own), task.pair, change, *scratch);
+  }
 };
 
 void search_with(MotionSearch& search, CaptureSession& session) {
@@ -30,19 +39,11 @@ void search_with(MotionSearch& search, CaptureSession& session) {
 class OurMethod final : public PairMethod {
  public:
   OurMethod(const PairTask& task, const Variant& variant, const std::string& config)
-      : runner_(task, options_of(variant, config)) {}
-  Run measure(std::uint64_t seed) override { return runner_.measure(seed); }
+      : pair_(task, variant, config) {}
+  Run measure(std::uint64_t seed) override { return record_run(pair_.session.measure(seed), seed); }
 
  private:
-  static ProtocolOptions options_of(const Variant& variant, const std::string& config) {
-    ProtocolOptions options;
-    options.parameters = configure(variant);
-    options.profile = abilities_of(variant.profile);
-    options.config = config;
-    return options;
-  }
-
-  PairRunner runner_;
+  OpenPair pair_;
 };
 
 // Another detector in the place of SURF.

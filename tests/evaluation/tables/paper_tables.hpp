@@ -25,6 +25,7 @@ struct Row {
   std::optional<double> angle_deg;     // only pairs of view 0 at about this relative angle
   std::optional<double> number;        // where the row stands in a plot; else by its place in the table
   std::string dish_style;              // only captures with such a dish; empty: all
+  std::string reference;               // title of the row that it is compared with; empty: none
 };
 
 struct Table {

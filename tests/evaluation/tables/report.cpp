@@ -4,14 +4,17 @@
 #include <array>
 #include <cmath>
 #include <fstream>
+#include <set>
 #include <sstream>
+#include <string>
 
 #include "firmware/base/text.hpp"
 #include "firmware/evaluate/evaluation.hpp"
 #include "firmware/evaluate/evaluation_plots.hpp"
 #include "firmware/evaluate/table_cells.hpp"
 #include "firmware/plot/chart.hpp"
-#include "simulator/capture/png_writer.hpp"
+#include "simulator/capture/output_file.hpp"
+#include "tests/evaluation/tables/provenance.hpp"
 
 namespace traygauge::tables {
 namespace {
@@ -105,7 +108,7 @@ void write_error_plots(const std::filesystem::path& folder, const Evaluation& ev
   write_text(folder / ("volumes" + end), plot_volumes(evaluation));
 }
 
-void compose_head(const SetFolders& sets, const RunnerOptions& options, std::ostream& text) {
+void compose_head(std::ostream& text) {
   text << "# The paper's comparisons, run again\n\n"
           "The paper's MAPE and time (`paper %`, `paper s`: on its own photographs and processor) stand "
           "beside ours. "
@@ -115,13 +118,10 @@ void compose_head(const SetFolders& sets, const RunnerOptions& options, std::ost
           "dish's inner "
           "surface. `MAPE %`, `bias %` and `time s` are of what was measured; `as 100` counts each refusal "
           "as an error "
-          "of 100 %.\n\n"
-       << options.runs << " seeds a pair";
-  if (options.pairs > 0) text << ", at most " << options.pairs << " pairs of a set";
-  text << ". Sets:\n\n";
-  for (const auto& [set, folder] : sets)
-    text << "- " << name(set) << ": `" << folder.filename().string() << "`\n";
-  text << "\n";
+          "of 100 %. Below each table: the MAPE against both truths (`plane %`, `dish %`), and how much it "
+          "differs from that of the row named `beside`, on the items that both measured (`shared`), in "
+          "points; "
+          "95 % intervals by bootstrap over captures.\n\n";
 }
 
 }  // namespace
@@ -155,9 +155,12 @@ void write_report(const std::filesystem::path& folder, const SetFolders& sets, c
   std::error_code problem;
   std::filesystem::create_directories(folder, problem);
   if (!std::filesystem::is_directory(folder)) throw OutputError(folder, "it is no folder");
-  const auto tables = measure_tables(measurable_tables(paper_tables(), sets, error), sets, options, error);
+  std::set<std::string> skipped;
+  const auto tables =
+      measure_tables(measurable_tables(paper_tables(), sets, error), sets, options, error, skipped);
   std::ostringstream text;
-  compose_head(sets, options, text);
+  compose_head(text);
+  text << compose_provenance(sets, options, skipped);
   for (const MeasuredTable& table : tables) {
     text << compose_markdown(table.table, table.rows);
     text << "![" << table.table.title << "](" << table.table.command << ".svg)\n\n";
@@ -167,7 +170,7 @@ void write_report(const std::filesystem::path& folder, const SetFolders& sets, c
     const std::array<Profile, 2> profiles = {Profile::paper, Profile::best};
     std::vector<Work> works;
     for (const Profile profile : profiles) works.push_back({meals->second, {Method::ours, profile, {}}});
-    const std::vector<WorkResult> results = run_with_progress(works, options, error);
+    const std::vector<WorkResult> results = run_with_progress(works, options, error, skipped);
     std::vector<ProfileErrors> errors;
     for (std::size_t i = 0; i < profiles.size(); ++i) {
       errors.push_back(evaluate(profiles[i], meals->second, options, results[i]));

@@ -6,8 +6,8 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "simulator/capture/png_writer.hpp"
-#include "tests/evaluation/tables/fingerprint.hpp"
+#include "simulator/capture/content_hash.hpp"
+#include "simulator/capture/output_file.hpp"
 
 namespace traygauge::tables {
 namespace {
@@ -59,7 +59,7 @@ ResultCache::ResultCache(std::filesystem::path folder) : folder_(std::move(folde
 }
 
 std::filesystem::path ResultCache::file_of(const std::string& key) const {
-  return folder_ / (fingerprint(key) + ".json");
+  return folder_ / (content_hash(key) + ".json");
 }
 
 std::vector<Run> ResultCache::read(const std::string& key) const {

@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <iostream>
+#include <map>
 #include <set>
 #include <string>
 
@@ -32,32 +33,41 @@ std::vector<Table> measurable_tables(const std::vector<Table>& tables, const Set
 }
 
 std::vector<WorkResult> run_with_progress(const std::vector<Work>& works, const RunnerOptions& options,
-                                          std::ostream& error) {
+                                          std::ostream& error, std::set<std::string>& skipped) {
   std::vector<WorkResult> results;
   {
     Progress progress(error, &error == &std::cerr && isatty(STDERR_FILENO) == 1);
     results = run_works(works, options, [&](std::size_t done, std::size_t all) { progress.show(done, all); });
   }
-  std::set<std::string> skipped;
-  for (const WorkResult& result : results) skipped.insert(result.skipped.begin(), result.skipped.end());
-  for (const std::string& reason : skipped) error << "Left out: " << reason << "\n";
+  std::set<std::string> reasons;
+  for (const WorkResult& result : results) reasons.insert(result.skipped.begin(), result.skipped.end());
+  for (const std::string& reason : reasons) error << "Left out: " << reason << "\n";
+  skipped.merge(reasons);
   return results;
 }
 
 std::vector<MeasuredTable> measure_tables(const std::vector<Table>& tables, const SetFolders& sets,
-                                          const RunnerOptions& options, std::ostream& error) {
+                                          const RunnerOptions& options, std::ostream& error,
+                                          std::set<std::string>& skipped) {
   std::vector<Work> works;
   for (const Table& table : tables) {
     for (const Row& row : table.rows) works.push_back({sets.at(row.set), row.variant});
   }
-  const std::vector<WorkResult> results = run_with_progress(works, options, error);
+  const std::vector<WorkResult> results = run_with_progress(works, options, error, skipped);
   std::vector<MeasuredTable> measured;
   std::size_t next = 0;
   for (const Table& table : tables) {
+    std::map<std::string, std::vector<PairRuns>> runs;  // by the row's title
+    for (const Row& row : table.rows) {
+      runs[row.title] = runs_of(row, works[next].set, results[next].runs);
+      ++next;
+    }
     MeasuredTable own{table, {}};
     for (const Row& row : table.rows) {
-      own.rows.push_back({row, figures_of(row, works[next].set, results[next].runs)});
-      ++next;
+      const auto reference = runs.find(row.reference);
+      const bool is_compared = reference != runs.end() && row.reference != row.title;
+      own.rows.push_back({row, figures_of(row, runs.at(row.title),
+                                          is_compared ? reference->second : std::vector<PairRuns>())});
     }
     measured.push_back(std::move(own));
   }

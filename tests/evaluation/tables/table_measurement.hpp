@@ -2,6 +2,8 @@
 #pragma once
 
 #include <iosfwd>
+#include <set>
+#include <string>
 #include <vector>
 
 #include "tests/evaluation/tables/row_figures.hpp"
@@ -19,11 +21,12 @@ struct MeasuredTable {
 std::vector<Table> measurable_tables(const std::vector<Table>& tables, const SetFolders& sets,
                                      std::ostream& error);
 
-// Measures what is not in the cache, and tells `error` of the progress and of captures left out. Throws
-// InputError, OutputError.
+// Measures what is not in the cache, and tells `error` of the progress and of captures left out, which it
+// adds to `skipped` with the reasons. Throws InputError, OutputError.
 std::vector<WorkResult> run_with_progress(const std::vector<Work>& works, const RunnerOptions& options,
-                                          std::ostream& error);
+                                          std::ostream& error, std::set<std::string>& skipped);
 std::vector<MeasuredTable> measure_tables(const std::vector<Table>& tables, const SetFolders& sets,
-                                          const RunnerOptions& options, std::ostream& error);
+                                          const RunnerOptions& options, std::ostream& error,
+                                          std::set<std::string>& skipped);
 
 }  // namespace traygauge::tables

@@ -18,6 +18,22 @@ struct Planned {
   std::vector<Run> runs;
 };
 
+// A task, and which of its capture's pairs it is.
+struct Place {
+  std::size_t task;
+  std::size_t pair;
+};
+
+std::size_t take_least_used(std::vector<Place>& places, std::map<std::size_t, int>& uses) {
+  const auto rarest = std::min_element(places.begin(), places.end(), [&](const Place& a, const Place& b) {
+    return uses[a.pair] < uses[b.pair];
+  });
+  const Place taken = *rarest;
+  places.erase(rarest);
+  ++uses[taken.pair];
+  return taken.task;
+}
+
 class Runner {
  public:
   explicit Runner(const RunnerOptions& options) : options_(options), cache_(options.cache) {}
@@ -28,7 +44,9 @@ class Runner {
     for (std::size_t w = 0; w < works.size(); ++w) {
       const ProfileAbilities abilities = abilities_of(works[w].variant.profile);
       const auto tasks = spread_out(plan_tasks(works[w].set, abilities, results[w].skipped), options_.pairs);
-      for (const PairTask& task : tasks) places[w].push_back(plan(task, works[w].variant));
+      Variant variant = works[w].variant;
+      variant.pictures = options_.pictures;
+      for (const PairTask& task : tasks) places[w].push_back(plan(task, variant));
     }
     measure_missing(progress);
     for (std::size_t w = 0; w < works.size(); ++w) {
@@ -83,9 +101,30 @@ class Runner {
 std::vector<PairTask> spread_out(const std::vector<PairTask>& tasks, int wanted) {
   const auto count = static_cast<std::size_t>(wanted);
   if (count == 0 || count >= tasks.size()) return tasks;
-  std::vector<PairTask> chosen;
-  for (std::size_t i = 0; i < count; ++i) chosen.push_back(tasks[(2 * i + 1) * tasks.size() / (2 * count)]);
-  return chosen;
+  std::map<std::filesystem::path, std::vector<Place>> left;  // of each capture, what was not taken yet
+  for (std::size_t i = 0; i < tasks.size(); ++i) {
+    std::vector<Place>& places = left[tasks[i].folder];
+    places.push_back({i, places.size()});
+  }
+  std::map<std::size_t, int> uses;  // of the first, second, … pair of a capture
+  std::vector<std::size_t> chosen;
+  while (chosen.size() < count) {
+    std::vector<std::vector<Place>*> captures;
+    for (auto& [folder, places] : left) {
+      if (!places.empty()) captures.push_back(&places);
+    }
+    const std::size_t now = std::min(count - chosen.size(), captures.size());
+    const bool is_first = chosen.empty();
+    for (std::size_t i = 0; i < now; ++i) {
+      // Neighbours have different pairs left, captures at even distances may all have the same.
+      const std::size_t capture = is_first ? (2 * i + 1) * captures.size() / (2 * now) : i;
+      chosen.push_back(take_least_used(*captures[capture], uses));
+    }
+  }
+  std::sort(chosen.begin(), chosen.end());
+  std::vector<PairTask> spread;
+  for (const std::size_t i : chosen) spread.push_back(tasks[i]);
+  return spread;
 }
 
 std::vector<WorkResult> run_works(const std::vector<Work>& works, const RunnerOptions& options,

@@ -12,9 +12,10 @@
 namespace traygauge::tables {
 
 struct RunnerOptions {
-  int runs = 8;   // seeds 1 … runs (paper: 8)
-  int jobs = 1;   // pairs measured at the same time
-  int pairs = 0;  // of a set, evenly spread; 0: all
+  int runs = 8;              // seeds 1 … runs (paper: 8)
+  int jobs = 1;              // pairs measured at the same time
+  int pairs = 0;             // of a set, see spread_out(); 0: all
+  PictureChange pictures{};  // of all sets
   std::filesystem::path cache;
   std::string config;  // folder with dishes/, for captures that name no dish; empty: the usual one
 };
@@ -29,7 +30,8 @@ struct WorkResult {
   std::vector<std::string> skipped;
 };
 
-// At most `wanted` of the tasks, evenly spread; all when that is 0.
+// At most `wanted` of the tasks, all when that is 0: as many of each capture as of any other, and the first,
+// second, … pair of a capture about equally often, because a set has the same angles in the same places.
 std::vector<PairTask> spread_out(const std::vector<PairTask>& tasks, int wanted);
 
 // The results of `works`, in their order; the same work is done once. `progress` counts what is not in the

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <opencv2/core/utility.hpp>
 #include <ostream>
+#include <set>
+#include <string>
 
 #include "firmware/base/exit_status.hpp"
 #include "firmware/command/program.hpp"
@@ -18,6 +20,7 @@ namespace {
 constexpr int kMaxRuns = 1000;
 constexpr int kMaxJobs = 64;
 constexpr int kMaxPairs = 1'000'000;
+constexpr double kMaxNoiseGrey = 100.0;
 
 struct Options {
   SetOptions sets;
@@ -39,8 +42,13 @@ void add_options(CLI::App& app, Options& options) {
   app.add_option("--jobs", options.runner.jobs, "Pairs measured at the same time, default 1")
       ->check(CLI::Range(1, kMaxJobs));
   app.add_option("--pairs", options.runner.pairs,
-                 "Pairs of a set, evenly spread, for a quick look; default all")
+                 "Pairs of a set, spread over captures and angles, for a quick look; default all")
       ->check(CLI::Range(1, kMaxPairs));
+  app.add_option("--noise-grey", options.runner.pictures.noise_grey,
+                 "Noise added to the pictures: standard deviation in grey values, default 0")
+      ->check(CLI::Range(0.0, kMaxNoiseGrey));
+  app.add_flag("--local-tone", options.runner.pictures.local_tone,
+               "Even out the contrast over parts of the pictures, as phones do");
   app.add_option("--config", options.runner.config, "Folder with dishes/, for captures that name no dish")
       ->envname("TRAYGAUGE_CONFIG");
 }
@@ -57,7 +65,8 @@ int print_table(const Table& table, const SetFolders& sets, const RunnerOptions&
     throw UsageError(table.command + ": needs the set " + name(table.rows.front().set) +
                      "; name its folder, or with --sets the folder that holds it");
   }
-  const MeasuredTable measured = measure_tables(tables, sets, options, error).front();
+  std::set<std::string> skipped;
+  const MeasuredTable measured = measure_tables(tables, sets, options, error, skipped).front();
   out << compose_text(measured.table, measured.rows);
   return is_any_measured(measured) ? kExitMeasured : kExitNotMeasurable;
 }

@@ -7,7 +7,7 @@
 
 #include "firmware/config/parameters.hpp"
 #include "firmware/config/profile.hpp"
-#include "tests/evaluation/tables/fingerprint.hpp"
+#include "simulator/capture/content_hash.hpp"
 
 namespace traygauge::tables {
 namespace {
@@ -50,10 +50,11 @@ Configuration configure(const Variant& variant) {
 
 std::string describe(const Variant& variant) {
   std::ostringstream text;
-  text << "method " << name(variant.method) << "\nprofile " << traygauge::name(variant.profile) << '\n';
+  text << "method " << name(variant.method) << "\nprofile " << traygauge::name(variant.profile)
+       << "\npictures " << describe(variant.pictures) << '\n';
   std::string parameters;
   for (const std::string& line : list_parameters(configure(variant))) parameters += line + "\n";
-  text << "parameters " << fingerprint(parameters) << '\n';
+  text << "parameters " << content_hash(parameters) << '\n';
   return text.str();
 }
 

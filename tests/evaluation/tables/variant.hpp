@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/estimator/configuration.hpp"
+#include "tests/evaluation/tables/picture_change.hpp"
 
 namespace traygauge::tables {
 
@@ -24,6 +25,7 @@ struct Variant {
   Method method = Method::ours;
   Profile profile = Profile::paper;
   std::vector<std::string> settings;  // NAME=VALUE over the profile's defaults
+  PictureChange pictures{};
 };
 
 // Throws UsageError where a setting does not hold.

@@ -5,6 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+#include <string>
 
 #include "simulator/capture/capture.hpp"
 #include "simulator/capture/picture_file.hpp"
@@ -39,14 +42,14 @@ TEST(CaptureWriter, WritesWhatTheReaderReads) {
   const TemporaryFolder folder;
   SceneDescription scene = small_scene();
   const std::filesystem::path out = folder.path() / scene.name;
-  EXPECT_FALSE(is_complete_capture(out, scene));
+  EXPECT_EQ(state_of_capture(out, scene, {}), CaptureState::absent);
   double last = 0.0;
   render_capture(scene, out, {}, [&](double share) {
     EXPECT_GE(share, last - 1e-9);
     last = share;
   });
   EXPECT_NEAR(last, 1.0, 1e-9);
-  EXPECT_TRUE(is_complete_capture(out, scene));
+  EXPECT_EQ(state_of_capture(out, scene, {}), CaptureState::complete);
   EXPECT_FALSE(std::filesystem::exists(out.string() + ".part"));
 
   const Capture capture = read_capture(out);
@@ -79,13 +82,124 @@ TEST(CaptureWriter, WritesWhatTheReaderReads) {
 
   // What is said of a complete capture is mended without rendering it again.
   scene.views[1].arm_angle_deg = 12.5;
-  ASSERT_TRUE(is_complete_capture(out, scene));
+  ASSERT_EQ(state_of_capture(out, scene, {}), CaptureState::complete);
   update_description(out, scene);
   EXPECT_EQ(read_capture(out).views[1].arm_angle_deg, 12.5);
   EXPECT_FALSE(std::filesystem::exists(out / "capture.json.part"));
   const auto written = std::filesystem::last_write_time(out / "capture.json");
   update_description(out, scene);
   EXPECT_EQ(std::filesystem::last_write_time(out / "capture.json"), written);
+}
+
+// A box of 30 × 24 × 20 mm in the file's unit of 0.1 mm.
+constexpr const char* kBoxObj =
+    "v 0 0 0\nv 300 0 0\nv 300 240 0\nv 0 240 0\nv 0 0 200\nv 300 0 200\nv 300 240 200\nv 0 240 200\n"
+    "f 1 4 3 2\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n";
+
+SceneDescription scanned_scene(const std::filesystem::path& file) {
+  write_text(file, kBoxObj);
+  SceneDescription scene = small_scene();
+  scene.foods.clear();
+  for (const double x_mm : {-30.0, 30.0}) {
+    LaidFood food;
+    food.name = x_mm < 0.0 ? "left" : "right";
+    food.kind = "bread";
+    food.centre_mm = {x_mm, 5.0};
+    food.scan = ScannedFood{file, 0.1, {0.0, 0.0, 20.0}};
+    scene.foods.push_back(food);
+  }
+  return scene;
+}
+
+// From the mesh file to truth, labels and depth.
+TEST(CaptureWriter, ScannedFoodStandsInThePictureWithItsTruth) {
+  const TemporaryFolder folder;
+  SceneDescription scene = scanned_scene(folder.path() / "box.OBJ");
+  scene.views[0].tilt_deg = 0.0;
+  const std::filesystem::path out = folder.path() / "scan";
+  render_capture(scene, out, {}, [](double) {});
+  const Truth truth = *read_truth(out);
+  ASSERT_EQ(truth.items.size(), 2U);
+  const Capture capture = read_capture(out);
+  const LoadedView view = load_view(capture.views[0]);
+  const DepthPicture depth = read_depth_picture({out / "depth_0.png", ""}, capture.views[0].camera.size);
+  for (const TruthItem& item : truth.items) {
+    EXPECT_EQ(item.kind, "scan");
+    EXPECT_NEAR(item.volume_ml, 14.4, 0.01);
+    // On a flat bottom there is nothing under it.
+    EXPECT_NEAR(item.column_volume_ml.value_or(0.0), 14.4, 0.05);
+    double seen_px = 0.0;
+    double depth_mm = 0.0;
+    for (std::size_t i = 0; i < view.labels.pixels.size(); ++i) {
+      if (view.labels.pixels[i] != item.label) continue;
+      seen_px += 1.0;
+      depth_mm += 0.02 * depth.pixels[i];
+    }
+    depth_mm /= seen_px;
+    // Its top from above, and at most as much again of its sides.
+    const double top_px = 30.0 * 24.0 * std::pow(scene.photography.camera.fx_px / depth_mm, 2.0);
+    EXPECT_GT(seen_px, 0.85 * top_px);
+    EXPECT_LT(seen_px, 1.5 * top_px);
+    const double top_mm = scene.dishes[0].dish.bottom_height_mm + 20.0;
+    EXPECT_NEAR(depth_mm, scene.views[0].distance_mm + scene.views[0].target_mm.z() - top_mm, 6.0);
+  }
+}
+
+TEST(CaptureWriter, ScannedFoodsThatShareAPlaceAreRefused) {
+  const TemporaryFolder folder;
+  SceneDescription scene = scanned_scene(folder.path() / "box.obj");
+  scene.foods[1].centre_mm.x() = -5.0;
+  const auto problem_of = [&] {
+    try {
+      render_capture(scene, folder.path() / "scan", {}, [](double) {});
+    } catch (const std::invalid_argument& problem) {
+      return std::string(problem.what());
+    }
+    return std::string();
+  };
+  EXPECT_NE(problem_of().find("left and right share"), std::string::npos) << problem_of();
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "scan"));
+  const FoodKind& mash = *find_food_kind("mash");
+  scene.foods[1] = {"mash", "mash", 0, {-20.0, 5.0}, 0.0, mash.size, 3, 0.0, {}};
+  EXPECT_NE(problem_of().find("left and mash share"), std::string::npos) << problem_of();
+}
+
+TEST(CaptureWriter, CaptureOfAnotherDescriptionIsStale) {
+  const TemporaryFolder folder;
+  const std::filesystem::path mesh = folder.path() / "box.obj";
+  SceneDescription scene = scanned_scene(mesh);
+  scene.photography.camera.size = {40, 30};
+  const std::filesystem::path out = folder.path() / "scan";
+  const RenderSettings settings;
+  render_capture(scene, out, settings, [](double) {});
+  const auto state = [&](const SceneDescription& own, const RenderSettings& with) {
+    return state_of_capture(out, own, with);
+  };
+  EXPECT_EQ(state(scene, settings), CaptureState::complete);
+  RenderSettings other = settings;
+  other.threads = 7;
+  EXPECT_EQ(state(scene, other), CaptureState::complete);
+  other.samples = 16;
+  EXPECT_EQ(state(scene, other), CaptureState::stale);
+  SceneDescription changed = scene;
+  changed.dishes[0].dish.bottom_height_mm += 0.1;
+  EXPECT_EQ(state(changed, settings), CaptureState::stale);
+  changed = scene;
+  changed.views[1].tilt_deg += 1.0;
+  EXPECT_EQ(state(changed, settings), CaptureState::stale);
+  std::string taller = kBoxObj;
+  taller.replace(taller.find("v 0 0 200"), 9, "v 0 0 201");
+  write_text(mesh, taller);
+  EXPECT_EQ(state(scene, settings), CaptureState::stale) << "same file name, another mesh";
+  write_text(mesh, kBoxObj);
+  EXPECT_EQ(state(scene, settings), CaptureState::complete);
+  nlohmann::json truth = nlohmann::json::parse(read_text(out / "truth.json"));
+  truth.erase("made_from");
+  write_text(out / "truth.json", truth.dump());
+  EXPECT_EQ(state(scene, settings), CaptureState::stale)
+      << "of a program that did not say what it was made from";
+  write_text(out / "truth.json", "{");
+  EXPECT_EQ(state(scene, settings), CaptureState::absent);
 }
 
 // Along the motion detail is lost, across it is not; labels and pose are those of the exposure's middle.

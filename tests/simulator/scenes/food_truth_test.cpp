@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <stdexcept>
 #include <string>
 
 #include "simulator/scenes/height_mesh.hpp"
@@ -69,6 +70,34 @@ TEST(FoodTruth, FoodsThatMeetShareNoVolume) {
   const double second_alone_ml = serve_one(second).volume_ml;
   EXPECT_LT(foods[1].volume_ml, 0.8 * second_alone_ml);
   EXPECT_NEAR(foods[1].check_volume_ml / foods[1].volume_ml, 1.0, kAgreement);
+}
+
+TEST(FoodTruth, VolumesThatContradictEachOtherAreRefused) {
+  ServedFood food;
+  food.name = "peas";
+  food.volume_ml = 100.0;
+  food.check_volume_ml = 100.19;
+  EXPECT_NO_THROW(require_agreement(food));
+  food.check_volume_ml = 99.79;
+  try {
+    require_agreement(food);
+    FAIL() << "0.21 % apart";
+  } catch (const std::invalid_argument& problem) {
+    const std::string text = problem.what();
+    for (const char* part : {"peas", "100.000 ml", "99.790 ml"})
+      EXPECT_NE(text.find(part), std::string::npos) << text;
+  }
+}
+
+// A crumb's edge is a few squares of the grid: 0.2 % of it would ask more of the grids than they have.
+TEST(FoodTruth, SmallPortionsAreNotRefusedForTheGridsStep) {
+  for (const char* name : {"red_cabbage", "coleslaw"}) {
+    SceneDescription scene = one_food(DishStyle::dinner, *find_food_kind(name), 3);
+    FoodSize& size = scene.foods[0].size;
+    for (double* side_mm : {&size.length_mm, &size.width_mm, &size.height_mm}) *side_mm *= 0.4;
+    const ServedFood food = serve_one(scene);
+    EXPECT_GT(std::abs(food.check_volume_ml - food.volume_ml), kAgreement * food.volume_ml) << name;
+  }
 }
 
 // A half ball on a cylinder: what a height field makes of a ball whose middle is higher than its radius.

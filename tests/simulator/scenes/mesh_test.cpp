@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstring>
 #include <numbers>
 #include <string>
@@ -24,12 +25,16 @@ constexpr const char* kPly =
     "element face 4\nproperty list uchar int vertex_indices\nend_header\n"
     "0 0 0 9\n2 0 0 9\n0 3 0 9\n0 0 4 9\n3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n";
 
-std::string binary_ply() {
-  std::string text =
-      "ply\nformat binary_little_endian 1.0\nelement vertex 4\nproperty double x\nproperty double "
-      "y\nproperty double z\n"
-      "element face 4\nproperty list uchar uint vertex_index\nend_header\n";
-  const auto put = [&](auto value) { text.append(reinterpret_cast<const char*>(&value), sizeof value); };
+std::string binary_ply(bool is_big_endian = false) {
+  std::string text = std::string("ply\nformat binary_") + (is_big_endian ? "big" : "little") +
+                     "_endian 1.0\nelement vertex 4\nproperty double x\nproperty double "
+                     "y\nproperty double z\n"
+                     "element face 4\nproperty list uchar uint vertex_index\nend_header\n";
+  const auto put = [&](auto value) {
+    std::string bytes(reinterpret_cast<const char*>(&value), sizeof value);
+    if (is_big_endian) std::reverse(bytes.begin(), bytes.end());
+    text += bytes;
+  };
   for (const double coordinate : {0., 0., 0., 2., 0., 0., 0., 3., 0., 0., 0., 4.}) put(coordinate);
   for (const auto& face : {std::vector<std::uint32_t>{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}}) {
     put(std::uint8_t{3});
@@ -49,8 +54,12 @@ std::string error_of(const std::filesystem::path& file) {
 
 TEST(MeshReader, ReadsTheSameTetrahedronFromEachFormat) {
   const TemporaryFolder folder;
-  for (const auto& [name, text] :
-       {std::pair{"a.obj", std::string(kObj)}, {"a.ply", std::string(kPly)}, {"b.ply", binary_ply()}}) {
+  for (const auto& [name, text] : {std::pair{"a.obj", std::string(kObj)},
+                                   {"a.ply", std::string(kPly)},
+                                   {"b.ply", binary_ply()},
+                                   {"c.ply", binary_ply(true)},
+                                   {"d.OBJ", std::string(kObj)},
+                                   {"e.Ply", binary_ply()}}) {
     write_text(folder.path() / name, text);
     const TriangleMesh mesh = read_mesh({folder.path() / name, ""});
     EXPECT_EQ(mesh.triangles.size(), 4U) << name;
@@ -70,6 +79,7 @@ TEST(MeshReader, NamesFileAndWhatWasExpected) {
       {"f.ply", "plx\n"},
       {"g.ply", std::string(kPly).substr(0, std::strlen(kPly) - 12)},
       {"h.ply", binary_ply().substr(0, binary_ply().size() - 1)},
+      {"k.ply", "ply\nformat binary_middle_endian 1.0\nend_header\n"},
       {"i.ply", "ply\nformat ascii 1.0\nelement vertex 99999999\nend_header\n"},
       {"j.ply", "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nend_header\n0\n"},
   };
@@ -130,6 +140,15 @@ TEST(MeshColumns, AgreeWithABallOnALevelGround) {
   const Columns columns = columns_above(ball, 0.2, [](double, double) { return 0.0; });
   EXPECT_NEAR(columns.volume_mm3, under_mm3, 3e-3 * under_mm3);
   EXPECT_NEAR(columns.area_mm2, std::numbers::pi * kRadiusMm * kRadiusMm, 3.0);
+}
+
+TEST(MeshColumns, ShareWhatLiesInBothMeshes) {
+  const TriangleMesh box = box_mesh({0.0, 0.0, 0.0}, {10.0, 10.0, 10.0});
+  EXPECT_NEAR(shared_columns_mm3(box, box_mesh({6.0, 5.0, 8.0}, {20.0, 20.0, 20.0}), 0.1), 40.0, 1.0);
+  EXPECT_NEAR(shared_columns_mm3(box, box_mesh({2.0, 2.0, 2.0}, {5.0, 5.0, 5.0}), 0.1), 125.0, 2.0);
+  EXPECT_NEAR(shared_columns_mm3(box, box_mesh({0.0, 0.0, 10.0}, {5.0, 5.0, 5.0}), 0.1), 0.0, 1e-3)
+      << "on it";
+  EXPECT_EQ(shared_columns_mm3(box, box_mesh({0.0, 20.0, 0.0}, {5.0, 5.0, 5.0}), 0.1), 0.0);
 }
 
 TEST(MeshTools, BoxIsClosed) {

@@ -1,0 +1,145 @@
+#include "simulator/scenes/scene_digest.hpp"
+
+#include <concepts>
+#include <sstream>
+#include <type_traits>
+
+#include "simulator/capture/content_hash.hpp"
+#include "simulator/scenes/mesh_reader.hpp"
+
+namespace traygauge {
+namespace {
+
+// Raised when the same description comes to give other pictures or another truth.
+constexpr int kGeneratorVersion = 1;
+
+// One description as text. Each structure is taken apart whole, so that a new member does not compile until
+// it is written here.
+class Digest {
+ public:
+  // Less than a double holds: another machine's sine may differ in its last digit.
+  Digest() { text_.precision(12); }
+  std::string hash() const { return content_hash(text_.str()); }
+
+  template <class... Values>
+  void add(const Values&... values) {
+    (write(values), ...);
+    text_ << '\n';
+  }
+
+ private:
+  template <class Value>
+  requires std::is_arithmetic_v<Value>
+  void write(Value value) { text_ << +value << ' '; }
+  template <class Value>
+  requires std::is_enum_v<Value>
+  void write(Value value) { write(static_cast<std::underlying_type_t<Value>>(value)); }
+  void write(const std::string& value) { text_ << value.size() << ':' << value << ' '; }
+  template <class Value, std::size_t kCount>
+  void write(const std::array<Value, kCount>& values) {
+    for (const Value& value : values) write(value);
+  }
+  template <int kRows>
+  void write(const Eigen::Matrix<double, kRows, 1>& values) {
+    for (const double value : values) write(value);
+  }
+  template <class Value>
+  void write(const std::vector<Value>& values) {
+    write(values.size());
+    for (const Value& value : values) write(value);
+  }
+  template <class Value>
+  void write(const std::optional<Value>& value) {
+    write(value.has_value());
+    if (value) write(*value);
+  }
+
+  void write(const ProfilePoint& point) {
+    const auto& [inset_mm, height_mm] = point;
+    add(inset_mm, height_mm);
+  }
+  void write(const DishDescription& dish) {
+    const auto& [label, style, outer_size_mm, rim_height_mm, bottom_height_mm, profile] = dish;
+    add(label, style, outer_size_mm, rim_height_mm, bottom_height_mm, profile);
+  }
+  void write(const RimLine& line) {
+    const auto& [inset_mm, width_mm] = line;
+    add(inset_mm, width_mm);
+  }
+  void write(const Glaze& glaze) {
+    const auto& [srgb, roughness, decoration_srgb, lines, speck_share] = glaze;
+    add(srgb, roughness, decoration_srgb, lines, speck_share);
+  }
+  void write(const LaidDish& laid) {
+    const auto& [dish, centre_mm, rotation_deg, glaze, seed] = laid;
+    add(dish, centre_mm, rotation_deg, glaze, seed);
+  }
+  void write(const ScannedFood& scan) {
+    const auto& [file, scale_mm, turn_deg] = scan;
+    add(content_hash(read_mesh_bytes({file, ""})), scale_mm, turn_deg);
+  }
+  void write(const FoodSize& size) {
+    const auto& [length_mm, width_mm, height_mm] = size;
+    add(length_mm, width_mm, height_mm);
+  }
+  void write(const LaidFood& food) {
+    const auto& [name, kind, dish, centre_mm, rotation_deg, size, seed, level_mm, scan] = food;
+    add(name, kind, dish, centre_mm, rotation_deg, size, seed, level_mm, scan);
+  }
+  void write(const LaidCard& card) {
+    const auto& [width_mm, height_mm, thickness_mm, centre_mm, rotation_deg, design] = card;
+    add(width_mm, height_mm, thickness_mm, centre_mm, rotation_deg, design);
+  }
+  void write(const Table& table) {
+    const auto& [kind, rotation_deg, seed] = table;
+    add(kind, rotation_deg, seed);
+  }
+  void write(const Tray& tray) {
+    const auto& [size_mm, kind, seed] = tray;
+    add(size_mm, kind, seed);
+  }
+  void write(const Utensil& utensil) {
+    const auto& [kind, centre_mm, rotation_deg, base_mm, srgb] = utensil;
+    add(kind, centre_mm, rotation_deg, base_mm, srgb);
+  }
+  void write(const Lamp& lamp) {
+    const auto& [centre_mm, edge_u_mm, edge_v_mm, radiance] = lamp;
+    add(centre_mm, edge_u_mm, edge_v_mm, radiance);
+  }
+  void write(const Photograph& view) {
+    const auto& [target_mm, distance_mm, tilt_deg, azimuth_deg, roll_deg, exposure, white_balance,
+                 focus_error_mm, motion_mm, motion_deg, arm_angle_deg, tray_shift_mm, tray_turn_deg] = view;
+    add(target_mm, distance_mm, tilt_deg, azimuth_deg, roll_deg, exposure, white_balance, focus_error_mm,
+        motion_mm, motion_deg, tray_shift_mm, tray_turn_deg);
+  }
+  void write(const PictureSize& size) {
+    const auto& [width, height] = size;
+    add(width, height);
+  }
+  void write(const CameraDescription& camera) {
+    const auto& [size, fx_px, fy_px, cx_px, cy_px, distortion] = camera;
+    add(size, fx_px, fy_px, cx_px, cy_px, distortion);
+  }
+  void write(const PhotographySettings& settings) {
+    const auto& [camera, aperture_mm, corner_loss, full_well_electrons, read_noise_electrons, jpeg_quality] =
+        settings;
+    add(camera, aperture_mm, corner_loss, full_well_electrons, read_noise_electrons, jpeg_quality);
+  }
+
+  std::ostringstream text_;
+};
+
+}  // namespace
+
+std::string digest_of(const SceneDescription& scene, const RenderSettings& settings) {
+  Digest digest;
+  const auto& [name, origin, seed, dishes, foods, card, table, tray, utensils, lamps, ambient, photography,
+               views, pairs] = scene;
+  digest.add(seed, dishes, foods, card, table, tray, utensils, lamps, ambient, photography, views, pairs);
+  const auto& [samples, edge_samples, indirect_samples, penumbra_samples, bounces, indirect_filter_px,
+               threads, settings_seed, view] = settings;
+  digest.add(samples, edge_samples, indirect_samples, penumbra_samples, bounces, indirect_filter_px);
+  return "generator " + std::to_string(kGeneratorVersion) + ", description " + digest.hash();
+}
+
+}  // namespace traygauge

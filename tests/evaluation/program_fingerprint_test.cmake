@@ -1,0 +1,28 @@
+# A change of any file that results depend on changes the header, and its own hash alone.
+function(make_header result)
+  execute_process(COMMAND ${CMAKE_COMMAND} -DCORE=${FOLDER}/core -DFIRMWARE=${FOLDER}/firmware
+    -DSIMULATOR=${FOLDER}/simulator "-DMETHODS=${FOLDER}/one;${FOLDER}/two" -DOUTPUT=${FOLDER}/header
+    -P ${CMAKE_CURRENT_LIST_DIR}/program_fingerprint.cmake COMMAND_ERROR_IS_FATAL ANY)
+  file(STRINGS ${FOLDER}/header lines REGEX "Fingerprint")
+  set(${result} "${lines}" PARENT_SCOPE)
+endfunction()
+
+set(files core firmware simulator one two)
+foreach(file IN LISTS files)
+  file(WRITE ${FOLDER}/${file} "as it was")
+endforeach()
+make_header(before)
+foreach(file IN LISTS files)
+  file(WRITE ${FOLDER}/${file} "changed")
+  make_header(after)
+  set(changed 0)
+  foreach(old new IN ZIP_LISTS before after)
+    if(NOT old STREQUAL new)
+      math(EXPR changed "${changed} + 1")
+    endif()
+  endforeach()
+  if(NOT changed EQUAL 1)
+    message(FATAL_ERROR "${file}: ${changed} hashes changed instead of one")
+  endif()
+  file(WRITE ${FOLDER}/${file} "as it was")
+endforeach()
