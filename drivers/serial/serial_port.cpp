@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <optional>
 #include <utility>
 
 namespace traygauge {
@@ -19,6 +20,12 @@ constexpr std::size_t kMaxLine = 200;
 
 constexpr auto kSpeeds = std::to_array<std::pair<int, speed_t>>(
     {{9600, B9600}, {19200, B19200}, {38400, B38400}, {57600, B57600}, {115200, B115200}, {230400, B230400}});
+
+std::optional<speed_t> find_speed(int baud) {
+  const auto* const speed =
+      std::find_if(kSpeeds.begin(), kSpeeds.end(), [baud](const auto& known) { return known.first == baud; });
+  return speed != kSpeeds.end() ? std::optional(speed->second) : std::nullopt;
+}
 
 // A line whose other end was pulled out says EIO.
 DeviceStatus status_of_failure(int error_number) {
@@ -46,15 +53,13 @@ int configure(int descriptor, speed_t speed) {
 }  // namespace
 
 bool is_serial_speed(int baud) {
-  return std::any_of(kSpeeds.begin(), kSpeeds.end(),
-                     [baud](const auto& known) { return known.first == baud; });
+  return find_speed(baud).has_value();
 }
 
 DeviceStatus SerialPort::open(const std::string& path, int baud) {
   close();
-  const auto speed =
-      std::find_if(kSpeeds.begin(), kSpeeds.end(), [baud](const auto& known) { return known.first == baud; });
-  if (speed == kSpeeds.end()) return DeviceCode::invalid_argument;
+  const std::optional<speed_t> speed = find_speed(baud);
+  if (!speed) return DeviceCode::invalid_argument;
   descriptor_ = ::open(path.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC);
   if (descriptor_ < 0) return status_of_errno(errno);
   if (const int error = take_alone(descriptor_); error != 0) {
@@ -62,7 +67,7 @@ DeviceStatus SerialPort::open(const std::string& path, int baud) {
     descriptor_ = -1;
     return status_of_errno(error);
   }
-  if (const int error = configure(descriptor_, speed->second); error != 0) {
+  if (const int error = configure(descriptor_, *speed); error != 0) {
     close();
     return error == ENOTTY ? DeviceStatus(DeviceCode::unsupported, error) : status_of_errno(error);
   }

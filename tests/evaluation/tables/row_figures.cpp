@@ -72,15 +72,19 @@ Cells difference_cells(const PairedDifference& difference) {
           signed_cell(interval ? interval->high : kUndefined, 2)};
 }
 
+std::string shared_cell(const RowFigures& figures) {
+  int shared = 0;
+  for (const TruthFigures& own : figures.by_truth) shared = std::max(shared, own.difference.items);
+  return shared > 0 ? std::to_string(shared) : kNoValue;
+}
+
 Cells truth_cells(const RowFigures& figures) {
   Cells cells;
   for (const TruthFigures& own : figures.by_truth) cells.push_back(cell(own.mape, 2));
-  int shared = 0;
   for (const TruthFigures& own : figures.by_truth) {
     for (std::string& value : difference_cells(own.difference)) cells.push_back(std::move(value));
-    shared = std::max(shared, own.difference.items);
   }
-  cells.push_back(shared > 0 ? std::to_string(shared) : kNoValue);
+  cells.push_back(shared_cell(figures));
   return cells;
 }
 
@@ -104,7 +108,7 @@ std::string compose_truths_markdown(const std::vector<MeasuredRow>& rows) {
     for (const TruthFigures* own : {&plane, &dish})
       text +=
           " | " + with_interval(signed_cell(own->difference.mape, 2), own->difference.interval, signed_cell);
-    text += " | " + truth_cells(row.figures).back() + " |\n";
+    text += " | " + shared_cell(row.figures) + " |\n";
   }
   return text;
 }
