@@ -47,7 +47,9 @@ const char* name(StationState state) {
 
 Station::Station(const StationDevices& devices, Measurer& measurer, ResultSink& sink,
                  const std::atomic<bool>& stop, const StationParams& params)
-    : devices_(devices), measurer_(measurer), sink_(sink), stop_(stop), params_(params) {}
+    : devices_(devices), measurer_(measurer), sink_(sink), stop_(stop), params_(params) {
+  settled_at_ = devices_.clock.now();  // of cameras that were started before
+}
 
 const StationTotals& Station::run() {
   while (state_ != StationState::finished) step();

@@ -72,6 +72,14 @@ TEST(Station, LetsTheExposureSettleAgainWhenDaylightMayHaveChanged) {
   EXPECT_EQ(rig.camera.settled_again(), 1);
 }
 
+TEST(Station, TakesTheExposureOfCamerasThatWereStartedBeforeAsSettled) {
+  StationRig rig(1);
+  rig.clock.advance(11min);
+  ASSERT_TRUE(rig.camera.start().ok());
+  EXPECT_TRUE(rig.run().all_worked());
+  EXPECT_EQ(rig.camera.settled_again(), 0);
+}
+
 TEST(Station, WorksOnTheFirstViewWhileTheArmMoves) {
   StationRig rig(1);
   rig.run();
