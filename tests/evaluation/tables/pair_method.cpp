@@ -1,5 +1,7 @@
 #include "tests/evaluation/tables/pair_method.hpp"
 
+#include <optional>
+
 #include "firmware/base/exit_status.hpp"
 #include "firmware/config/dish_choice.hpp"
 #include "firmware/measure/capture_session.hpp"
@@ -9,6 +11,7 @@
 #include "tests/evaluation/methods/presac.hpp"
 #include "tests/evaluation/methods/single_view.hpp"
 #include "tests/evaluation/methods/sparse_views.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace traygauge::tables {
 namespace {
@@ -18,7 +21,7 @@ struct OpenPair {
       : capture(open_capture(task, variant.pictures)),
         session(capture, task.pair, choose_dishes(capture, config), configure(variant)) {}
 
-  std::unique_ptr<ScratchFolder> scratch;  // of changed pictures
+  std::optional<TemporaryFolder> scratch;  // of changed pictures
   Capture capture;
   CaptureSession session;
 
@@ -26,8 +29,8 @@ struct OpenPair {
   Capture open_capture(const PairTask& task, const PictureChange& change) {
     Capture own = read_capture(task.folder);
     if (change.is_none()) return own;
-    scratch = std::make_unique<ScratchFolder>();
-    return change_views(std::move(own), task.pair, change, *scratch);
+    scratch.emplace();
+    return change_views(std::move(own), task.pair, change, scratch->path());
   }
 };
 

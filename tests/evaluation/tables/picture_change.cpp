@@ -1,10 +1,8 @@
 #include "tests/evaluation/tables/picture_change.hpp"
 
-#include <cstdlib>
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 #include <sstream>
-#include <system_error>
 
 #include "simulator/capture/content_hash.hpp"
 #include "simulator/capture/input_bytes.hpp"
@@ -60,25 +58,14 @@ void change_picture(const PictureChange& change, std::uint64_t seed, Picture& pi
   if (change.noise_grey > 0.0) add_noise(pixels, change.noise_grey, seed);
 }
 
-ScratchFolder::ScratchFolder() {
-  std::string name = (std::filesystem::temp_directory_path() / "traygauge-pictures-XXXXXX").string();
-  if (mkdtemp(name.data()) == nullptr) throw OutputError(name, "the folder could not be made");
-  path_ = name;
-}
-
-ScratchFolder::~ScratchFolder() {
-  std::error_code ignored;
-  std::filesystem::remove_all(path_, ignored);
-}
-
 Capture change_views(Capture capture, const std::array<int, 2>& pair, const PictureChange& change,
-                     const ScratchFolder& folder) {
+                     const std::filesystem::path& folder) {
   for (const int index : pair) {
     ViewDescription& view = capture.views.at(static_cast<std::size_t>(index));
     const auto bytes = read_bytes(view.image, kMaxPictureFileBytes, "a readable picture");
     Picture picture = read_picture(view.image, view.camera.size);
     change_picture(change, std::stoull(content_hash(bytes), nullptr, 16), picture);
-    view.image.path = folder.path() / ("view_" + std::to_string(index) + ".png");
+    view.image.path = folder / ("view_" + std::to_string(index) + ".png");
     write_png(view.image.path, picture.frame());
   }
   return capture;

@@ -22,22 +22,9 @@ std::string describe(const PictureChange& change);
 // The same seed gives the same noise.
 void change_picture(const PictureChange& change, std::uint64_t seed, Picture& picture);
 
-// A folder among the temporary ones that goes with the object.
-class ScratchFolder {
- public:
-  ScratchFolder();  // throws OutputError
-  ScratchFolder(const ScratchFolder&) = delete;
-  ScratchFolder& operator=(const ScratchFolder&) = delete;
-  ~ScratchFolder();
-  const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
-};
-
 // `capture` with the views of one pair changed; they lie in `folder`. A picture's bytes are its seed: copies
 // of a capture get the same noise. Throws InputError, OutputError.
 Capture change_views(Capture capture, const std::array<int, 2>& pair, const PictureChange& change,
-                     const ScratchFolder& folder);
+                     const std::filesystem::path& folder);
 
 }  // namespace traygauge::tables
