@@ -10,8 +10,18 @@ if(TRAYGAUGE_SANITIZERS)
     -fsanitize=${TRAYGAUGE_SANITIZERS} -fno-sanitize-recover=all -fno-omit-frame-pointer)
   target_link_options(traygauge_options INTERFACE -fsanitize=${TRAYGAUGE_SANITIZERS})
   if(TRAYGAUGE_SANITIZERS MATCHES undefined)
-    # A third of the time to compile Eigen's templates goes into these. The address sanitizer meets null pointers as
-    # well, Eigen asserts its alignment, and there is no downcast to check.
-    target_compile_options(traygauge_options INTERFACE -fno-sanitize=null,alignment,vptr)
+    # More than a third of the time to compile Eigen's templates goes into these. The address sanitizer meets null pointers and what
+    # leaves an object as well, Eigen asserts its alignment, and there is no downcast to check.
+    target_compile_options(traygauge_options INTERFACE -fno-sanitize=null,alignment,object-size,vptr)
   endif()
 endif()
+
+# traygauge_fast_loops(TARGET source… [OPTIONS …]): sources whose loops are written for the vectoriser, which -O2 holds back.
+# Sanitizers do without, so that these sources are merged like all others.
+function(traygauge_fast_loops target)
+  cmake_parse_arguments(arg "" "" "OPTIONS" ${ARGN})
+  if(NOT TRAYGAUGE_SANITIZERS)
+    set_source_files_properties(${arg_UNPARSED_ARGUMENTS}
+      TARGET_DIRECTORY ${target} PROPERTIES COMPILE_OPTIONS "-O3;${arg_OPTIONS}")
+  endif()
+endfunction()

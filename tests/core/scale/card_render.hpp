@@ -83,24 +83,41 @@ inline cv::Matx33d picture_from_print(const Pose& camera_from_table, const CardM
   return {map(0, 0), map(0, 1), map(0, 2), map(1, 0), map(1, 1), map(1, 2), map(2, 0), map(2, 1), map(2, 2)};
 }
 
+// What the card covers of the picture, and eight pixels about it for the blur.
+inline cv::Rect card_box(const cv::Matx33d& map, const cv::Size& print) {
+  const auto right = static_cast<float>(print.width);
+  const auto bottom = static_cast<float>(print.height);
+  const std::vector<cv::Point2f> corners = {{0.0F, 0.0F}, {right, 0.0F}, {right, bottom}, {0.0F, bottom}};
+  std::vector<cv::Point2f> seen;
+  cv::perspectiveTransform(corners, seen, map);
+  const cv::Rect box = cv::boundingRect(seen);
+  constexpr int kMargin = 8;
+  return (box + cv::Size(2 * kMargin, 2 * kMargin) - cv::Point(kMargin, kMargin)) &
+         cv::Rect(0, 0, kRenderWidth, kRenderHeight);
+}
+
 inline CardRender render_card(const Pose& camera_from_table, const CardModelSize& size,
                               const cv::Mat1b& print, double blur_px = 0.3) {
   constexpr int kFine = 3;
   const cv::Matx33d finer(kFine, 0.0, 0.5 * (kFine - 1), 0.0, kFine, 0.5 * (kFine - 1), 0.0, 0.0, 1.0);
   const cv::Matx33d map = picture_from_print(camera_from_table, size, print);
+  const cv::Rect box = card_box(map, print.size());
+  const cv::Matx33d to_box(1.0, 0.0, -box.x, 0.0, 1.0, -box.y, 0.0, 0.0, 1.0);
   cv::Mat1f light;
   cv::multiply(print, print, light, 1.0, CV_32F);
   cv::GaussianBlur(light, light, {}, 2.0);  // against aliases of the finer grid
-  constexpr double kTableLight = 60.0 * 60.0;
-  const cv::Size fine(kFine * kRenderWidth, kFine * kRenderHeight);
+  constexpr double kTableGray = 60.0;
   cv::Mat1f warped;
-  cv::warpPerspective(light, warped, finer * map, fine, cv::INTER_LINEAR, cv::BORDER_CONSTANT, kTableLight);
+  cv::warpPerspective(light, warped, finer * to_box * map, box.size() * kFine, cv::INTER_LINEAR,
+                      cv::BORDER_CONSTANT, kTableGray * kTableGray);
   cv::Mat1f picture;
-  cv::resize(warped, picture, {kRenderWidth, kRenderHeight}, 0.0, 0.0, cv::INTER_AREA);
+  cv::resize(warped, picture, box.size(), 0.0, 0.0, cv::INTER_AREA);
   if (blur_px > 0.0) cv::GaussianBlur(picture, picture, {}, blur_px);
   cv::sqrt(picture, picture);
   CardRender render;
-  picture.convertTo(render.gray, CV_8U);
+  render.gray = cv::Mat1b(kRenderHeight, kRenderWidth, cv::saturate_cast<std::uint8_t>(kTableGray));
+  cv::Mat1b card = render.gray(box);
+  picture.convertTo(card, CV_8U);
   const cv::Mat1b whole(print.size(), kCardLabel);
   cv::warpPerspective(whole, render.labels, map, render.gray.size(), cv::INTER_NEAREST);
   return render;
