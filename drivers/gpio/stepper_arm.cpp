@@ -198,8 +198,9 @@ DeviceStatus StepperArm::go_home() {
   }
   if (status.ok()) status = run(steps_at(search_deg(params_)), false, speed, kNowhere);
   if (status.ok()) {
-    status =
-        expect_switch(true, "the home switch did not close: check the switch, the motor and what blocks it");
+    status = expect_switch(true,
+                           "the home switch did not close: check the switch, whether it is inverted, the "
+                           "motor and what blocks it");
   }
   if (status.ok()) status = run(closing_step(), false, speed);
   if (status.ok()) {

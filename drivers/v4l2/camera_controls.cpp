@@ -4,18 +4,20 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cmath>
+#include <cstdint>
 #include <cstdlib>
 #include <span>
 
 namespace traygauge {
 namespace {
 
-// How the kernel names a control. `unit`: of the configuration's number in steps of the kernel; 0 where the
-// driver alone knows, such as the lines of a sensor.
+// How the kernel names a control. `unit`: how much of the configuration's number is a step of the kernel's.
 struct Value {
   std::uint32_t id;
-  int unit;
+  double unit;
 };
+constexpr double kLines = 0.0;  // the sensor's lines, whose time depends on its mode
 struct Automatic {
   std::uint32_t id;
   int off;
@@ -30,7 +32,7 @@ struct Description {
 constexpr std::array<Description, kCameraControlCount> kDescriptions = {{
     {"exposure_us",
      {V4L2_CID_EXPOSURE_AUTO, V4L2_EXPOSURE_MANUAL, {V4L2_EXPOSURE_AUTO, V4L2_EXPOSURE_APERTURE_PRIORITY}},
-     {{{V4L2_CID_EXPOSURE_ABSOLUTE, 100}, {V4L2_CID_EXPOSURE, 0}}}},
+     {{{V4L2_CID_EXPOSURE_ABSOLUTE, 100}, {V4L2_CID_EXPOSURE, kLines}}}},
     {"gain", {V4L2_CID_AUTOGAIN, 0, {1, 1}}, {{{V4L2_CID_GAIN, 1}, {V4L2_CID_ANALOGUE_GAIN, 1}}}},
     {"white_balance_k",
      {V4L2_CID_AUTO_WHITE_BALANCE, 0, {1, 1}},
@@ -58,8 +60,12 @@ bool has_value(VideoDevice& device, CameraControl control) {
                      [&device](const Value& value) { return find_control(device, value.id).has_value(); });
 }
 
-std::string in_unit(int value, int unit) {
-  return unit == 0 ? std::to_string(value) + " of its own" : std::to_string(value * unit);
+int times_unit(int value, double unit) {
+  return static_cast<int>(std::lround(value * unit));
+}
+
+std::string in_unit(int value, double unit) {
+  return unit == 0.0 ? std::to_string(value) + " of its own" : std::to_string(times_unit(value, unit));
 }
 
 int read_control(VideoDevice& device, std::uint32_t id, int& value) {
@@ -67,6 +73,27 @@ int read_control(VideoDevice& device, std::uint32_t id, int& value) {
   const int error = device.request(VIDIOC_G_CTRL, &control);
   value = control.value;
   return error;
+}
+
+// Nothing where the camera has none of this name.
+std::optional<std::int64_t> read_long_control(VideoDevice& device, std::uint32_t id) {
+  v4l2_ext_control control{};
+  control.id = id;
+  v4l2_ext_controls controls{};
+  controls.which = V4L2_CTRL_WHICH_CUR_VAL;
+  controls.count = 1;
+  controls.controls = &control;
+  if (device.request(VIDIOC_G_EXT_CTRLS, &controls) != 0) return std::nullopt;
+  return static_cast<std::int64_t>(control.value64);
+}
+
+// How long the sensor takes for a line: its pixels and the pause behind them. 0 where the camera does not
+// say.
+double line_us(VideoDevice& device, int width_px) {
+  const auto rate_per_s = read_long_control(device, V4L2_CID_PIXEL_RATE);
+  int pause_px = 0;
+  if (!rate_per_s || *rate_per_s <= 0 || read_control(device, V4L2_CID_HBLANK, pause_px) != 0) return 0.0;
+  return 1e6 * (width_px + pause_px) / static_cast<double>(*rate_per_s);
 }
 
 int write_control(VideoDevice& device, std::uint32_t id, int value) {
@@ -114,17 +141,17 @@ DeviceStatus CameraControls::set_value(CameraControl control, int value) {
   for (const Value& known : description(control).values) {
     const auto query = find_control(device_, known.id);
     if (!query) continue;
-    if (known.unit == 0) {
+    const double unit = known.unit == kLines ? line_us_ : known.unit;
+    if (unit == 0.0) {
       return fail(control, DeviceCode::unsupported,
-                  "the camera counts in a unit of its own, such as lines; set it with v4l2-ctl before the "
-                  "station starts, and write \"hold\" here");
+                  "the camera counts lines and does not say how long one takes; set it with v4l2-ctl before "
+                  "the station starts, and write \"hold\" here");
     }
-    const int steps = value / known.unit;
+    const int steps = static_cast<int>(value / unit);
     if (steps < query->minimum || steps > query->maximum) {
       return fail(control, DeviceCode::unsupported,
-                  std::to_string(value) + " is asked for; the camera has " +
-                      std::to_string(query->minimum * known.unit) + " to " +
-                      std::to_string(query->maximum * known.unit));
+                  std::to_string(value) + " is asked for; the camera has " + in_unit(query->minimum, unit) +
+                      " to " + in_unit(query->maximum, unit));
     }
     if (const int error = write_control(device_, known.id, steps); error != 0) {
       return fail(control, status_of_errno(error), std::to_string(value) + " could not be set");
@@ -135,9 +162,9 @@ DeviceStatus CameraControls::set_value(CameraControl control, int value) {
     }
     if (std::abs(found - steps) > std::max(0, query->step - 1)) {
       return fail(control, DeviceCode::unsupported,
-                  std::to_string(value) + " was set, the camera says " + std::to_string(found * known.unit));
+                  std::to_string(value) + " was set, the camera says " + in_unit(found, unit));
     }
-    held_[static_cast<std::size_t>(control)] = {known.id, found, known.unit};
+    held_[static_cast<std::size_t>(control)] = {known.id, found, unit};
     return DeviceCode::ok;
   }
   return fail(control, DeviceCode::unsupported,
@@ -145,8 +172,9 @@ DeviceStatus CameraControls::set_value(CameraControl control, int value) {
 }
 
 // Automatics first: while one is on, its value cannot be set.
-DeviceStatus CameraControls::prepare(const ControlWishes& wishes) {
+DeviceStatus CameraControls::prepare(const ControlWishes& wishes, int width_px) {
   held_ = {};
+  line_us_ = line_us(device_, width_px);
   is_automatic_ = false;
   for (std::size_t i = 0; i < kCameraControlCount; ++i) {
     const auto control = static_cast<CameraControl>(i);
@@ -203,7 +231,7 @@ DeviceStatus CameraControls::find_settled(const ControlWishes& wishes) {
       if (const int error = read_control(device_, known.id, found); error != 0) {
         return fail(control, status_of_errno(error), "it cannot be read");
       }
-      held_[i] = {known.id, found, known.unit};
+      held_[i] = {known.id, found, known.unit == kLines ? line_us_ : known.unit};
       break;
     }
   }
@@ -247,7 +275,7 @@ DeviceStatus CameraControls::verify() {
 
 std::optional<int> CameraControls::held(CameraControl control) const {
   const Held& held = held_[static_cast<std::size_t>(control)];
-  return held.id != 0 && held.unit != 0 ? std::optional(held.value * held.unit) : std::nullopt;
+  return held.id != 0 && held.unit != 0.0 ? std::optional(times_unit(held.value, held.unit)) : std::nullopt;
 }
 
 std::string CameraControls::describe() const {

@@ -34,8 +34,9 @@ class CameraControls {
  public:
   explicit CameraControls(VideoDevice& device) : device_(device) {}
 
-  // Sets the given values, and switches the automatics of those to hold on.
-  DeviceStatus prepare(const ControlWishes& wishes);
+  // Sets the given values, and switches the automatics of those to hold on. `width_px`: of the mode, which is
+  // set; a sensor's line takes as long as its pixels.
+  DeviceStatus prepare(const ControlWishes& wishes, int width_px);
   // Switches the automatics of those to hold on again, but for focus: the lens was calibrated at the one that
   // is held.
   DeviceStatus release(const ControlWishes& wishes);
@@ -47,7 +48,7 @@ class CameraControls {
   // Which control, what was set and what the camera says; after a failure.
   const std::string& problem() const { return problem_; }
   // What is held of a control, in the unit of its name; nothing where the camera has none, or it may vary,
-  // or counts in a unit of its own.
+  // or counts lines and does not say how long one takes.
   std::optional<int> held(CameraControl control) const;
   // "exposure_us 15600, focus 30": what is held, after lock().
   std::string describe() const;
@@ -56,7 +57,7 @@ class CameraControls {
   struct Held {
     std::uint32_t id = 0;  // 0: the camera has no such control
     int value = 0;
-    int unit = 1;  // of the name in steps of the camera; 0: not known
+    double unit = 1.0;  // how much of the name's unit a step of the camera is; 0: not known
   };
   DeviceStatus set_value(CameraControl control, int value);
   DeviceStatus find_settled(const ControlWishes& wishes);
@@ -68,6 +69,7 @@ class CameraControls {
   VideoDevice& device_;
   std::array<Held, kCameraControlCount> held_{};
   bool is_automatic_ = false;
+  double line_us_ = 0.0;  // 0: not known
   std::string problem_;
 };
 

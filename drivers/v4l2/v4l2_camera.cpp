@@ -12,8 +12,9 @@
 namespace traygauge {
 namespace {
 
-constexpr int kKeptFrames = 2;    // of a burst: the sharpest, and one in case that it cannot be decoded
-constexpr int kSpareBuffers = 1;  // that the camera fills meanwhile
+// One for the frame that is kept or looked at, one that the camera fills. Each takes as much as a whole raw
+// picture, for MJPEG too: 3.7 MiB at 1600x1200.
+constexpr int kBuffers = 2;
 constexpr double kAssumedRate_per_s = 30.0;
 // Linux 6.1 stumbles over a null pointer in media_device_unregister_entity() when a USB camera's node is
 // closed for the last time while its removal is under way.
@@ -27,9 +28,7 @@ V4l2Camera::V4l2Camera(std::unique_ptr<VideoDevice> device, Clock& clock, const 
       clock_(clock),
       params_(params),
       stream_(*device_),
-      controls_(*device_) {
-  candidates_.reserve(kKeptFrames + 1);
-}
+      controls_(*device_) {}
 
 DeviceStatus V4l2Camera::fail(DeviceStatus status, std::string_view what) {
   set_detail(what);
@@ -42,7 +41,7 @@ DeviceStatus V4l2Camera::do_start() {
   last_number_.reset();
   last_fingerprint_.reset();
   DeviceStatus status = open_and_set_up();
-  if (status.ok()) status = controls_.prepare(params_.controls);
+  if (status.ok()) status = controls_.prepare(params_.controls, mode_.width);
   if (!status.ok() && !controls_.problem().empty()) set_detail(controls_.problem());
   if (status.ok()) status = start_stream();
   if (status.ok()) status = settle();
@@ -69,7 +68,7 @@ void V4l2Camera::set_rate() {
 }
 
 DeviceStatus V4l2Camera::start_stream() {
-  const DeviceStatus status = stream_.start(std::min(params_.burst, kKeptFrames) + kSpareBuffers);
+  const DeviceStatus status = stream_.start(kBuffers);
   if (status.error_number() != EPIPE) return status;
   return fail({DeviceCode::unsupported, EPIPE},
               "the parts behind " + node_ +
@@ -90,7 +89,7 @@ DeviceStatus V4l2Camera::notice_removal(DeviceStatus status) {
 }
 
 void V4l2Camera::do_stop() {
-  candidates_.clear();
+  sharpest_.reset();
   stream_.stop();
   if (is_open_ && is_gone_) clock_.sleep_for(kRemoval);
   is_open_ = false;
@@ -239,94 +238,87 @@ bool V4l2Camera::is_usable(const FilledBuffer& filled) {
   return is_whole;
 }
 
-// Frames that were exposed after `asked_at`, as many as a burst has, until `deadline`.
+// Keeps the sharpest of as many frames that were exposed after `asked_at` as a burst has, until `deadline`.
+// One that is the same as the last delivered picture is as little use as a damaged one, but has come in time.
 DeviceStatus V4l2Camera::collect(Instant asked_at, Instant deadline) {
   bool saw_damage = false;
+  bool saw_repeat = false;
   int seen = 0;
   while (seen < std::max(1, params_.burst)) {
     FilledBuffer filled;
-    const DeviceStatus status = take(deadline, filled);
+    DeviceStatus status = take(deadline, filled);
     if (status.code() == DeviceCode::timed_out) {
-      if (!candidates_.empty()) return DeviceCode::ok;
+      if (sharpest_ || saw_repeat) break;
       return saw_damage ? DeviceCode::torn_frame : DeviceCode::timed_out;
     }
     if (!status.ok()) return status;
     count(filled);
     const CapturedFrame times = date(filled);
     const bool is_new = times.exposed_at >= asked_at;
-    const bool is_usable_now = is_new && is_usable(filled);
-    if (is_usable_now) {
-      candidates_.push_back({filled, times, converter_->sharpness(filled.bytes)});
-      if (const DeviceStatus kept = keep_sharpest(); !kept.ok()) return kept;
+    if (is_new && is_usable(filled)) {
       ++seen;
-      continue;
+      const std::uint64_t own_fingerprint = fingerprint(filled.bytes);
+      const bool repeats = !params_.may_repeat && own_fingerprint == last_fingerprint_;
+      if (repeats) ++counters_.repeated;
+      saw_repeat = saw_repeat || repeats;
+      status = repeats
+                   ? stream_.give_back(filled)
+                   : keep_if_sharper({filled, times, converter_->sharpness(filled.bytes), own_fingerprint});
+    } else {
+      if (is_new || filled.is_damaged) ++counters_.damaged;
+      saw_damage = saw_damage || is_new;
+      status = stream_.give_back(filled);
     }
-    if (is_new || filled.is_damaged) ++counters_.damaged;
-    saw_damage = saw_damage || is_new;
-    if (const DeviceStatus returned = stream_.give_back(filled); !returned.ok()) return returned;
+    if (!status.ok()) return status;
   }
+  return sharpest_ ? DeviceStatus() : fail(DeviceCode::stale_frame, "the same picture, byte by byte, again");
+}
+
+// The other's buffer goes back to the camera, which would soon have none.
+DeviceStatus V4l2Camera::keep_if_sharper(const Candidate& next) {
+  if (!sharpest_) {
+    sharpest_ = next;
+    return DeviceCode::ok;
+  }
+  const Candidate blurred = next.sharpness > sharpest_->sharpness ? std::exchange(*sharpest_, next) : next;
+  return stream_.give_back(blurred.filled);
+}
+
+DeviceStatus V4l2Camera::deliver_sharpest(std::span<std::uint8_t> buffer, CapturedFrame& frame) {
+  if (!converter_->convert(sharpest_->filled.bytes, buffer.data())) {
+    ++counters_.damaged;
+    return fail(DeviceCode::torn_frame, converter_->problem());
+  }
+  last_fingerprint_ = sharpest_->fingerprint;
+  frame = sharpest_->times;
+  frame.view = {buffer.data(), mode_.width, mode_.height,
+                std::ptrdiff_t{mode_.width} * bytes_per_pixel(converter_->pixels()), converter_->pixels()};
+  ++counters_.delivered;
+  set_detail({});
   return DeviceCode::ok;
 }
 
-// The others' buffers go back to the camera, which always has one.
-DeviceStatus V4l2Camera::keep_sharpest() {
-  const auto room = static_cast<std::size_t>(std::clamp(stream_.buffer_count() - 1, 1, kKeptFrames));
-  if (candidates_.size() <= room) return DeviceCode::ok;
-  const auto blurred =
-      std::min_element(candidates_.begin(), candidates_.end(),
-                       [](const Candidate& a, const Candidate& b) { return a.sharpness < b.sharpness; });
-  const FilledBuffer filled = blurred->filled;
-  candidates_.erase(blurred);
-  return stream_.give_back(filled);
+DeviceStatus V4l2Camera::capture_burst(Instant asked_at, Instant deadline, std::span<std::uint8_t> buffer,
+                                       CapturedFrame& frame) {
+  DeviceStatus status = collect(asked_at, deadline);
+  if (status.ok()) status = deliver_sharpest(buffer, frame);
+  if (!sharpest_) return status;
+  const DeviceStatus returned = stream_.give_back(sharpest_->filled);
+  sharpest_.reset();
+  return returned.ok() || !status.ok() ? status : returned;
 }
 
-// What turns out damaged only when it is decoded makes room for the next sharpest.
-DeviceStatus V4l2Camera::deliver_sharpest(std::span<std::uint8_t> buffer, CapturedFrame& frame) {
-  std::sort(candidates_.begin(), candidates_.end(),
-            [](const Candidate& a, const Candidate& b) { return a.sharpness > b.sharpness; });
-  bool repeats = false;
-  for (const Candidate& candidate : candidates_) {
-    const std::uint64_t own_fingerprint = fingerprint(candidate.filled.bytes);
-    if (!params_.may_repeat && own_fingerprint == last_fingerprint_) {
-      ++counters_.repeated;
-      repeats = true;
-      continue;
-    }
-    if (!converter_->convert(candidate.filled.bytes, buffer.data())) {
-      ++counters_.damaged;
-      set_detail(converter_->problem());
-      continue;
-    }
-    last_fingerprint_ = own_fingerprint;
-    frame = candidate.times;
-    frame.view = {buffer.data(), mode_.width, mode_.height,
-                  std::ptrdiff_t{mode_.width} * bytes_per_pixel(converter_->pixels()), converter_->pixels()};
-    ++counters_.delivered;
-    set_detail({});
-    return DeviceCode::ok;
-  }
-  if (!repeats) return DeviceCode::torn_frame;
-  return fail(DeviceCode::stale_frame, "the same picture, byte by byte, again");
-}
-
-DeviceStatus V4l2Camera::give_back_candidates() {
-  DeviceStatus status = DeviceCode::ok;
-  for (const Candidate& candidate : candidates_) {
-    const DeviceStatus returned = stream_.give_back(candidate.filled);
-    if (!returned.ok()) status = returned;
-  }
-  candidates_.clear();
-  return status;
-}
-
+// What turns out damaged only when it is decoded gets one more burst.
 DeviceStatus V4l2Camera::do_capture(std::span<std::uint8_t> buffer, Nanoseconds timeout,
                                     CapturedFrame& frame) {
   const Instant asked_at = clock_.now();
-  DeviceStatus status = collect(asked_at, asked_at + timeout);
   CapturedFrame sharpest;
-  if (status.ok()) status = deliver_sharpest(buffer, sharpest);
-  const DeviceStatus returned = give_back_candidates();
-  if (!returned.ok() && status.ok()) status = returned;
+  const Instant deadline = asked_at + timeout;
+  DeviceStatus status = capture_burst(asked_at, deadline, buffer, sharpest);
+  if (status.code() == DeviceCode::torn_frame && clock_.now() < deadline) {
+    const DeviceStatus again = capture_burst(asked_at, deadline, buffer, sharpest);
+    if (again.code() != DeviceCode::timed_out) status = again;
+  }
   status = notice_removal(status);
   if (status.ok()) frame = sharpest;
   return status;

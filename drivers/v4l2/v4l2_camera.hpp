@@ -5,7 +5,6 @@
 #include <memory>
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "drivers/camera.hpp"
 #include "drivers/pixels/frame_converter.hpp"
@@ -61,6 +60,7 @@ class V4l2Camera final : public Camera {
     FilledBuffer filled;
     CapturedFrame times;
     double sharpness = 0.0;
+    std::uint64_t fingerprint = 0;
   };
 
   DeviceStatus open_and_set_up();
@@ -73,10 +73,11 @@ class V4l2Camera final : public Camera {
   void count(const FilledBuffer& filled);
   CapturedFrame date(const FilledBuffer& filled) const;
   DeviceStatus collect(Instant asked_at, Instant deadline);
-  DeviceStatus keep_sharpest();
+  DeviceStatus keep_if_sharper(const Candidate& next);
   bool is_usable(const FilledBuffer& filled);
   DeviceStatus deliver_sharpest(std::span<std::uint8_t> buffer, CapturedFrame& frame);
-  DeviceStatus give_back_candidates();
+  DeviceStatus capture_burst(Instant asked_at, Instant deadline, std::span<std::uint8_t> buffer,
+                             CapturedFrame& frame);
   DeviceStatus notice_removal(DeviceStatus status);
   DeviceStatus fail(DeviceStatus status, std::string_view what);
 
@@ -88,7 +89,7 @@ class V4l2Camera final : public Camera {
   std::string node_;
   ChosenMode mode_;
   std::optional<FrameConverter> converter_;
-  std::vector<Candidate> candidates_;
+  std::optional<Candidate> sharpest_;         // of the burst so far
   std::optional<std::uint64_t> last_number_;  // of any frame
   std::uint64_t number_ = 0;                  // of frames, beyond the kernel's 32 bits
   std::optional<std::uint64_t> last_fingerprint_;

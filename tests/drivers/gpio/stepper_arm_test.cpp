@@ -59,7 +59,10 @@ TEST_F(Stepper, ThatIsBlockedWhenItLooksForHomeSaysSo) {
   open(5.0);
   plant_->is_blocked = true;
   EXPECT_EQ(arm_->home(10s).code(), DeviceCode::stalled);
-  EXPECT_EQ(detail(), "the home switch did not close: check the switch, the motor and what blocks it");
+  EXPECT_EQ(
+      detail(),
+      "the home switch did not close: check the switch, whether it is inverted, the motor and what blocks "
+      "it");
   plant_->is_blocked = false;
   EXPECT_TRUE(arm_->home(10s).ok());
 }

@@ -120,6 +120,13 @@ int FakeVideoDevice::request(unsigned long code, void* argument) {
       control.value = found->second.value;
       return 0;
     }
+    case VIDIOC_G_EXT_CTRLS: {
+      v4l2_ext_control& control = *as<v4l2_ext_controls>(argument).controls;
+      const auto found = camera_.controls.find(control.id);
+      if (found == camera_.controls.end()) return EINVAL;
+      control.value64 = found->second.value;
+      return 0;
+    }
     case VIDIOC_S_CTRL:
       return write_control(as<v4l2_control>(argument));
     case VIDIOC_REQBUFS:

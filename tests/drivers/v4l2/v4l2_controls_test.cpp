@@ -109,8 +109,28 @@ TEST_F(V4l2Controls, AnExposureInLinesIsHeldButNeverTakenForMicroseconds) {
   camera_.reset();
   wish(CameraControl::exposure) = {ControlWish::Kind::value, 2000};
   EXPECT_EQ(start(), DeviceCode::unsupported);
-  EXPECT_TRUE(detail_has("exposure_us: the camera counts in a unit of its own")) << camera().detail();
+  EXPECT_TRUE(detail_has("exposure_us: the camera counts lines and does not say how long one takes"))
+      << camera().detail();
   EXPECT_EQ(value(V4L2_CID_EXPOSURE), 1200);
+}
+
+TEST_F(V4l2Controls, AnExposureInLinesIsConvertedWhereTheSensorSaysHowLongOneTakes) {
+  kernel_.controls.erase(V4L2_CID_EXPOSURE_AUTO);
+  kernel_.controls.erase(V4L2_CID_EXPOSURE_ABSOLUTE);
+  kernel_.controls[V4L2_CID_EXPOSURE] = {4, 4000, 1, 1200};
+  kernel_.controls[V4L2_CID_PIXEL_RATE].value = 84'000'000;
+  kernel_.controls[V4L2_CID_HBLANK].value = 1616;  // with 64 pixels: 20 us a line
+  ASSERT_EQ(start(), DeviceCode::ok) << camera().detail();
+  EXPECT_EQ(camera().held(CameraControl::exposure), 24'000);
+  camera_.reset();
+  wish(CameraControl::exposure) = {ControlWish::Kind::value, 2019};
+  ASSERT_EQ(start(), DeviceCode::ok) << camera().detail();
+  EXPECT_EQ(value(V4L2_CID_EXPOSURE), 100);
+  EXPECT_EQ(camera().held(CameraControl::exposure), 2000);
+  camera_.reset();
+  wish(CameraControl::exposure) = {ControlWish::Kind::value, 90'000};
+  EXPECT_EQ(start(), DeviceCode::unsupported);
+  EXPECT_TRUE(detail_has("90000 is asked for; the camera has 80 to 80000")) << camera().detail();
 }
 
 TEST_F(V4l2Controls, AStepBesideTheWishIsNear) {
