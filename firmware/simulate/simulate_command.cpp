@@ -19,6 +19,7 @@
 #include "simulator/scenes/capture_writer.hpp"
 #include "simulator/scenes/scene_file.hpp"
 #include "simulator/scenes/scene_sets.hpp"
+#include "simulator/scenes/scene_views.hpp"
 
 namespace traygauge {
 namespace {
@@ -30,6 +31,7 @@ struct RenderOptions {
   std::uint64_t seed = 1;
   int jobs = 0;
   int samples = RenderSettings().samples;
+  int pairs = 0;  // of each scene; 0: all
   bool is_reduced = false;
 };
 
@@ -52,6 +54,9 @@ std::vector<SceneDescription> find_scenes(const RenderOptions& options) {
     std::erase_if(scenes, [&](const SceneDescription& scene) { return scene.name != options.only; });
     if (scenes.empty())
       throw UsageError("--only " + options.only + ": " + options.what + " has no scene of that name");
+  }
+  if (options.pairs > 0) {
+    for (SceneDescription& scene : scenes) keep_first_pairs(scene, static_cast<std::size_t>(options.pairs));
   }
   return scenes;
 }
@@ -104,6 +109,8 @@ void add_render(CLI::App& app, RenderOptions& options) {
   command->add_option("--jobs", options.jobs, "threads; 0: one a core")->check(CLI::Range(0, 256));
   command->add_option("--samples", options.samples, "rays a pixel")->check(CLI::Range(8, 4096));
   command->add_option("--only", options.only, "the one scene of this name");
+  command->add_option("--pairs", options.pairs, "of each scene, the first N; 0: all")
+      ->check(CLI::Range(0, 1000));
   command->add_flag("--reduced", options.is_reduced, "a few scenes of the set, in small pictures");
 }
 

@@ -20,7 +20,6 @@ constexpr NumberRange kCardThicknessMm{0.0, 10.0};
 constexpr NumberRange kArmAngleDeg{-360.0, 360.0};
 constexpr std::size_t kMaxViews = 1000;
 constexpr std::size_t kMaxPairs = 100000;
-constexpr std::size_t kMaxDishes = 50;  // label 1 and 201 to 249
 
 // A file that the capture names. It must lie inside the folder; a link there is its owner's decision.
 InputFile read_file_name(const JsonNode& node, const std::filesystem::path& folder) {

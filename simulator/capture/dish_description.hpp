@@ -10,6 +10,8 @@
 
 namespace traygauge {
 
+inline constexpr std::size_t kMaxDishes = 50;  // of a capture: labels 1 and 201 to 249
+
 // A point of the inner surface: how far inside the outer edge, and how high above the table.
 struct ProfilePoint {
   double inset_mm = 0.0;

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <system_error>
 
+#include "simulator/capture/dish_description.hpp"
 #include "simulator/capture/json_file.hpp"
 #include "simulator/capture/json_node.hpp"
 
@@ -19,7 +20,6 @@ constexpr NumberRange kAngleDeg{-360.0, 360.0};
 constexpr double kRotationTolerance = 1e-3;
 constexpr std::size_t kMaxPoses = 1000;
 constexpr std::size_t kMaxItems = 198;
-constexpr std::size_t kMaxDishes = 50;
 
 std::optional<double> read_volume(const JsonNode& item, const char* name) {
   const auto node = item.find(name);

@@ -20,7 +20,6 @@ namespace {
 
 constexpr std::size_t kMaxSceneBytes = std::size_t{1} << 20U;
 constexpr std::size_t kMaxFoods = 198;
-constexpr std::size_t kMaxDishes = 50;
 constexpr std::size_t kMaxViews = 100;
 constexpr int kFirstFurtherDish = 201;
 constexpr NumberRange kPlaceMm{-1000.0, 1000.0};

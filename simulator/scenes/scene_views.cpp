@@ -189,4 +189,12 @@ void draw_moved_views(SceneDescription& scene, Draws& draws, const ViewLimits& l
   throw std::invalid_argument(scene.name + ": no views found");
 }
 
+void keep_first_pairs(SceneDescription& scene, std::size_t count) {
+  if (scene.pairs.size() <= count) return;
+  scene.pairs.resize(count);
+  int last = 0;
+  for (const auto& [a, b] : scene.pairs) last = std::max({last, a, b});
+  scene.views.resize(static_cast<std::size_t>(last) + 1);
+}
+
 }  // namespace traygauge

@@ -1,6 +1,8 @@
 // Where the camera stands for the pictures of a scene.
 #pragma once
 
+#include <cstddef>
+
 #include "simulator/scenes/draws.hpp"
 #include "simulator/scenes/scene_description.hpp"
 
@@ -29,5 +31,8 @@ void draw_arm_views(SceneDescription& scene, Draws& draws, double distance_mm);
 
 // One view, and one of the tray turned and shifted under the still camera.
 void draw_moved_views(SceneDescription& scene, Draws& draws, const ViewLimits& limits);
+
+// Keeps the first `count` pairs, and of the views those up to the last that these need.
+void keep_first_pairs(SceneDescription& scene, std::size_t count);
 
 }  // namespace traygauge

@@ -7,6 +7,7 @@
 #include <set>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -155,6 +156,22 @@ TEST(SceneSets, SeedDecides) {
     EXPECT_EQ(first[i].foods[0].seed, again[i].foods[0].seed);
     EXPECT_NE(first[i].foods[0].seed, other[i].foods[0].seed);
   }
+}
+
+TEST(SceneSets, FirstPairsAreSeenFromTheSameViews) {
+  const auto first_of = [](std::string_view set, std::size_t pairs) {
+    SceneDescription scene = make_scenes(set, kSeed, false).front();
+    keep_first_pairs(scene, pairs);
+    return scene;
+  };
+  const SceneDescription whole = make_scenes("meals-45", kSeed, false).front();
+  const SceneDescription one = first_of("meals-45", 1);
+  ASSERT_EQ(one.views.size(), 2U);
+  EXPECT_EQ(one.pairs, (std::vector<std::array<int, 2>>{{0, 1}}));
+  for (std::size_t i = 0; i < one.views.size(); ++i)
+    EXPECT_EQ(one.views[i].target_mm, whole.views[i].target_mm);
+  EXPECT_EQ(first_of("angles-13", 3).views.size(), 4U);
+  EXPECT_EQ(first_of("meals-45", 9).pairs, whole.pairs);
 }
 
 TEST(SceneSets, ReducedScenesSeeTheSameInSmallerPictures) {
