@@ -52,6 +52,11 @@ inline double rotation_angle_deg(const Mat3& rotation) {
   return 180.0 / std::numbers::pi * std::abs(Eigen::AngleAxisd(rotation).angle());
 }
 
+// The third coordinate of the cross product: positive where b lies left of a.
+inline double cross(const Vec2& a, const Vec2& b) {
+  return a.x() * b.y() - a.y() * b.x();
+}
+
 // A turn in the plane is a unit vector, its cosine and sine; the products are those of complex numbers.
 inline Vec2 turned_by(const Vec2& v, const Vec2& turn) {
   return {turn.x() * v.x() - turn.y() * v.y(), turn.y() * v.x() + turn.x() * v.y()};

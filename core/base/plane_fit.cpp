@@ -9,10 +9,10 @@
 namespace traygauge {
 namespace {
 
-constexpr std::size_t kSample = 3;
+constexpr std::size_t kPlaneSample = 3;
 
 bool sample_plane(std::span<const Vec3> points, const PlaneFitParams& params, Random& random, Plane& plane) {
-  const auto sample = sample_distinct<kSample>(random, points.size());
+  const auto sample = sample_distinct<kPlaneSample>(random, points.size());
   const Vec3& a = points[sample[0]];
   const Vec3& b = points[sample[1]];
   const Vec3& c = points[sample[2]];
@@ -50,7 +50,7 @@ Eigen::SelfAdjointEigenSolver<Mat3> measure_spread(std::span<const Vec3> points,
 }  // namespace
 
 bool fit_plane_least_squares(std::span<const Vec3> points_mm, Plane& plane) {
-  if (points_mm.size() < kSample) return false;
+  if (points_mm.size() < kPlaneSample) return false;
   Vec3 mean;
   const Eigen::SelfAdjointEigenSolver<Mat3> solver = measure_spread(points_mm, mean);
   // On a line two of the three spreads vanish.
@@ -62,7 +62,7 @@ bool fit_plane_least_squares(std::span<const Vec3> points_mm, Plane& plane) {
 
 bool fit_plane(std::span<Vec3> points_mm, const PlaneFitParams& params, Random& random, PlaneFit& fit) {
   fit = {};
-  if (points_mm.size() < kSample) return false;
+  if (points_mm.size() < kPlaneSample) return false;
   Plane best;
   double best_cost = 0.0;
   int best_inliers = 0;
@@ -76,7 +76,7 @@ bool fit_plane(std::span<Vec3> points_mm, const PlaneFitParams& params, Random& 
     best = plane;
     best_cost = cost;
     best_inliers = inliers;
-    bound.update(inliers / static_cast<double>(points_mm.size()), kSample);
+    bound.update(inliers / static_cast<double>(points_mm.size()), kPlaneSample);
   }
   fit.iterations = bound.iterations();
   if (best_inliers < params.min_inliers) return false;

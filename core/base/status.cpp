@@ -66,8 +66,8 @@ constexpr auto kTexts = std::to_array<Text>({
      "The outlines of the two views contradict each other; check that each label image belongs to its "
      "picture."},
     {"rectification_failed",
-     "The two views could not be aligned for dense matching; one camera stands in the other's picture of the "
-     "dish."},
+     "The two views could not be aligned for dense matching: seen from the dish, one camera stands behind "
+     "the other; move it sideways between the pictures, not nearer or farther."},
     {"disparity_range_too_large",
      "The depth range of the scene exceeds the configured number of disparities; take the views closer "
      "together."},

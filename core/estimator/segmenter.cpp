@@ -232,6 +232,7 @@ bool Segmenter::outline_view(const SegmentedDish& dish, const DishInViews& scene
     return false;
   mark_zone(raster, outline, DishZone::edge);
   const double edge_mm = profile.height_at_inset_mm(0.0);
+  raster.depth_mm = edge_mm - profile.bottom_height_mm();
   const double most_mm = kMostFlange * std::min(place.size_mm[0], place.size_mm[1]);
   double well_mm = params_.flange_begin_mm;
   while (well_mm < most_mm && profile.height_at_inset_mm(well_mm) > edge_mm - params_.flange_depth_mm)

@@ -25,7 +25,8 @@ double cost_of(const RegionColour& a, const RegionColour& b) {
 }  // namespace
 
 // Too few: borders that are weaker and weaker separate, down to a strength below which they are none; without
-// success what was found stands. Too many: those on one dish that resemble each other most are one.
+// success what was found stands. Too many: borders that are stronger and stronger join, as long as enough are
+// left; then those on one dish that resemble each other most are one.
 void Segmenter::meet_hint() {
   FoodOutlineParams food = params_.food;
   if (result_.items < params_.items) {
@@ -36,6 +37,16 @@ void Segmenter::meet_hint() {
       draw_items(food);
     }
     if (result_.items < params_.items) draw_items(params_.food);
+  } else if (result_.items > params_.items) {
+    const double most = params_.food.split.joined_difference / params_.weakest_border;
+    while (result_.items > params_.items && food.split.joined_difference < most) {
+      food.split.joined_difference /= params_.border_step;
+      draw_items(food);
+    }
+    if (result_.items < params_.items) {
+      food.split.joined_difference *= params_.border_step;
+      draw_items(food);
+    }
   }
   while (result_.items > params_.items && join_most_alike()) {
   }

@@ -22,6 +22,7 @@ void visit_card_search_parameters(Params& segmentation, Visit&& visit) {
     visit(kScaleNames[i], card.scales_px_per_mm[i], Range{0.1, 20});
   visit("segmentation.card.max_pattern_corners", card.max_pattern_corners, Range{4, 4096});
   visit("segmentation.card.max_corners", card.max_corners, Range{16, 65535});
+  visit("segmentation.card.first_corners", card.first_corners, Range{16, 65535});
   visit("segmentation.card.corners.cell_px", card.corners.cell_px, Range{8, 8192});
   visit("segmentation.card.corners.candidates_per_bucket", card.corners.candidates_per_bucket, Range{1, 255});
   visit("segmentation.card.corners.corners_per_bucket", card.corners.corners_per_bucket, Range{1, 255});
@@ -39,6 +40,9 @@ void visit_card_search_parameters(Params& segmentation, Visit&& visit) {
   visit("segmentation.card.max_seeds", card.max_seeds, Range{1, 10'000});
   visit("segmentation.card.max_tried", card.max_tried, Range{1, 100});
   visit("segmentation.card.min_agreeing", card.min_agreeing, Range{0, 65535});
+  visit("segmentation.card.close_px_per_mm", card.close_px_per_mm, Range{0.1, 20});
+  visit("segmentation.card.close_px", card.close_px, Range{10'000, 4'000'000});
+  visit("segmentation.card.min_close_gain", card.min_close_gain, Range{1, 100});
   visit("segmentation.card.seed", card.seed, Range{0, 4294967295});
 }
 
@@ -95,6 +99,8 @@ void visit_food_field_parameters(Params& field, Visit&& visit) {
   visit("segmentation.food.field.against_weight", field.against_weight, Range{0, 100});
   visit("segmentation.food.field.colour_weight", field.colour_weight, Range{0, 100});
   visit("segmentation.food.field.plain_share", field.plain_share, Range{0, 1});
+  visit("segmentation.food.field.filled_mm", field.filled_mm, Range{0, 200});
+  visit("segmentation.food.field.free_edge_mm", field.free_edge_mm, Range{-200, 200});
   visit("segmentation.food.field.prior", field.prior, Range{-100, 100});
   visit("segmentation.food.field.neutral_deviations", field.neutral_deviations, Range{0, 8});
   visit("segmentation.food.field.full_deviations", field.full_deviations, Range{8.5, 1000});
@@ -131,10 +137,16 @@ void visit_food_parameters(Params& segmentation, Visit&& visit) {
   visit("segmentation.food.split.full_valley", food.split.full_valley, Range{0.51, 10});
   visit("segmentation.food.split.most_step", food.split.most_step, Range{0.31, 10});
   visit("segmentation.food.split.full_step", food.split.full_step, Range{0, 0.3});
-  visit("segmentation.food.split.touching_share", food.split.touching_share, Range{0, 0.5});
+  visit("segmentation.food.split.touching_share", food.split.touching_share, Range{0, 0.3});
   visit("segmentation.food.split.mixed_share", food.split.mixed_share, Range{0.51, 1});
   visit("segmentation.food.split.mixed_deviation", food.split.mixed_deviation, Range{0.01, 1000});
   visit("segmentation.food.split.min_item_blocks", food.split.min_item_blocks, Range{1, 65536});
+  visit("segmentation.food.split.least_flank", food.split.least_flank, Range{0.5, 1.25});
+  visit("segmentation.food.split.full_flank", food.split.full_flank, Range{1.26, 10});
+  visit("segmentation.food.split.least_edge", food.split.least_edge, Range{0, 0.81});
+  visit("segmentation.food.split.full_edge", food.split.full_edge, Range{0.82, 10});
+  visit("segmentation.food.split.flank_share", food.split.flank_share, Range{0.31, 1});
+  visit("segmentation.food.split.min_core_blocks", food.split.min_core_blocks, Range{1, 65536});
   visit_food_field_parameters(food.field, visit);
   visit("segmentation.food.band_mm", food.band_mm, Range{0, 20});
   visit("segmentation.food.smoothing_mm", food.smoothing_mm, Range{0, 20});

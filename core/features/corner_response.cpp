@@ -1,6 +1,7 @@
 #include "core/features/corner_response.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace traygauge {
@@ -11,30 +12,42 @@ using Workspace = CornerResponseWorkspace;
 // Sobel's weights add up to 8 a side and the window holds 25 pixels.
 constexpr float kPerWindow = 1.0F / (64.0F * Workspace::kWindowRows * Workspace::kWindowRows);
 
-// Replaces a ring row's products by those of a new row of the picture, in the column sums too.
-void update_products(const std::uint8_t* __restrict upper, const std::uint8_t* __restrict middle,
-                     const std::uint8_t* __restrict lower, int width, const Workspace::Products& ring,
-                     const Workspace::Products& columns) {
-  std::int32_t* __restrict ring_xx = ring.xx.data();
-  std::int32_t* __restrict ring_xy = ring.xy.data();
-  std::int32_t* __restrict ring_yy = ring.yy.data();
-  std::int32_t* __restrict xx = columns.xx.data();
-  std::int32_t* __restrict xy = columns.xy.data();
-  std::int32_t* __restrict yy = columns.yy.data();
-  for (int x = 1; x < width - 1; ++x) {
-    const auto dx = static_cast<std::int16_t>(
-        (upper[x + 1] - upper[x - 1]) + 2 * (middle[x + 1] - middle[x - 1]) + (lower[x + 1] - lower[x - 1]));
-    const auto dy = static_cast<std::int16_t>((lower[x - 1] - upper[x - 1]) + 2 * (lower[x] - upper[x]) +
-                                              (lower[x + 1] - upper[x + 1]));
-    const std::int32_t new_xx = dx * dx;
-    const std::int32_t new_xy = dx * dy;
-    const std::int32_t new_yy = dy * dy;
-    xx[x] += new_xx - ring_xx[x];
-    xy[x] += new_xy - ring_xy[x];
-    yy[x] += new_yy - ring_yy[x];
-    ring_xx[x] = new_xx;
-    ring_xy[x] = new_xy;
-    ring_yy[x] = new_yy;
+constexpr int kRowPixels = 256;  // pixels of a row at a time
+using Gradients = std::array<std::int16_t, kRowPixels>;
+
+// Of `count` pixels; whole registers of 16-bit numbers.
+void find_gradients(const std::uint8_t* __restrict upper, const std::uint8_t* __restrict middle,
+                    const std::uint8_t* __restrict lower, std::size_t count, Gradients& across,
+                    Gradients& down) {
+  for (std::size_t x = 0; x < count; ++x) {
+    across[x] = static_cast<std::int16_t>((upper[x + 2] - upper[x]) + 2 * (middle[x + 2] - middle[x]) +
+                                          (lower[x + 2] - lower[x]));
+    down[x] = static_cast<std::int16_t>((lower[x] - upper[x]) + 2 * (lower[x + 1] - upper[x + 1]) +
+                                        (lower[x + 2] - upper[x + 2]));
+  }
+}
+
+// Replaces a ring row's products by new ones, in the column sums too.
+void replace_products(const Gradients& a, const Gradients& b, std::size_t count,
+                      std::int32_t* __restrict ring, std::int32_t* __restrict columns) {
+  for (std::size_t x = 0; x < count; ++x) {
+    const std::int32_t product = a[x] * b[x];
+    columns[x] += product - ring[x];
+    ring[x] = product;
+  }
+}
+
+// The same for a new row of the picture.
+void update_products(const std::uint8_t* upper, const std::uint8_t* middle, const std::uint8_t* lower,
+                     int width, const Workspace::Products& ring, const Workspace::Products& columns) {
+  Gradients across;
+  Gradients down;
+  for (int left = 1; left < width - 1; left += kRowPixels) {
+    const auto count = static_cast<std::size_t>(std::min(kRowPixels, width - 1 - left));
+    find_gradients(upper + left - 1, middle + left - 1, lower + left - 1, count, across, down);
+    replace_products(across, across, count, ring.xx.data() + left, columns.xx.data() + left);
+    replace_products(across, down, count, ring.xy.data() + left, columns.xy.data() + left);
+    replace_products(down, down, count, ring.yy.data() + left, columns.yy.data() + left);
   }
 }
 

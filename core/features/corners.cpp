@@ -5,12 +5,6 @@
 namespace traygauge {
 namespace {
 
-// A strict order, so that equal responses do not depend on the search.
-bool is_better(const Corner& a, const Corner& b) {
-  if (a.response != b.response) return a.response > b.response;
-  return a.y != b.y ? a.y < b.y : a.x < b.x;
-}
-
 // The label that surrounds a corner; false where another ground begins nearby.
 bool find_label(const CornerPicture& picture, int margin, Corner& corner) {
   const ImageView<const std::uint8_t> labels = picture.labels;
@@ -55,9 +49,9 @@ void keep_peaks(const float* __restrict above, const float* __restrict row, cons
   }
 }
 
-class Buckets {
+class CornerBuckets {
  public:
-  Buckets(const CornerGrid& grid, const CornerParams& params, CornerWorkspace& workspace)
+  CornerBuckets(const CornerGrid& grid, const CornerParams& params, CornerWorkspace& workspace)
       : grid_(grid),
         capacity_(static_cast<std::size_t>(params.candidates_per_bucket)),
         workspace_(workspace) {
@@ -96,7 +90,7 @@ class Buckets {
 };
 
 void fill_buckets(const CornerPicture& picture, const CornerGrid& grid, const CornerParams& params,
-                  CornerWorkspace& workspace, Buckets& buckets) {
+                  CornerWorkspace& workspace, CornerBuckets& buckets) {
   const ImageView<const std::uint8_t> gray = picture.gray;
   CornerResponse response(gray, workspace.response);
   std::array<float*, 3> rows = {workspace.responses[0].data(), workspace.responses[1].data(),
@@ -127,7 +121,7 @@ void find_corners(const CornerPicture& picture, const CornerParams& params, Rand
   constexpr int kSmallest = 2 * kCornerBorder + 3;
   if (picture.gray.width < kSmallest || picture.gray.height < kSmallest) return;
   const CornerGrid grid(picture.gray.width, picture.gray.height, params);
-  Buckets buckets(grid, params, workspace);
+  CornerBuckets buckets(grid, params, workspace);
   fill_buckets(picture, grid, params, workspace, buckets);
   buckets.drop_weak(params.min_share_of_best);
   for (std::size_t round = 0; round < static_cast<std::size_t>(params.corners_per_bucket); ++round) {

@@ -51,6 +51,12 @@ struct Corner {
   std::uint8_t label = 0;
 };
 
+// A strict order, so that equal responses do not depend on the search.
+inline bool is_better(const Corner& a, const Corner& b) {
+  if (a.response != b.response) return a.response > b.response;
+  return a.y != b.y ? a.y < b.y : a.x < b.x;
+}
+
 // Cells row by row; the last of a row or column may be narrower.
 struct CornerGrid {
   int cell_px = 1;

@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstring>
 
+#include "core/base/lanes.hpp"
 #include "core/features/box_hessian.hpp"
 #include "core/features/strongest_keypoints.hpp"
 #include "core/features/surf.hpp"
@@ -135,22 +135,14 @@ void add_maximum(ImageView<const std::uint32_t> integral, const SurfParams& para
   strongest.add(keypoint);
 }
 
-// Four floats in one register, and the flags that comparing them gives.
-using Lanes [[gnu::vector_size(16)]] = float;
+// What comparing lanes gives.
 using Flags [[gnu::vector_size(16)]] = std::int32_t;
-constexpr int kLanes = 4;
 
 // Three rows of one layer around the samples that are looked at.
 struct ResponseRows {
   const float* above = nullptr;
   const float* centre = nullptr;
   const float* below = nullptr;
-
-  static Lanes load(const float* values) {
-    Lanes lanes;
-    std::memcpy(&lanes, values, sizeof lanes);
-    return lanes;
-  }
 
   // Large enough, and no smaller than the four neighbours in the layer: the rest of the neighbourhood is
   // looked at for those few only.
@@ -159,12 +151,12 @@ struct ResponseRows {
     return response >= min_response && response > centre[column - 1] && response >= centre[column + 1] &&
            response > above[column] && response >= below[column];
   }
-  // Whether any of kLanes samples is.
+  // Whether any of kFloatLanes samples is.
   bool has_peak(int column, float min_response) const {
-    const Lanes response = load(centre + column);
-    const Flags found = (response >= min_response) & (response > load(centre + column - 1)) &
-                        (response >= load(centre + column + 1)) & (response > load(above + column)) &
-                        (response >= load(below + column));
+    const FloatLanes response = load_floats(centre + column);
+    const Flags found = (response >= min_response) & (response > load_floats(centre + column - 1)) &
+                        (response >= load_floats(centre + column + 1)) &
+                        (response > load_floats(above + column)) & (response >= load_floats(below + column));
     return (found[0] | found[1] | found[2] | found[3]) != 0;
   }
 };
@@ -182,9 +174,9 @@ void find_maxima(ImageView<const std::uint32_t> integral, const SurfParams& para
     const auto& ring = workspace.responses[static_cast<std::size_t>(layer)];
     const auto slot = [&](int r) { return ring[static_cast<std::size_t>(r % 3)].data(); };
     const ResponseRows rows{slot(row - 1), slot(row), slot(row + 1)};
-    for (int begin = (margin + octave.step - 1) / octave.step; begin <= last; begin += kLanes) {
-      const int end = std::min(begin + kLanes, last + 1);
-      if (end - begin == kLanes && !rows.has_peak(begin, params.min_response)) continue;
+    for (int begin = (margin + octave.step - 1) / octave.step; begin <= last; begin += kFloatLanes) {
+      const int end = std::min(begin + kFloatLanes, last + 1);
+      if (end - begin == kFloatLanes && !rows.has_peak(begin, params.min_response)) continue;
       for (int column = begin; column < end; ++column) {
         if (!rows.is_peak(column, params.min_response)) continue;
         add_maximum(integral, params, workspace, octave, layer, row, column, strongest);

@@ -11,12 +11,12 @@
 namespace traygauge {
 namespace {
 
-constexpr int kRadius = 6;             // in sigmas
-constexpr std::size_t kSamples = 109;  // grid points with i² + j² < 36
-constexpr double kWeightSigma = 2.5;   // in sigmas; [14] has 2, OpenSURF [37] 2.5
-constexpr float kHaarHalf = 3.0F;      // in sigmas; [14] has 2, which gives 5% fewer correct matches
-constexpr int kBins = 72;              // of 5°
-constexpr int kWindowBins = 12;        // 60°
+constexpr int kRadius = 6;              // in sigmas
+constexpr std::size_t kSamples = 109;   // grid points with i² + j² < 36
+constexpr double kResponseSigma = 2.5;  // in sigmas; [14] has 2, OpenSURF [37] 2.5
+constexpr float kHaarHalf = 3.0F;       // in sigmas; [14] has 2, which gives 5% fewer correct matches
+constexpr int kBins = 72;               // of 5°
+constexpr int kWindowBins = 12;         // 60°
 
 struct SampleOffset {
   int x = 0;
@@ -31,7 +31,7 @@ constexpr std::array<SampleOffset, kSamples> make_offsets() {
     for (int x = -kRadius; x <= kRadius; ++x) {
       const int square = x * x + y * y;
       if (square >= kRadius * kRadius) continue;
-      offsets[count++] = {x, y, static_cast<float>(gaussian(square, kWeightSigma))};
+      offsets[count++] = {x, y, static_cast<float>(gaussian(square, kResponseSigma))};
     }
   }
   return offsets;

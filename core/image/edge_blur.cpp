@@ -18,7 +18,7 @@ constexpr double kFootShare = 0.1;  // of the steepest slope: where the edge end
 using WidthHistogram = std::array<std::uint32_t, kReach_px * kBinsPerPixel>;
 
 // One of the four directions in which pixels neighbour each other.
-struct Direction {
+struct EdgeDirection {
   int dx = 0;
   int dy = 0;
   int squared_length() const { return dx * dx + dy * dy; }
@@ -55,7 +55,7 @@ GrayRange find_gray_range(ImageView<const std::uint8_t> gray, ImageView<const st
 // Grey values along a line across an edge, averaged over three parallel lines so that noise counts less.
 class EdgeProfile {
  public:
-  EdgeProfile(ImageView<const std::uint8_t> gray, int x, int y, Direction direction)
+  EdgeProfile(ImageView<const std::uint8_t> gray, int x, int y, EdgeDirection direction)
       : gray_(gray), x_(x), y_(y), direction_(direction) {}
 
   // Four times the grey value at step `t`.
@@ -71,7 +71,7 @@ class EdgeProfile {
   ImageView<const std::uint8_t> gray_;
   int x_;
   int y_;
-  Direction direction_;
+  EdgeDirection direction_;
 };
 
 // Where the slope in this sense has faded, to the side `step`.
@@ -95,7 +95,7 @@ class EdgeCollector {
                 int border_px, int min_rise)
       : gray_(gray), labels_(labels), label_(label), border_px_(border_px), min_rise_(min_rise) {}
 
-  int collect(Direction direction, WidthHistogram& widths) const {
+  int collect(EdgeDirection direction, WidthHistogram& widths) const {
     widths = {};
     int edges = 0;
     // The flattest edge that still ends within reach.
@@ -154,9 +154,9 @@ EdgeBlur measure_edge_blur(ImageView<const std::uint8_t> gray, ImageView<const s
   const int border_px = std::clamp(params.border_px, 0, kReach_px);
   const auto min_rise = static_cast<int>(4.0 * params.min_rise_share * range.contrast());
   const EdgeCollector collector(gray, labels, label, border_px, min_rise);
-  constexpr std::array<Direction, 4> kDirections = {{{1, 0}, {1, 1}, {0, 1}, {-1, 1}}};
+  constexpr std::array<EdgeDirection, 4> kDirections = {{{1, 0}, {1, 1}, {0, 1}, {-1, 1}}};
   WidthHistogram widths;
-  for (const Direction direction : kDirections) {
+  for (const EdgeDirection direction : kDirections) {
     const int edges = collector.collect(direction, widths);
     if (edges < std::max(params.min_edges, 1)) continue;
     blur.is_measured = true;

@@ -10,14 +10,14 @@
 namespace traygauge {
 namespace {
 
-constexpr int kBlock = 64;             // target pixels at a time
-constexpr std::uint32_t kUnit = 256;   // fractions of a pixel in bilinear weights
-constexpr int kMaxSamplesPerAxis = 8;  // so that sums of weights fit 32 bits
+constexpr int kTargetPixels = 64;     // target pixels at a time
+constexpr std::uint32_t kUnit = 256;  // fractions of a pixel in bilinear weights
+constexpr int kMaxSamplesAcross = 8;  // so that sums of weights fit 32 bits
 
 // Frame positions of a run of target pixels in one row.
 struct PositionBlock {
-  std::array<float, kBlock> x;
-  std::array<float, kBlock> y;
+  std::array<float, kTargetPixels> x;
+  std::array<float, kTargetPixels> y;
   int count = 0;
 };
 
@@ -25,7 +25,7 @@ Vec2 frame_position(const LensModel& lens, const PinholeCamera& camera, const Ve
   return lens.pixel(camera.ray(target_pixel));
 }
 
-// As frame_position, for kBlock pixels in single precision, written to vectorise.
+// As frame_position, for kTargetPixels pixels in single precision, written to vectorise.
 void compute_positions(const LensModel& lens, const PinholeCamera& camera, int left, int row,
                        PositionBlock& block) {
   const LensLanes lanes(lens);
@@ -33,7 +33,7 @@ void compute_positions(const LensModel& lens, const PinholeCamera& camera, int l
   const auto first_x = static_cast<float>(first.x());
   const auto step_x = static_cast<float>(1.0 / camera.fx_px);
   const auto y = static_cast<float>(first.y());
-  for (int i = 0; i < kBlock; ++i) {
+  for (int i = 0; i < kTargetPixels; ++i) {
     const auto index = static_cast<std::size_t>(i);
     const LensLanes::Pixel pixel = lanes.pixel(first_x + step_x * static_cast<float>(i), y);
     block.x[index] = pixel.x;
@@ -43,8 +43,8 @@ void compute_positions(const LensModel& lens, const PinholeCamera& camera, int l
 
 // Offsets of the samples of a target pixel, in the frame.
 struct SubGrid {
-  std::array<float, kMaxSamplesPerAxis * kMaxSamplesPerAxis> x{};
-  std::array<float, kMaxSamplesPerAxis * kMaxSamplesPerAxis> y{};
+  std::array<float, kMaxSamplesAcross * kMaxSamplesAcross> x{};
+  std::array<float, kMaxSamplesAcross * kMaxSamplesAcross> y{};
   int size = 0;
   float reach_px = 0.0F;
 };
@@ -77,7 +77,7 @@ bool is_inside(const PositionBlock& block, float reach_px, int width, int height
   float low = block.x[0];
   float high_x = block.x[0];
   float high_y = block.y[0];
-  for (std::size_t i = 0; i < kBlock; ++i) {
+  for (std::size_t i = 0; i < kTargetPixels; ++i) {
     low = std::min(low, std::min(block.x[i], block.y[i]));
     high_x = std::max(high_x, block.x[i]);
     high_y = std::max(high_y, block.y[i]);
@@ -156,8 +156,8 @@ void sample_frame(const FrameView& frame, const LensModel& lens, const Cutout& c
                   ImageView<std::uint8_t> gray) {
   PositionBlock block;
   for (int row = 0; row < cutout.height; ++row) {
-    for (int left = 0; left < cutout.width; left += kBlock) {
-      block.count = std::min(kBlock, cutout.width - left);
+    for (int left = 0; left < cutout.width; left += kTargetPixels) {
+      block.count = std::min(kTargetPixels, cutout.width - left);
       compute_positions(lens, cutout.camera, left, row, block);
       const Vec2 centre(left + 0.5 * block.count, static_cast<double>(row));
       const SubGrid grid = make_sub_grid(lens, cutout.camera, centre, per_axis);
@@ -176,7 +176,7 @@ void sample_frame(const FrameView& frame, const LensModel& lens, const Cutout& c
 void resample_undistorted(const FrameView& frame, const LensModel& lens, const Cutout& cutout,
                           ImageView<std::uint8_t> gray, const ResampleParams& params) {
   const double reduction = lens.pinhole.mean_focal_px() / cutout.camera.mean_focal_px();
-  const int most = std::clamp(params.max_samples_per_axis, 1, kMaxSamplesPerAxis);
+  const int most = std::clamp(params.max_samples_per_axis, 1, kMaxSamplesAcross);
   const int per_axis = static_cast<int>(std::clamp(std::round(reduction), 1.0, static_cast<double>(most)));
   if (frame.format == PixelFormat::gray8) {
     sample_frame<1>(frame, lens, cutout, per_axis, gray);
@@ -189,8 +189,8 @@ void resample_labels_undistorted(ImageView<const std::uint8_t> labels, const Len
                                  const Cutout& cutout, ImageView<std::uint8_t> target) {
   PositionBlock block;
   for (int row = 0; row < cutout.height; ++row) {
-    for (int left = 0; left < cutout.width; left += kBlock) {
-      block.count = std::min(kBlock, cutout.width - left);
+    for (int left = 0; left < cutout.width; left += kTargetPixels) {
+      block.count = std::min(kTargetPixels, cutout.width - left);
       compute_positions(lens, cutout.camera, left, row, block);
       std::uint8_t* out = target.row(row) + left;
       for (int i = 0; i < block.count; ++i) {

@@ -5,6 +5,8 @@
 #include <cstring>
 #include <limits>
 
+#include "core/base/lanes.hpp"
+
 namespace traygauge {
 
 namespace {
@@ -17,27 +19,19 @@ struct alignas(32) Tile {
   float square[kTileRows][kBlockSize];
 };
 
-// Four floats in one register: SSE and NEON have it, and arrays of plain floats would stay in memory.
-using Lanes [[gnu::vector_size(16)]] = float;
-constexpr std::size_t kLanes = 4;
-constexpr std::size_t kRegisters = kBlockSize / kLanes;
-
-Lanes load(const float* values) {
-  Lanes lanes;
-  std::memcpy(&lanes, values, sizeof lanes);
-  return lanes;
-}
+// In registers: arrays of plain floats would stay in memory.
+constexpr std::size_t kRegisters = kBlockSize / kFloatLanes;
 
 // The sums run over the dimensions in their order, as in block_squares: the same bits.
 void compute_tile(const TileRows& rows, const float* block, Tile& tile) {
-  Lanes sums[kTileRows][kRegisters] = {};
+  FloatLanes sums[kTileRows][kRegisters] = {};
   for (std::size_t d = 0; d < kDescriptorLength; ++d) {
 #pragma GCC unroll 2
     for (std::size_t v = 0; v < kRegisters; ++v) {
-      const Lanes columns = load(block + d * kBlockSize + v * kLanes);
+      const FloatLanes columns = load_floats(block + d * kBlockSize + v * kFloatLanes);
 #pragma GCC unroll 4
       for (std::size_t r = 0; r < kTileRows; ++r) {
-        const Lanes difference = rows[r][d] - columns;
+        const FloatLanes difference = rows[r][d] - columns;
         sums[r][v] += difference * difference;
       }
     }

@@ -6,7 +6,7 @@ namespace {
 constexpr double kDifferencePx = 4.0;  // of the derivatives: small against the curvature of any lens
 constexpr double kNearestMm = 10.0;    // in front of the second camera
 constexpr double kSteepestRay = 0.1;   // least fall of a ray, as a share of its length: 6° over the table
-constexpr double kLargestRay = 2.0;    // tan 63°: beyond, a lens model is an extrapolation
+constexpr double kLargestTransferredRay = 2.0;  // tan 63°: beyond, a lens model is an extrapolation
 
 }  // namespace
 
@@ -45,7 +45,7 @@ bool HeightTransfer::project(const Vec3& point_mm, Vec2& pixel) const {
   const Vec3 seen = second_from_table_ * point_mm;
   if (!(seen.z() > kNearestMm)) return false;
   const Vec2 ray = seen.head<2>() / seen.z();
-  if (!(ray.squaredNorm() < kLargestRay * kLargestRay)) return false;
+  if (!(ray.squaredNorm() < kLargestTransferredRay * kLargestTransferredRay)) return false;
   pixel = second_.pixel(ray);
   return pixel.allFinite();
 }

@@ -8,7 +8,7 @@ namespace traygauge {
 namespace {
 
 constexpr std::size_t kEntries = 9;
-constexpr std::size_t kSample = 5;
+constexpr std::size_t kFivePoints = 5;
 constexpr std::size_t kBasis = 4;
 constexpr int kMaxSweeps = 12;  // Jacobi converges quadratically: 9x9 takes six or seven
 // Off-diagonal square sum, relative to the trace's square, below which rotations change nothing.
@@ -51,22 +51,22 @@ void reflect(const Vec9& v, std::size_t start, Vec9& target) {
 
 // Householder reflections H0…H4 make the five rows triangular; the complement is H0…H4 e5…e8.
 void complement_five_rows(std::span<const RayMatch> matches, std::array<Mat3, kBasis>& basis) {
-  std::array<Vec9, kSample> rows;
-  for (std::size_t k = 0; k < kSample; ++k) rows[k] = epipolar_row(matches[k]);
-  std::array<Vec9, kSample> mirrors{};
-  for (std::size_t k = 0; k < kSample; ++k) {
+  std::array<Vec9, kFivePoints> rows;
+  for (std::size_t k = 0; k < kFivePoints; ++k) rows[k] = epipolar_row(matches[k]);
+  std::array<Vec9, kFivePoints> mirrors{};
+  for (std::size_t k = 0; k < kFivePoints; ++k) {
     const double length = std::sqrt(dot_from(rows[k], rows[k], k));
     for (std::size_t i = k; i < kEntries; ++i) mirrors[k][i] = rows[k][i];
     mirrors[k][k] += rows[k][k] < 0.0 ? -length : length;
     const double norm = std::sqrt(dot_from(mirrors[k], mirrors[k], k));
     const double scale = norm > 0.0 ? 1.0 / norm : 0.0;  // a repeated match: no reflection
     for (std::size_t i = k; i < kEntries; ++i) mirrors[k][i] *= scale;
-    for (std::size_t j = k + 1; j < kSample; ++j) reflect(mirrors[k], k, rows[j]);
+    for (std::size_t j = k + 1; j < kFivePoints; ++j) reflect(mirrors[k], k, rows[j]);
   }
   for (std::size_t b = 0; b < kBasis; ++b) {
     Vec9 e{};
-    e[kSample + b] = 1.0;
-    for (std::size_t k = kSample; k-- > 0;) reflect(mirrors[k], k, e);
+    e[kFivePoints + b] = 1.0;
+    for (std::size_t k = kFivePoints; k-- > 0;) reflect(mirrors[k], k, e);
     basis[b] = as_matrix(e);
   }
 }
@@ -146,7 +146,7 @@ void mix(std::array<Mat3, kBasis>& basis) {
 }  // namespace
 
 void span_epipolar_null_space(std::span<const RayMatch> matches, std::array<Mat3, 4>& basis) {
-  if (matches.size() == kSample) {
+  if (matches.size() == kFivePoints) {
     complement_five_rows(matches, basis);
   } else {
     smallest_singular_vectors(matches, basis);

@@ -7,16 +7,16 @@
 namespace traygauge {
 namespace {
 
-constexpr std::size_t kLanes = 4;        // matches computed side by side
+constexpr std::size_t kMatchLanes = 4;   // matches computed side by side
 constexpr std::size_t kCheckEvery = 64;  // matches between two looks at whether a model can still win
-using Lanes = Eigen::Array<double, kLanes, 1>;
+using MatchLanes = Eigen::Array<double, kMatchLanes, 1>;
 
-Lanes load(std::span<const double> values, std::size_t i) {
-  return Eigen::Map<const Lanes, Eigen::AlignedMax>(values.data() + i);
+MatchLanes load(std::span<const double> values, std::size_t i) {
+  return Eigen::Map<const MatchLanes, Eigen::AlignedMax>(values.data() + i);
 }
 
 // Distances of the matches i, i + 1, i + 2, i + 3: the same operations as symmetric_epipolar_distance_px.
-Lanes distances_px(const EpipolarTerms<Lanes>& terms, double focal_px) {
+MatchLanes distances_px(const EpipolarTerms<MatchLanes>& terms, double focal_px) {
   const auto fraction = squared_distance_fraction(terms);
   return focal_px * (fraction.numerator / fraction.denominator.max(kMinDenominator)).sqrt();
 }
@@ -36,10 +36,10 @@ bool MatchTable::push_back(const RayMatch& match) {
 void MatchTable::measure_distances(const Mat3& essential, double focal_px,
                                    std::span<double> distances) const {
   std::size_t i = 0;
-  for (; i + kLanes <= size_; i += kLanes) {
+  for (; i + kMatchLanes <= size_; i += kMatchLanes) {
     const auto terms =
-        epipolar_terms<Lanes>(essential, load(x1_, i), load(y1_, i), load(x2_, i), load(y2_, i));
-    Eigen::Map<Lanes>(distances.data() + i) = distances_px(terms, focal_px);
+        epipolar_terms<MatchLanes>(essential, load(x1_, i), load(y1_, i), load(x2_, i), load(y2_, i));
+    Eigen::Map<MatchLanes>(distances.data() + i) = distances_px(terms, focal_px);
   }
   for (; i < size_; ++i) distances[i] = symmetric_epipolar_distance_px(essential, (*this)[i], focal_px);
 }
@@ -51,12 +51,13 @@ std::size_t MatchTable::count_inliers(const Mat3& essential, double focal_px, do
   for (std::size_t start = 0; start < size_; start += kCheckEvery) {
     if (count + (size_ - start) <= to_beat) return count;
     const std::size_t end = std::min(start + kCheckEvery, size_);
-    Lanes hits = Lanes::Zero();
+    MatchLanes hits = MatchLanes::Zero();
     std::size_t i = start;
-    for (; i + kLanes <= end; i += kLanes) {
+    for (; i + kMatchLanes <= end; i += kMatchLanes) {
       const auto fraction = squared_distance_fraction(
-          epipolar_terms<Lanes>(essential, load(x1_, i), load(y1_, i), load(x2_, i), load(y2_, i)));
-      hits += (fraction.numerator <= limit * fraction.denominator).select(Lanes::Ones(), Lanes::Zero());
+          epipolar_terms<MatchLanes>(essential, load(x1_, i), load(y1_, i), load(x2_, i), load(y2_, i)));
+      hits +=
+          (fraction.numerator <= limit * fraction.denominator).select(MatchLanes::Ones(), MatchLanes::Zero());
     }
     count += static_cast<std::size_t>(hits.sum());
     for (; i < end; ++i) {
@@ -74,11 +75,11 @@ double MatchTable::fitness(const Mat3& essential, double focal_px, double thresh
   for (std::size_t start = 0; start < size_; start += kCheckEvery) {
     if (fitness + static_cast<double>(size_ - start) * threshold_px <= to_beat) return fitness;
     const std::size_t end = std::min(start + kCheckEvery, size_);
-    Lanes sum = Lanes::Zero();
+    MatchLanes sum = MatchLanes::Zero();
     std::size_t i = start;
-    for (; i + kLanes <= end; i += kLanes) {
+    for (; i + kMatchLanes <= end; i += kMatchLanes) {
       const auto terms =
-          epipolar_terms<Lanes>(essential, load(x1_, i), load(y1_, i), load(x2_, i), load(y2_, i));
+          epipolar_terms<MatchLanes>(essential, load(x1_, i), load(y1_, i), load(x2_, i), load(y2_, i));
       sum += (threshold_px - distances_px(terms, focal_px)).max(0.0);
     }
     fitness += sum.sum();

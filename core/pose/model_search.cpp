@@ -12,10 +12,10 @@ namespace {
 constexpr std::size_t kMinimalSample = 5;
 constexpr std::size_t kMaxSample = 32;
 
-class Search {
+class ModelSearch {
  public:
-  Search(const RelativePoseParams& params, double focal_px, const ThresholdEstimator& thresholds,
-         Random& random, RelativePoseWorkspace& workspace)
+  ModelSearch(const RelativePoseParams& params, double focal_px, const ThresholdEstimator& thresholds,
+              Random& random, RelativePoseWorkspace& workspace)
       : params_(params),
         focal_px_(focal_px),
         thresholds_(thresholds),
@@ -121,7 +121,7 @@ class Search {
 FoundModel search_model(const RelativePoseParams& params, double focal_px,
                         const ThresholdEstimator& thresholds, Random& random,
                         RelativePoseWorkspace& workspace) {
-  return Search(params, focal_px, thresholds, random, workspace).run();
+  return ModelSearch(params, focal_px, thresholds, random, workspace).run();
 }
 
 std::span<const std::uint32_t> list_inliers(const Mat3& essential, double focal_px, double threshold_px,

@@ -9,7 +9,8 @@ namespace traygauge {
 namespace {
 
 constexpr double kMinNormal = 1e-12;  // of an epipolar line; a point that near the epipole has no direction
-constexpr double kHalf = 0.5 * std::numbers::sqrt2;  // a distance is the root of the mean of its two squares
+constexpr double kHalfOfSquares =
+    0.5 * std::numbers::sqrt2;  // a distance is the root of the mean of its two squares
 
 // Two unit vectors that complete unit t to an orthogonal frame.
 Eigen::Matrix<double, 3, 2> tangents(const Vec3& t) {
@@ -53,8 +54,8 @@ double EpipolarProblem::linearise(const Pose& pose, Equations& equations) const 
     const double normal1 = line1.head<2>().norm();
     if (normal1 < kMinNormal || normal2 < kMinNormal) continue;
     const double constraint = x2.dot(line2);
-    const double scale2 = kHalf * focal_px_ / normal2;
-    const double scale1 = kHalf * focal_px_ / normal1;
+    const double scale2 = kHalfOfSquares * focal_px_ / normal2;
+    const double scale1 = kHalfOfSquares * focal_px_ / normal1;
     const double residual2 = constraint * scale2;
     const double residual1 = constraint * scale1;
     const double squared = residual1 * residual1 + residual2 * residual2;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/base/median.hpp"
 #include "core/pose/epipolar.hpp"
 #include "core/pose/essential_decomposition.hpp"
 #include "core/pose/model_search.hpp"
@@ -48,12 +49,6 @@ void load_distinct(std::span<const RayMatch> matches, RelativePoseWorkspace& wor
   for (std::size_t i = 0; i < order.size(); ++i) {
     if (repeated[i] == 0.0) workspace.matches.push_back(matches[i]);
   }
-}
-
-double median(std::span<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 double median_displacement_px(RelativePoseWorkspace& workspace, double focal_px) {

@@ -3,10 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/median.hpp"
+
 namespace traygauge {
 namespace {
 
-constexpr double kMedianToSigma = 1.4826;  // of normal errors
 constexpr int kNoiseRounds = 4;
 constexpr double kNoiseReach = 3.0;      // sigmas within which tracks tell the noise
 constexpr double kMinTableSpread = 0.3;  // smoother than this the table is not taken for
@@ -162,10 +163,8 @@ void TrackWeighing::measure_table_spread(const TrackResiduals& residuals) {
   }
   table_spread_ = 1.0;
   if (count == 0) return;
-  const auto middle = workspace_.magnitudes.begin() + static_cast<std::ptrdiff_t>(count / 2);
-  std::nth_element(workspace_.magnitudes.begin(), middle,
-                   workspace_.magnitudes.begin() + static_cast<std::ptrdiff_t>(count));
-  table_spread_ = std::clamp(kMedianToSigma * *middle, kMinTableSpread, 1.0);
+  const double middle = median(std::span(workspace_.magnitudes).first(count));
+  table_spread_ = std::clamp(kMedianToSigma * middle, kMinTableSpread, 1.0);
 }
 
 }  // namespace traygauge

@@ -9,15 +9,15 @@
 namespace traygauge {
 namespace {
 
-constexpr int kBlock = 64;  // samples at a time
+constexpr int kSamplesAtOnce = 64;  // samples at a time
 constexpr int kMaxSubSamples = kMaxSamplesPerAxis * kMaxSamplesPerAxis;
 constexpr int kFractionBits = 7;  // of a position; weights then have 14 bits
-constexpr int kUnit = 1 << kFractionBits;
+constexpr int kPlaneUnit = 1 << kFractionBits;
 
 // Picture positions of successive samples of a row.
 struct Positions {
-  std::array<float, kBlock> x;
-  std::array<float, kBlock> y;
+  std::array<float, kSamplesAtOnce> x;
+  std::array<float, kSamplesAtOnce> y;
 };
 
 // A row in the camera: homogeneous, linear in the column.
@@ -38,7 +38,7 @@ void compute_positions(const LensModel& lens, const CameraRow& row, int left, Po
   const LensLanes lanes(lens);
   const Eigen::Vector3f first = (row.origin + left * row.step).cast<float>();
   const Eigen::Vector3f step = row.step.cast<float>();
-  for (int i = 0; i < kBlock; ++i) {
+  for (int i = 0; i < kSamplesAtOnce; ++i) {
     const auto at = static_cast<std::size_t>(i);
     const auto offset = static_cast<float>(i);
     const float inverse = 1.0F / (first.z() + offset * step.z());
@@ -50,44 +50,44 @@ void compute_positions(const LensModel& lens, const CameraRow& row, int left, Po
 }
 
 // Offsets of the picture samples that are averaged for one of the grid.
-struct SubGrid {
-  std::array<int, kMaxSubSamples> x{};  // in 1 / kUnit px
+struct PlaneSubGrid {
+  std::array<int, kMaxSubSamples> x{};  // in 1 / kPlaneUnit px
   std::array<int, kMaxSubSamples> y{};
   int size = 0;
   int reach = 0;
 };
 
-SubGrid make_sub_grid(const Vec2& by_column, const Vec2& by_row, int max_per_axis) {
+PlaneSubGrid make_sub_grid(const Vec2& by_column, const Vec2& by_row, int max_per_axis) {
   const auto steps = [&](const Vec2& change) {
     return static_cast<int>(std::clamp(std::round(change.norm()), 1.0, static_cast<double>(max_per_axis)));
   };
   const int across = steps(by_column);
   const int down = steps(by_row);
-  SubGrid grid;
+  PlaneSubGrid grid;
   for (int j = 0; j < down; ++j) {
     for (int i = 0; i < across; ++i) {
       const Vec2 offset = by_column * ((i + 0.5) / across - 0.5) + by_row * ((j + 0.5) / down - 0.5);
       const auto at = static_cast<std::size_t>(grid.size++);
-      grid.x[at] = static_cast<int>(std::lround(offset.x() * kUnit));
-      grid.y[at] = static_cast<int>(std::lround(offset.y() * kUnit));
+      grid.x[at] = static_cast<int>(std::lround(offset.x() * kPlaneUnit));
+      grid.y[at] = static_cast<int>(std::lround(offset.y() * kPlaneUnit));
       grid.reach = std::max({grid.reach, std::abs(grid.x[at]), std::abs(grid.y[at])});
     }
   }
   return grid;
 }
 
-// Bilinear, scaled by kUnit².
+// Bilinear, scaled by kPlaneUnit².
 std::uint32_t sample(ImageView<const std::uint8_t> picture, int x, int y) {
   const std::uint8_t* upper = picture.row(y >> kFractionBits) + (x >> kFractionBits);
   const std::uint8_t* lower = upper + picture.stride;
-  const int right = x & (kUnit - 1);
-  const int below = y & (kUnit - 1);
+  const int right = x & (kPlaneUnit - 1);
+  const int below = y & (kPlaneUnit - 1);
   const int top = (upper[0] << kFractionBits) + right * (upper[1] - upper[0]);
   const int bottom = (lower[0] << kFractionBits) + right * (lower[1] - lower[0]);
   return static_cast<std::uint32_t>((top << kFractionBits) + below * (bottom - top));
 }
 
-void sample_block(ImageView<const std::uint8_t> picture, const Positions& positions, const SubGrid& grid,
+void sample_block(ImageView<const std::uint8_t> picture, const Positions& positions, const PlaneSubGrid& grid,
                   int count, std::uint8_t* out) {
   const int last_x = ((picture.width - 1) << kFractionBits) - 1;
   const int last_y = ((picture.height - 1) << kFractionBits) - 1;
@@ -104,8 +104,8 @@ void sample_block(ImageView<const std::uint8_t> picture, const Positions& positi
       out[i] = 0;
       continue;
     }
-    const auto x = static_cast<int>(x_px * kUnit + 0.5F);
-    const auto y = static_cast<int>(y_px * kUnit + 0.5F);
+    const auto x = static_cast<int>(x_px * kPlaneUnit + 0.5F);
+    const auto y = static_cast<int>(y_px * kPlaneUnit + 0.5F);
     std::uint32_t sum = half;
     if (x >= grid.reach && y >= grid.reach && x + grid.reach <= last_x && y + grid.reach <= last_y) {
       for (std::size_t s = 0; s < static_cast<std::size_t>(grid.size); ++s) {
@@ -131,14 +131,14 @@ void PlaneRectification::sample_gray(const StoredView& source, ImageView<std::ui
   const int most = std::clamp(max_samples_per_axis_, 1, 4);
   for (int r = 0; r < rows(); ++r) {
     const CameraRow line = row_in_camera(row(r), source.camera_from_table, plane_height_mm_, column_step_mm_);
-    for (int left = 0; left < columns_; left += kBlock) {
-      const int count = std::min(kBlock, columns_ - left);
+    for (int left = 0; left < columns_; left += kSamplesAtOnce) {
+      const int count = std::min(kSamplesAtOnce, columns_ - left);
       compute_positions(source.lens, line, left, positions);
       // The map is linear enough over a block for one grid: its Jacobian there.
       const double middle = left + 0.5 * count;
       const int other = r + 1 < rows() ? r + 1 : std::max(r - 1, 0);
       const Vec2 here = position(r, middle);
-      const SubGrid grid =
+      const PlaneSubGrid grid =
           make_sub_grid(position(r, middle + 1.0) - here, position(other, middle) - here, most);
       sample_block(source.gray, positions, grid, count, target.row(r) + left);
     }
@@ -150,8 +150,8 @@ void PlaneRectification::sample_labels(const StoredView& source, const LabelTabl
   Positions positions;
   for (int r = 0; r < rows(); ++r) {
     const CameraRow line = row_in_camera(row(r), source.camera_from_table, plane_height_mm_, column_step_mm_);
-    for (int left = 0; left < columns_; left += kBlock) {
-      const int count = std::min(kBlock, columns_ - left);
+    for (int left = 0; left < columns_; left += kSamplesAtOnce) {
+      const int count = std::min(kSamplesAtOnce, columns_ - left);
       compute_positions(source.lens, line, left, positions);
       for (int i = 0; i < count; ++i) {
         const float x = positions.x[static_cast<std::size_t>(i)] + 0.5F;

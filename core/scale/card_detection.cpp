@@ -13,7 +13,7 @@ namespace traygauge {
 
 namespace {
 
-constexpr std::size_t kSample = 4;
+constexpr std::size_t kCornerSample = 4;
 
 struct Consensus {
   int count = 0;
@@ -47,12 +47,12 @@ double doubled_area(const Vec2& a, const Vec2& b, const Vec2& c) {
 }
 
 // A view of the printed side turns no triangle over; a flat triangle fixes nothing.
-bool is_good_sample(const std::array<Vec2, kSample>& rays, const std::array<Vec2, kSample>& pattern,
-                    double min_area_mm2) {
-  for (std::size_t left_out = 0; left_out < kSample; ++left_out) {
-    const std::size_t a = (left_out + 1) % kSample;
-    const std::size_t b = (left_out + 2) % kSample;
-    const std::size_t c = (left_out + 3) % kSample;
+bool is_good_sample(const std::array<Vec2, kCornerSample>& rays,
+                    const std::array<Vec2, kCornerSample>& pattern, double min_area_mm2) {
+  for (std::size_t left_out = 0; left_out < kCornerSample; ++left_out) {
+    const std::size_t a = (left_out + 1) % kCornerSample;
+    const std::size_t b = (left_out + 2) % kCornerSample;
+    const std::size_t c = (left_out + 3) % kCornerSample;
     const double on_pattern = doubled_area(pattern[a], pattern[b], pattern[c]);
     if (std::abs(on_pattern) < 2.0 * min_area_mm2) return false;
     if (on_pattern * doubled_area(rays[a], rays[b], rays[c]) <= 0.0) return false;
@@ -70,10 +70,10 @@ bool make_rigid(Mat3& pattern_from_ray) {
 
 bool draw_hypothesis(std::span<const CardTrack> tracks, const CardModelSize& size,
                      const CardDetectionParams& params, Random& random, Mat3& pattern_from_ray) {
-  const auto sample = sample_distinct<kSample>(random, tracks.size());
-  std::array<Vec2, kSample> rays;
-  std::array<Vec2, kSample> pattern;
-  for (std::size_t k = 0; k < kSample; ++k) {
+  const auto sample = sample_distinct<kCornerSample>(random, tracks.size());
+  std::array<Vec2, kCornerSample> rays;
+  std::array<Vec2, kCornerSample> pattern;
+  for (std::size_t k = 0; k < kCornerSample; ++k) {
     rays[k] = tracks[sample[k]].first;
     pattern[k] = tracks[sample[k]].pattern_mm;
   }
@@ -122,7 +122,8 @@ Status find_card(std::span<const CardTrack> tracks, const CardModelSize& size, c
   const auto trial = workspace.trial_inliers.first(tracks.size());
   std::fill(inliers.begin(), inliers.end(), std::uint8_t{0});
   fit.inliers = inliers;
-  if (tracks.size() < std::max<std::size_t>(kSample, static_cast<std::size_t>(params.detection.min_tracks))) {
+  if (tracks.size() <
+      std::max<std::size_t>(kCornerSample, static_cast<std::size_t>(params.detection.min_tracks))) {
     return StatusCode::card_not_found;
   }
   const double inlier_mm = params.detection.inlier_share * size.length_mm();
@@ -137,14 +138,14 @@ Status find_card(std::span<const CardTrack> tracks, const CardModelSize& size, c
     best = consensus;
     fit.pattern_from_first = hypothesis;
     std::copy(trial.begin(), trial.end(), inliers.begin());
-    bound.update(static_cast<double>(best.count) / static_cast<double>(tracks.size()), kSample);
+    bound.update(static_cast<double>(best.count) / static_cast<double>(tracks.size()), kCornerSample);
   }
   fit.iterations = bound.iterations();
   if (best.count >= params.detection.min_tracks) {
     best = polish(tracks, params, inlier_mm, best, workspace, fit.pattern_from_first);
   }
   fit.inlier_count = best.count;
-  if (best.count < std::max(params.detection.min_tracks, static_cast<int>(kSample)))
+  if (best.count < std::max(params.detection.min_tracks, static_cast<int>(kCornerSample)))
     return StatusCode::card_not_found;
   fit.rms_mm = std::sqrt(best.square_mm2 / best.count);
   fit.log10_false_alarms = log10_false_alarms(tracks, inliers, inlier_mm, size);

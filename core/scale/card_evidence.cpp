@@ -12,18 +12,18 @@ namespace traygauge {
 
 namespace {
 
-constexpr int kGrid = 32;                    // places along the card's length: about the inlier distance each
+constexpr int kPlaces = 32;                  // places along the card's length: about the inlier distance each
 constexpr std::size_t kMaxChanceRows = 512;  // tracks whose neighbours are counted; bounds the time
 
 int count_places(std::span<const CardTrack> tracks, std::span<const std::uint8_t> inliers,
                  const CardModelSize& size) {
-  std::array<std::uint32_t, kGrid> taken{};
+  std::array<std::uint32_t, kPlaces> taken{};
   int places = 0;
-  const double per_mm = kGrid / size.length_mm();
+  const double per_mm = kPlaces / size.length_mm();
   for (std::size_t i = 0; i < tracks.size(); ++i) {
     if (inliers[i] == 0) continue;
-    const auto x = static_cast<unsigned>(std::clamp(tracks[i].pattern_mm.x() * per_mm, 0.0, kGrid - 1.0));
-    const auto y = static_cast<unsigned>(std::clamp(tracks[i].pattern_mm.y() * per_mm, 0.0, kGrid - 1.0));
+    const auto x = static_cast<unsigned>(std::clamp(tracks[i].pattern_mm.x() * per_mm, 0.0, kPlaces - 1.0));
+    const auto y = static_cast<unsigned>(std::clamp(tracks[i].pattern_mm.y() * per_mm, 0.0, kPlaces - 1.0));
     if ((taken[y] >> x & 1U) == 0) ++places;
     taken[y] |= 1U << x;
   }

@@ -13,10 +13,6 @@ namespace {
 constexpr int kSupportBins = 32;  // along a side
 constexpr double kFlat = 1e-12;   // in rays²: two sides on one line, that rounding has bent inwards
 
-double cross(const Vec2& a, const Vec2& b) {
-  return a.x() * b.y() - a.y() * b.x();
-}
-
 struct Line {
   Vec2 point = Vec2::Zero();
   Vec2 direction = Vec2::UnitX();  // of unit length

@@ -6,9 +6,9 @@ namespace traygauge {
 namespace {
 
 constexpr double kSplineDeviation = 0.57735026918962573;  // of the cubic B-spline with knots 1 apart: 1/√3
-constexpr int kBlock = 768;                               // source columns at a time: 3 KiB of sums
-constexpr int kMaxTaps = kBlock;   // of a kernel: a picture finer than 100 px/mm is blurred less
-constexpr int kPool = 2 * kBlock;  // weights of neighbouring kernels
+constexpr int kPrintColumns = 768;                        // source columns at a time: 3 KiB of sums
+constexpr int kMaxTaps = kPrintColumns;   // of a kernel: a picture finer than 100 px/mm is blurred less
+constexpr int kPool = 2 * kPrintColumns;  // weights of neighbouring kernels
 constexpr int kMaxKernels = 64;
 constexpr int kMinSide = 4;  // px of a level
 
@@ -66,7 +66,7 @@ struct ColumnKernels {
     for (count = 0; count < kMaxKernels && column + count < axis.target; ++count) {
       double centre = 0.0;
       const Kernel kernel = kernel_at(column + count, axis, centre);
-      if (count > 0 && (used + kernel.count > kPool || kernel.end() - first() > kBlock)) break;
+      if (count > 0 && (used + kernel.count > kPool || kernel.end() - first() > kPrintColumns)) break;
       weigh(kernel, centre, axis, weights.data() + used);
       kernels[static_cast<std::size_t>(count)] = kernel;
       used += kernel.count;
@@ -74,7 +74,7 @@ struct ColumnKernels {
   }
 };
 
-using Sums = std::array<float, kBlock>;
+using Sums = std::array<float, kPrintColumns>;
 
 // Light of the columns [first, first + width), summed over the kernel's rows.
 void sum_columns(ImageView<const std::uint8_t> source, const Kernel& rows, const float* weights, int first,

@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 
+#include "core/base/median.hpp"
 #include "core/scale/print_lanes.hpp"
 #include "core/scale/print_plane.hpp"
 
@@ -11,7 +12,6 @@ namespace traygauge {
 namespace {
 
 constexpr int kGrayBins = 256;
-constexpr double kNormalDeviations = 1.4826;  // standard deviation over the median size, of normal noise
 static_assert(kCardTileSide % kFloatLanes == 0);
 
 std::uint64_t mask_of(CardSampling sampling) {
@@ -311,7 +311,7 @@ CardLinearisation CardPicture::linearise(const Pose& camera_from_table, const Ca
         result.slopes += sum_of(sums.slopes);
         result.samples += std::popcount(bits);
       });
-  result.spread_gray = kNormalDeviations * median_of(histogram, result.samples);
+  result.spread_gray = kMedianToSigma * median_of(histogram, result.samples);
   return result;
 }
 

@@ -1,96 +1,18 @@
 #include "core/scale/card_search.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
-#include <cstring>
 
 #include <Eigen/LU>
 
-#include "core/image/pyramid.hpp"
 #include "core/image/resample.hpp"
 #include "core/scale/card_detection.hpp"
 #include "core/scale/card_hypotheses.hpp"
+#include "core/scale/compared_corners.hpp"
 #include "core/scale/homography.hpp"
 
 namespace traygauge {
 namespace {
-
-// Shrinks `source` into `storage`.
-ImageView<std::uint8_t> reduced(ImageView<const std::uint8_t> source, double scale,
-                                std::span<std::uint8_t> storage) {
-  const int width = static_cast<int>(source.width * scale);
-  const int height = static_cast<int>(source.height * scale);
-  const ImageView<std::uint8_t> target{storage.data(), width, height};
-  if (2 * width == source.width && 2 * height == source.height) {
-    halve(source, target);
-  } else {
-    reduce_area(source, target);
-  }
-  return target;
-}
-
-// Finds corners in `picture` and calls take(corner, descriptor, direction) for each that has a descriptor.
-template <class Take>
-void for_each_corner(ImageView<const std::uint8_t> picture, const BinarySampling& sampling,
-                     const CardSearchParams& params, CardSearchWorkspace& workspace, Take&& take) {
-  const ImageView<std::uint8_t> smooth{workspace.smooth.data(), picture.width, picture.height};
-  box_blur(picture, smooth);
-  Random random(params.seed);
-  find_corners({picture, {}, 1, {}}, params.corners, random, workspace.corner_search, workspace.corners);
-  for (const Corner& corner : workspace.corners) {
-    BinaryDescriptor descriptor;
-    Vec2 direction;
-    if (describe_binary(smooth, corner.x, corner.y, sampling, descriptor, direction))
-      take(Vec2(corner.x, corner.y), descriptor, direction);
-  }
-}
-
-// Of eight bytes up to 128, the highest bit of those that are at most `limit`; the first byte lowest.
-std::uint64_t bytes_up_to(int limit, const std::uint8_t* bytes) {
-  static_assert(std::endian::native == std::endian::little);
-  std::uint64_t eight = 0;
-  std::memcpy(&eight, bytes, sizeof(eight));
-  const auto rest = static_cast<std::uint64_t>(127 - std::min(limit, 127));
-  return ~(eight + 0x0101010101010101U * rest) & 0x8080808080808080U;
-}
-
-// The print's corner that differs least, and clearly less than those elsewhere on the print; nullptr when
-// there is none. `ratio` of the two distances.
-const PrintCorner* find_like(const BinaryDescriptor& descriptor, const PrintCorners& print,
-                             const CardSearchParams& params, double& ratio) {
-  const auto is_elsewhere = [&](const PrintCorner& a, const PrintCorner& b) {
-    return (a.pattern_mm - b.pattern_mm).squaredNorm() > params.same_place_mm * params.same_place_mm;
-  };
-  const PrintCorner* nearest = nullptr;
-  int least = 256;
-  int least_elsewhere = 256;
-  const auto compare = [&](const PrintCorner& corner, int half) {
-    const int distance =
-        half + hamming_distance(descriptor, corner.descriptor, kHalfWords, descriptor.size());
-    if (distance < least) {
-      if (nearest != nullptr && is_elsewhere(*nearest, corner)) least_elsewhere = least;
-      least = distance;
-      nearest = &corner;
-    } else if (distance < least_elsewhere && is_elsewhere(*nearest, corner)) {
-      least_elsewhere = distance;
-    }
-  };
-  const std::span<const PrintCorner> corners = print.corners.items();
-  const DescriptorBlock::Spread spread = DescriptorBlock::spread(descriptor);
-  for (std::size_t begin = 0; begin < corners.size(); begin += DescriptorBlock::kSide) {
-    const DescriptorBlock::Distances halves = print.blocks[begin / DescriptorBlock::kSide].distances(spread);
-    for (std::size_t eight = 0; eight < halves.size(); eight += 8) {
-      std::uint64_t near = bytes_up_to(params.max_half_distance, &halves[eight]);
-      for (; near != 0; near &= near - 1) {
-        const std::size_t i = eight + static_cast<std::size_t>(std::countr_zero(near)) / 8;
-        if (begin + i < corners.size()) compare(corners[begin + i], halves[i]);
-      }
-    }
-  }
-  ratio = static_cast<double>(least) / std::max(1, least_elsewhere);
-  return least <= params.max_distance && ratio <= params.max_distance_ratio ? nearest : nullptr;
-}
 
 // Whether two matches may show the same card: each has its turn and scale, and lies where the other puts it.
 bool agrees(const CardSearchMatch& a, const CardSearchMatch& b, const CardSearchParams& params) {
@@ -120,141 +42,222 @@ double rate(const CardSearchMatch& seed, std::span<const CardSearchMatch> matche
   return sum;
 }
 
-// Once it is known about where the card lies, a corner need not resemble one place of the print more than all
-// others: of the print's corners that may lie there, it shows the one that it differs from least.
-template <class Take>
-void for_each_match_about(const CardSearchMatch& seed, ImageView<const std::uint8_t> picture,
-                          const PrintCorners& print, double card_mm, const CardSearchParams& params,
-                          const CardSearchWorkspace& workspace, Take&& take) {
-  const ImageView<const std::uint8_t> smooth{workspace.smooth.data(), picture.width, picture.height};
-  const double reach_px = params.near_px + (1.0 + params.reach_share) * seed.px_per_mm * card_mm;
-  for (const Corner& corner : workspace.corners) {
-    const Vec2 pixel(corner.x, corner.y);
-    BinaryDescriptor descriptor;
-    Vec2 direction;
-    if ((pixel - seed.pixel).squaredNorm() > reach_px * reach_px) continue;
-    if (!describe_binary(smooth, corner.x, corner.y, print.sampling.front(), descriptor, direction)) continue;
-    const PrintCorner* nearest = nullptr;
-    int least = params.max_distance + 1;
-    for (const PrintCorner& like : print.corners) {
-      const int distance = hamming_distance(descriptor, like.descriptor);
-      if (distance >= least) continue;
-      const CardSearchMatch match{pixel, turned_back_by(direction, like.direction), like.px_per_mm,
-                                  like.pattern_mm, 0.0};
-      if (!agrees(seed, match, params)) continue;
-      least = distance;
-      nearest = &like;
-    }
-    if (nearest != nullptr) take(pixel, nearest->pattern_mm);
-  }
-}
+// Where a part of the picture as stored was taken from, and how much it was shrunk.
+struct Excerpt {
+  Vec2 corner_px = Vec2::Zero();
+  Vec2 shrink = Vec2::Ones();
 
-Status search_at_scale(ImageView<const std::uint8_t> gray, double scale, const LensModel& lens,
-                       const CardModelSize& size, const PrintCorners& print, const CardSearchParams& params,
-                       const CardParams& card, CardSearchWorkspace& workspace, std::array<Vec2, 4>& corners) {
-  const ImageView<const std::uint8_t> picture = reduced(gray, scale, workspace.picture);
-  workspace.matches.clear();
-  for_each_corner(picture, print.sampling.front(), params, workspace,
-                  [&](const Vec2& pixel, const BinaryDescriptor& descriptor, const Vec2& direction) {
-                    double ratio = 1.0;
-                    const PrintCorner* like = find_like(descriptor, print, params, ratio);
-                    if (like == nullptr) return;
-                    workspace.matches.push_back({pixel, turned_back_by(direction, like->direction),
-                                                 like->px_per_mm, like->pattern_mm, 1.0 - ratio});
-                  });
-  std::span<CardSearchMatch> matches = workspace.matches.items();
-  std::sort(matches.begin(), matches.end(), is_clearer);
-  for (int tried = 0; tried < params.max_tried && !matches.empty(); ++tried) {
+  Vec2 stored(const Vec2& pixel) const {
+    return corner_px + Vec2(scale_coordinate(pixel.x(), shrink.x()), scale_coordinate(pixel.y(), shrink.y()));
+  }
+};
+
+class CardSearch {
+ public:
+  CardSearch(ImageView<const std::uint8_t> gray, const LensModel& lens, const CardModelSize& size,
+             const PrintCorners& print, const CardSearchParams& params, const CardParams& card,
+             CardSearchWorkspace& workspace)
+      : gray_(gray),
+        lens_(lens),
+        size_(size),
+        print_(print),
+        params_(params),
+        card_(card),
+        workspace_(workspace) {}
+
+  // Compares corners of the picture with the print's, the strongest first, until those so far show the card:
+  // a print has much contrast, so that most of the others need not be looked at.
+  Status run(double scale) {
+    closer_count_ = 0;
+    ComparedCorners& compared = workspace_.whole;
+    const ImageView<const std::uint8_t> picture = reduce_into(gray_, scale, compared.picture_storage);
+    const Excerpt excerpt{Vec2::Zero(), shrink_of(gray_, picture)};
+    find_compared_corners(picture, params_, workspace_.corner_search, compared);
+    const std::span<Corner> all = compared.corners.items();
+    std::sort(all.begin(), all.end(), is_better);
+    std::size_t looked_at = 0;
+    for (auto wanted = static_cast<std::size_t>(params_.first_corners); looked_at < all.size(); wanted *= 3) {
+      const std::size_t end = std::min(all.size(), wanted);
+      match_corners(all.subspan(looked_at, end - looked_at), print_, params_, compared);
+      looked_at = end;
+      const auto second_chance = [&](const CardSearchMatch& seed) {
+        return can_look_closer(seed, scale) ? look_closer(excerpt, seed, scale)
+                                            : fit_all_about(excerpt, seed, compared);
+      };
+      if (fit_matches(excerpt, compared, second_chance).ok()) return StatusCode::ok;
+    }
+    return StatusCode::card_not_found;
+  }
+
+  // Rays, as search_card gives them.
+  std::array<Vec2, 4> corners() const {
+    const Mat3 ray_from_pattern = fit_.pattern_from_first.inverse();
+    std::array<Vec2, 4> corners = print_corners_mm(size_);
+    for (Vec2& corner : corners) corner = (ray_from_pattern * corner.homogeneous()).hnormalized();
+    return corners;
+  }
+
+ private:
+  static Vec2 shrink_of(ImageView<const std::uint8_t> from, ImageView<const std::uint8_t> to) {
+    return {static_cast<double>(from.width) / to.width, static_cast<double>(from.height) / to.height};
+  }
+
+  // The card among the matches so far. Places for which something speaks, but too little, get the second
+  // chance, which returns a status.
+  template <class SecondChance>
+  Status fit_matches(const Excerpt& excerpt, ComparedCorners& compared, SecondChance&& second_chance) {
+    std::span<CardSearchMatch> matches = compared.matches.items();
+    std::sort(matches.begin(), matches.end(), is_clearer);
+    for (int tried = 0; tried < params_.max_tried && !matches.empty(); ++tried) {
+      const CardSearchMatch seed = best_seed(matches);
+      // Those that agree are used, and out of the way of the next try.
+      const auto rest = std::partition(matches.begin(), matches.end(), [&](const CardSearchMatch& match) {
+        return !agrees(seed, match, params_);
+      });
+      track_count_ = 0;
+      for (auto match = rest; match != matches.end(); ++match)
+        add_track(excerpt.stored(match->pixel), match->pattern_mm);
+      matches = matches.first(static_cast<std::size_t>(rest - matches.begin()));
+      std::sort(matches.begin(), matches.end(), is_clearer);
+      if (fit_tracks(card_).ok()) return StatusCode::ok;
+      if (track_count_ < static_cast<std::size_t>(params_.min_agreeing)) continue;
+      if (second_chance(seed).ok()) return StatusCode::ok;
+    }
+    return StatusCode::card_not_found;
+  }
+
+  CardSearchMatch best_seed(std::span<const CardSearchMatch> matches) const {
     double most = -1.0;
     CardSearchMatch seed;
     for (const CardSearchMatch& match :
-         matches.first(std::min(matches.size(), static_cast<std::size_t>(params.max_seeds)))) {
-      const double rating = rate(match, matches, params);
+         matches.first(std::min(matches.size(), static_cast<std::size_t>(params_.max_seeds)))) {
+      const double rating = rate(match, matches, params_);
       if (rating <= most) continue;
       most = rating;
       seed = match;
     }
-    // Those that agree are used, and out of the way of the next try.
-    const auto rest = std::partition(matches.begin(), matches.end(), [&](const CardSearchMatch& match) {
-      return !agrees(seed, match, params);
-    });
-    std::size_t count = 0;
-    const auto add_track = [&](const Vec2& pixel, const Vec2& pattern_mm) {
-      CardTrack track;
-      track.pattern_mm = pattern_mm;
-      const Vec2 stored(scale_coordinate(pixel.x(), static_cast<double>(gray.width) / picture.width),
-                        scale_coordinate(pixel.y(), static_cast<double>(gray.height) / picture.height));
-      if (lens.undistort_pixel(stored, track.first)) workspace.tracks[count++] = track;
-    };
-    for (auto match = rest; match != matches.end(); ++match) add_track(match->pixel, match->pattern_mm);
-    matches = matches.first(static_cast<std::size_t>(rest - matches.begin()));
-    std::sort(matches.begin(), matches.end(), is_clearer);
-    Random random(params.seed);
-    CardFit fit;
-    Status found = find_card(workspace.tracks.first(count), size, card, random, workspace.card, fit);
-    if (!found.ok() && count >= static_cast<std::size_t>(params.min_agreeing)) {
-      count = 0;
-      for_each_match_about(seed, picture, print, std::hypot(size.width_mm, size.height_mm), params, workspace,
-                           add_track);
-      // A homography of few corners in one part of the card need not be that of any card.
-      CardParams rigid = card;
-      rigid.detection.model = CardModel::absolute_pose;
-      found = find_card(workspace.tracks.first(count), size, rigid, random, workspace.card, fit);
-    }
-    if (!found.ok()) continue;
-    const Mat3 ray_from_pattern = fit.pattern_from_first.inverse();
-    const std::array<Vec2, 4> print_mm = print_corners_mm(size);
-    for (std::size_t i = 0; i < 4; ++i)
-      corners[i] = (ray_from_pattern * print_mm[i].homogeneous()).hnormalized();
-    return StatusCode::ok;
+    return seed;
   }
-  return StatusCode::card_not_found;
-}
+
+  void add_track(const Vec2& stored_px, const Vec2& pattern_mm) {
+    CardTrack track;
+    track.pattern_mm = pattern_mm;
+    if (lens_.undistort_pixel(stored_px, track.first)) workspace_.tracks[track_count_++] = track;
+  }
+
+  Status fit_tracks(const CardParams& card) {
+    Random random(params_.seed);
+    return traygauge::find_card(workspace_.tracks.first(track_count_), size_, card, random, workspace_.card,
+                                fit_);
+  }
+
+  // Once it is known about where the card lies, a corner need not resemble one place of the print more than
+  // all others: of the print's corners that may lie there, it shows the one that it differs from least.
+  Status fit_all_about(const Excerpt& excerpt, const CardSearchMatch& seed, const ComparedCorners& compared) {
+    const double card_mm = std::hypot(size_.width_mm, size_.height_mm);
+    const double reach_px = params_.near_px + (1.0 + params_.reach_share) * seed.px_per_mm * card_mm;
+    track_count_ = 0;
+    for (const Corner& corner : compared.corners) {
+      const Vec2 pixel(corner.x, corner.y);
+      BinaryDescriptor descriptor;
+      Vec2 direction;
+      if ((pixel - seed.pixel).squaredNorm() > reach_px * reach_px) continue;
+      if (!describe_binary(compared.smooth, corner.x, corner.y, print_.sampling.front(), descriptor,
+                           direction))
+        continue;
+      const PrintCorner* nearest = nullptr;
+      int least = params_.max_distance + 1;
+      for (const PrintCorner& like : print_.corners) {
+        const int distance = hamming_distance(descriptor, like.descriptor);
+        if (distance >= least) continue;
+        const CardSearchMatch match{pixel, turned_back_by(direction, like.direction), like.px_per_mm,
+                                    like.pattern_mm, 0.0};
+        if (!agrees(seed, match, params_)) continue;
+        least = distance;
+        nearest = &like;
+      }
+      if (nearest != nullptr) add_track(excerpt.stored(pixel), nearest->pattern_mm);
+    }
+    // A homography of few corners in one part of the card need not be that of any card.
+    CardParams rigid = card_;
+    rigid.detection.model = CardModel::absolute_pose;
+    return fit_tracks(rigid);
+  }
+
+  double closer_scale(const CardSearchMatch& seed, double scale) const {
+    return std::min(1.0, scale * params_.close_px_per_mm / seed.px_per_mm);
+  }
+
+  bool can_look_closer(const CardSearchMatch& seed, double scale) const {
+    return closer_scale(seed, scale) >= params_.min_close_gain * scale;
+  }
+
+  // The card where `seed` puts it, in a finer picture of that place alone.
+  Status look_closer(const Excerpt& excerpt, const CardSearchMatch& seed, double scale) {
+    const auto looked_at = std::span(closer_).first(closer_count_);
+    const bool is_known = std::any_of(looked_at.begin(), looked_at.end(), [&](const CardSearchMatch& other) {
+      return agrees(other, seed, params_);
+    });
+    if (is_known || closer_count_ == closer_.size()) return StatusCode::card_not_found;
+    closer_[closer_count_++] = seed;
+    const Vec2 middle_mm(0.5 * size_.width_mm, 0.5 * size_.height_mm);
+    const Vec2 away_px = seed.px_per_mm * turned_by(middle_mm - seed.pattern_mm, seed.turn);
+    const Vec2 middle_px = excerpt.stored(seed.pixel + away_px);
+    const double reach_px = (params_.near_px + params_.max_scale_ratio * seed.px_per_mm * middle_mm.norm() +
+                             params_.reach_share * away_px.norm()) /
+                            scale;
+    const auto within = [](double value, int size) {
+      return static_cast<int>(std::clamp(value, 0.0, static_cast<double>(size)));
+    };
+    const int left = within(middle_px.x() - reach_px, gray_.width);
+    const int top = within(middle_px.y() - reach_px, gray_.height);
+    const int width = within(middle_px.x() + reach_px, gray_.width) - left;
+    const int height = within(middle_px.y() + reach_px, gray_.height) - top;
+    if (std::min(width, height) <= 4 * kBinaryPatchRadius) return StatusCode::card_not_found;
+    const double fits =
+        std::sqrt(static_cast<double>(params_.close_px) / std::max(1.0, static_cast<double>(width) * height));
+    const double closer = workspace_.fit(width, height, std::min(closer_scale(seed, scale), fits));
+    ComparedCorners& compared = workspace_.close;
+    const ImageView<const std::uint8_t> part{gray_.row(top) + left, width, height, gray_.stride};
+    const ImageView<const std::uint8_t> picture = reduce_into(part, closer, compared.picture_storage);
+    find_compared_corners(picture, params_, workspace_.corner_search, compared);
+    match_corners(compared.corners.items(), print_, params_, compared);
+    const Excerpt close{Vec2(left, top), shrink_of(part, picture)};
+    return fit_matches(close, compared,
+                       [&](const CardSearchMatch& again) { return fit_all_about(close, again, compared); });
+  }
+
+  ImageView<const std::uint8_t> gray_;
+  const LensModel& lens_;
+  const CardModelSize& size_;
+  const PrintCorners& print_;
+  const CardSearchParams& params_;
+  const CardParams& card_;
+  CardSearchWorkspace& workspace_;
+  std::size_t track_count_ = 0;
+  CardFit fit_;
+  // Places that were looked at more closely.
+  std::array<CardSearchMatch, 8> closer_;
+  std::size_t closer_count_ = 0;
+};
 
 }  // namespace
-
-Status learn_print_corners(const CardPattern& pattern, const CardSearchParams& params,
-                           CardSearchWorkspace& workspace, PrintCorners& print) {
-  BinarySampling& sampling = print.sampling.front();
-  sampling.draw(params.seed);
-  print.corners.clear();
-  CardSearchParams learning = params;
-  learning.corners.cell_px = std::max(8, params.corners.cell_px / 2);
-  for (const double scale : params.scales_px_per_mm) {
-    const ImageView<const std::uint8_t> finest = pattern.levels[0].gray;
-    const double reduction = workspace.fit(finest.width, finest.height,
-                                           std::min(1.0, scale / pattern.levels[0].px_per_axis_mm[0]));
-    const ImageView<std::uint8_t> picture = reduced(finest, reduction, workspace.picture);
-    if (std::min(picture.width, picture.height) <= 2 * kBinaryPatchRadius) continue;
-    const double px_per_mm = picture.width / pattern.size.width_mm;
-    int room = params.max_pattern_corners;
-    for_each_corner(picture, sampling, learning, workspace,
-                    [&](const Vec2& pixel, const BinaryDescriptor& descriptor, const Vec2& direction) {
-                      if (room-- <= 0) return;
-                      const Vec2 place = pattern_mm(pixel, picture.width, pattern.size);
-                      print.corners.push_back({descriptor, direction, place, px_per_mm});
-                    });
-  }
-  for (std::size_t i = 0; i < print.corners.size(); ++i) {
-    print.blocks[i / DescriptorBlock::kSide].set(i % DescriptorBlock::kSide,
-                                                 print.corners.items()[i].descriptor);
-  }
-  return print.corners.empty() ? StatusCode::invalid_configuration : StatusCode::ok;
-}
 
 Status search_card(ImageView<const std::uint8_t> gray, const LensModel& lens, const CardModelSize& size,
                    const PrintCorners& print, const CardSearchParams& params, const CardParams& card,
                    CardSearchWorkspace& workspace, std::array<Vec2, 4>& corners) {
-  Status status = StatusCode::card_not_found;
+  CardSearch search(gray, lens, size, print, params, card, workspace);
   double searched = 0.0;
   for (const int pixels : params.search_px) {
     const double by_area = std::sqrt(pixels / (static_cast<double>(gray.width) * gray.height));
     const double scale = workspace.fit(gray.width, gray.height, std::min(1.0, by_area));
-    if (status.ok() || scale == searched) break;
+    if (scale == searched) break;
     searched = scale;
-    status = search_at_scale(gray, scale, lens, size, print, params, card, workspace, corners);
+    if (!search.run(scale).ok()) continue;
+    corners = search.corners();
+    return StatusCode::ok;
   }
-  return status;
+  return StatusCode::card_not_found;
 }
 
 }  // namespace traygauge

@@ -32,6 +32,7 @@ struct CardSearchParams {
   std::array<double, kCardSearchScales> scales_px_per_mm{0.6, 0.8, 1.05, 1.4, 1.85, 2.45};
   int max_pattern_corners = 160;  // at each scale
   int max_corners = 6000;         // of the picture
+  int first_corners = 300;        // the strongest, with which most prints are found; else with thrice as many
   CornerParams corners{16, 4, 4, 4.0F, 0.02F, 0, 255};
   // Of 256 bits. The same corner, seen at a slant and between two scales, differs by 20 to 60.
   int max_distance = 68;
@@ -46,10 +47,14 @@ struct CardSearchParams {
   double max_scale_ratio = 1.4;  // … their scales
   int max_seeds = 120;           // of the clearest matches, each of which may say where the card lies
   int max_tried = 4;             // places that are looked at in full, those that most speaks for first
-  // Of a place whose corners do not suffice, that is looked at again with all others about it: a print that
-  // is small, blurred and noisy has few corners that resemble one place alone.
+  // Of a place whose corners do not suffice, that is looked at again: in a finer picture of its own, where
+  // there is one, and with all corners about it, since a print that is small, blurred and noisy has few that
+  // resemble one place alone.
   int min_agreeing = 4;
-  std::uint64_t seed = 1;  // of the homography's samples
+  double close_px_per_mm = 2.0;  // about, of the print in that picture: as fine as it is learned
+  int close_px = 250'000;        // of that picture, at most
+  double min_close_gain = 1.15;  // of its scale over that of the picture searched
+  std::uint64_t seed = 1;        // of the homography's samples
 };
 
 // A corner of the picture and the print's that looks like it.
@@ -84,12 +89,28 @@ struct PrintCorners {
   }
 };
 
-struct CardSearchWorkspace {
-  std::span<std::uint8_t> picture;  // searched
-  std::span<std::uint8_t> smooth;
-  CornerWorkspace corner_search;
+// The corners of a picture, and those of the print that they look like.
+struct ComparedCorners {
+  std::span<std::uint8_t> picture_storage;
+  std::span<std::uint8_t> smooth_storage;
+  ImageView<std::uint8_t> smooth;
   BoundedList<Corner> corners;
   BoundedList<CardSearchMatch> matches;
+
+  template <class Allocator>
+  constexpr void allocate(Allocator& arena, int max_px, int max_corners) {
+    picture_storage = arena.template take<std::uint8_t>(static_cast<std::size_t>(max_px));
+    smooth_storage = arena.template take<std::uint8_t>(static_cast<std::size_t>(max_px));
+    const auto count = static_cast<std::size_t>(max_corners);
+    corners = BoundedList<Corner>(arena.template take<Corner>(count));
+    matches = BoundedList<CardSearchMatch>(arena.template take<CardSearchMatch>(count));
+  }
+};
+
+struct CardSearchWorkspace {
+  ComparedCorners whole;  // of the picture, and of the print as it is learned
+  ComparedCorners close;  // of a part of it
+  CornerWorkspace corner_search;
   std::span<CardTrack> tracks;
   CardWorkspace card;
   // Of the picture searched, and of the print as it is learned.
@@ -105,18 +126,15 @@ struct CardSearchWorkspace {
   template <class Allocator>
   constexpr void allocate(Allocator& arena, int max_frame_width, int max_frame_height,
                           const CardSearchParams& params) {
-    const auto pixels = static_cast<std::size_t>(std::max(params.search_px[0], params.search_px[1]));
-    const auto count = static_cast<std::size_t>(params.max_corners);
-    picture = arena.template take<std::uint8_t>(pixels);
-    smooth = arena.template take<std::uint8_t>(pixels);
-    const double scale = std::min(1.0, std::sqrt(static_cast<double>(pixels) /
-                                                 (static_cast<double>(max_frame_width) * max_frame_height)));
+    const int pixels = std::max(params.search_px[0], params.search_px[1]);
+    whole.allocate(arena, pixels, params.max_corners);
+    close.allocate(arena, params.close_px, params.max_corners);
+    const double scale =
+        std::min(1.0, std::sqrt(pixels / (static_cast<double>(max_frame_width) * max_frame_height)));
     max_width = static_cast<int>(scale * max_frame_width) + 1;
     max_height = static_cast<int>(scale * max_frame_height) + 1;
     corner_search.allocate(arena, max_width, max_height, params.corners);
-    corners = BoundedList<Corner>(arena.template take<Corner>(count));
-    matches = BoundedList<CardSearchMatch>(arena.template take<CardSearchMatch>(count));
-    tracks = arena.template take<CardTrack>(count);
+    tracks = arena.template take<CardTrack>(static_cast<std::size_t>(params.max_corners));
     card.allocate(arena, params.max_corners, 1);
   }
 };

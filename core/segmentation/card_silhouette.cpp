@@ -7,10 +7,6 @@
 namespace traygauge {
 namespace {
 
-double cross(const Vec2& a, const Vec2& b) {
-  return a.x() * b.y() - a.y() * b.x();
-}
-
 // Takes a point further down into a chain that bends to one side only (Andrew's monotone chain); returns its
 // new length.
 std::size_t extend_chain(std::span<Vec2> chain, std::size_t size, const Vec2& point, double side) {

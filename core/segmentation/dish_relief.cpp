@@ -11,6 +11,11 @@
 namespace traygauge {
 namespace {
 
+// Halves away from zero, as std::lround, which is a call.
+int nearest_integer(double value) {
+  return static_cast<int>(value + (value < 0.0 ? -0.5 : 0.5));
+}
+
 // The disparity of the dish's own surface where view `v` sees it.
 class GlazeDisparity {
  public:
@@ -75,7 +80,7 @@ void compare_view(std::size_t v, const std::array<SurfaceGrid, 2>& grids, const 
     const std::uint32_t* other = &workspace.codes[1 - v][row];
     const float* found = &workspace.surface.views[v].surface[row];
     const auto cost_at = [&](int x, float d) {
-      const int partner = x + sign * static_cast<int>(std::lround(d));
+      const int partner = x + sign * nearest_integer(static_cast<double>(d));
       const bool is_inside = partner >= 0 && partner < width;
       return static_cast<std::uint8_t>(is_inside ? std::popcount(own[x] ^ other[partner])
                                                  : kSymmetricCensusBits / 2);
@@ -91,8 +96,10 @@ void compare_view(std::size_t v, const std::array<SurfaceGrid, 2>& grids, const 
       if (grid.labels.at(x, y) == 0 || grid.evidence.at(x, y) == SurfaceEvidence::none) continue;
       const SurfacePoint& point = grid.points.at(x, y);
       const double over_mm = static_cast<double>(point.z_mm) - dish.height_mm(Vec2(point.x_mm, point.y_mm));
-      sample.height = static_cast<std::int8_t>(std::clamp(std::lround(over_mm / kReliefUnitMm), -127L, 127L));
+      sample.height =
+          static_cast<std::int8_t>(std::clamp(nearest_integer(over_mm / kReliefUnitMm), -127, 127));
       sample.is_known = true;
+      sample.is_confirmed = grid.evidence.at(x, y) == SurfaceEvidence::both;
     }
   }
   const std::span<ReliefSample> all = workspace.samples[v];
@@ -139,8 +146,8 @@ void lay_relief(const DishRelief& relief, std::size_t view, const StoredView& st
       if (!sample.is_known) continue;
       const Vec3 point = stored.camera_from_table * relief.grid.plane_point(y, x);
       const Vec2 cell = raster.cell_of(stored.lens.pixel(point.hnormalized()));
-      const int left = std::max(0, static_cast<int>(std::lround(cell.x() - before)));
-      const int top = std::max(0, static_cast<int>(std::lround(cell.y() - before)));
+      const int left = std::max(0, nearest_integer(cell.x() - before));
+      const int top = std::max(0, nearest_integer(cell.y() - before));
       for (int j = top; j < std::min(top + footprint, cells.height); ++j) {
         for (int i = left; i < std::min(left + footprint, cells.width); ++i) cells.at(i, j) = sample;
       }

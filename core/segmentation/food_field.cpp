@@ -1,6 +1,7 @@
 #include "core/segmentation/food_field.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "core/segmentation/geodesic.hpp"
@@ -9,6 +10,7 @@ namespace traygauge {
 namespace {
 
 constexpr float kOutside = -1e3F;  // no food beside the dish
+constexpr int kLeastPlainCells = 200;
 constexpr float kStep = 0.35F;  // of both variables; its square is less than one over the 8 of the gradient
 
 struct Field {
@@ -32,6 +34,7 @@ class FoodField {
         field_{raster.width() / params.fold, raster.height() / params.fold} {}
 
   void weigh() {
+    is_filled_ = stands_high();
     for (int y = 0; y < field_.height; ++y) {
       for (int x = 0; x < field_.width; ++x) fold(x, y);
     }
@@ -68,6 +71,34 @@ class FoodField {
   }
 
  private:
+  // Whether what looks like glaze stands above it, all over the dish, and below its edge: what lies at the
+  // edge itself may be the match of the edge, continued over a dish where nothing can be matched.
+  bool stands_high() const {
+    std::array<int, 256> counts{};
+    int seen = 0;
+    const double most = params_.neutral_deviations * glaze_.share_sigma;
+    for (int y = 0; y < raster_.height(); ++y) {
+      for (int x = 0; x < raster_.width(); ++x) {
+        const ReliefSample& sample = relief_.at(x, y);
+        if (!sample.is_known || raster_.zones.at(x, y) != DishZone::inside) continue;
+        const CellColour& colour = raster_.colours.at(x, y);
+        const int red = colour.red - glaze_.median.red;
+        const int green = colour.green - glaze_.median.green;
+        if (red * red + green * green > most * most) continue;
+        ++counts[static_cast<std::size_t>(sample.height + 128)];
+        ++seen;
+      }
+    }
+    if (seen < kLeastPlainCells) return false;
+    const auto quartile_mm = [&](int quarters) {
+      int below = 0;
+      std::size_t at = 0;
+      while (4 * (below + counts[at]) < quarters * seen) below += counts[at++];
+      return kReliefUnitMm * (static_cast<double>(at) - 128.0);
+    };
+    return quartile_mm(1) > params_.filled_mm && quartile_mm(3) < raster_.depth_mm - params_.free_edge_mm;
+  }
+
   // Means over a cell of the field; its evidence by relief alone.
   void fold(int x, int y) {
     const int fold = params_.fold;
@@ -84,7 +115,7 @@ class FoodField {
         red += colour.red;
         green += colour.green;
         bends += bend_at(raster_.colours, i, j);
-        const double told = lift_of(relief_.at(i, j), params_.relief);
+        const double told = lift_of(relief_.at(i, j), !is_filled_, params_.relief);
         lift += told * (told > 0.0 ? params_.lift_weight : params_.against_weight);
         const DishZone zone = raster_.zones.at(i, j);
         is_outside |= zone == DishZone::outside || zone == DishZone::edge;
@@ -117,6 +148,7 @@ class FoodField {
         params_.least_colour, params_.most_colour);
     const double rough = std::clamp(
         (texture - params_.neutral_texture) / (params_.full_texture - params_.neutral_texture), 0.0, 1.0);
+    if (is_filled_ && told < 0.0) return;
     const double like_glaze = told < 0.0 ? (1.0 - rough) * told / params_.least_colour : 0.0;
     float& evidence = workspace_.evidence[at];
     if (evidence > 0.0F) evidence *= static_cast<float>(1.0 - (1.0 - params_.plain_share) * like_glaze);
@@ -186,6 +218,7 @@ class FoodField {
   const FoodFieldParams& params_;
   FoodFieldWorkspace& workspace_;
   Field field_;
+  bool is_filled_ = false;
 };
 
 }  // namespace

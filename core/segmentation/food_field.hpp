@@ -24,7 +24,12 @@ struct FoodFieldParams {
   double colour_weight = 2.6;
   // Of a lift's weight where colour and texture are the glaze's: reflections move between the views as if
   // they stood above it.
-  double plain_share = 0.75;
+  double plain_share = 0.65;
+  // A dish is filled where what looks like its glaze stands this high over it but for a quarter of it, and
+  // ends below the dish's edge by as much as the other: what is smooth and of the glaze's colour is then
+  // food, and no reflection.
+  double filled_mm = 6.0;
+  double free_edge_mm = 4.0;
   double prior = -0.2;
   // Deviations of the colour from the glaze's that speak neither way, and those that count once. Others count
   // in proportion, up to `most_colour`.
@@ -34,9 +39,9 @@ struct FoodFieldParams {
   double least_colour = -0.25;   // of the glaze's own colour: white food has it, too
   double neutral_texture = 1.5;  // over the glaze's
   double full_texture = 4.0;
-  double outline = 2.2;         // for each side of a cell
-  double edge_contrast = 12.0;  // of luma and twice the colour shares, that halves it
-  double least_outline = 0.1;   // share that is left at the strongest edge
+  double outline = 3.0;         // for each side of a cell
+  double edge_contrast = 9.0;   // of luma and twice the colour shares, that halves it
+  double least_outline = 0.07;  // share that is left at the strongest edge
   int sweeps = 40;
 };
 

@@ -21,9 +21,11 @@ int cost_of(const CellColour& a, const CellColour& b, const GeodesicParams& para
 
 // Cells by the distance at which they are to be visited, last come first; no two in use lie further apart
 // than there are lists.
-class Buckets {
+class DistanceBuckets {
  public:
-  explicit Buckets(GeodesicWorkspace& workspace) : workspace_(workspace) { workspace_.heads.fill(kEnd); }
+  explicit DistanceBuckets(GeodesicWorkspace& workspace) : workspace_(workspace) {
+    workspace_.heads.fill(kEnd);
+  }
 
   bool empty() const { return listed_ == 0; }
 
@@ -68,7 +70,7 @@ void spread_owners(ImageView<const CellColour> colours, const GeodesicParams& pa
                    GeodesicWorkspace& workspace, ImageView<std::uint8_t> owners) {
   const int width = owners.width;
   const int cells = width * owners.height;
-  Buckets buckets(workspace);
+  DistanceBuckets buckets(workspace);
   std::fill_n(workspace.distance.begin(), cells, kFar);
   for (int cell = 0; cell < cells; ++cell) {
     const std::uint8_t owner = owners.data[cell];

@@ -4,10 +4,10 @@
 #include <array>
 #include <cmath>
 
+#include "core/base/median.hpp"
+
 namespace traygauge {
 namespace {
-
-constexpr double kMedianToSigma = 1.4826;
 
 // Counts of bytes.
 class ByteHistogram {
@@ -40,16 +40,42 @@ void for_each_cell(const DishRaster& raster, DishZone zone, Take&& take) {
   }
 }
 
-// Mean bend over a square, doubled.
-int texture_at(ImageView<const CellColour> colours, int x, int y, int radius) {
-  int sum = 0;
-  int count = 0;
-  for (int j = std::max(0, y - radius); j <= std::min(colours.height - 1, y + radius); ++j) {
-    for (int i = std::max(0, x - radius); i <= std::min(colours.width - 1, x + radius); ++i, ++count)
-      sum += bend_at(colours, i, j);
+// Mean bends over the squares about cells, row by row and from left to right. Of a row, the bends of each
+// column are summed once.
+class TextureReader {
+ public:
+  TextureReader(ImageView<const CellColour> colours, int radius) : colours_(colours), radius_(radius) {}
+
+  // Doubled.
+  int at(int x, int y) {
+    if (y != row_) end_ = 0;
+    row_ = y;
+    const int top = std::max(0, y - radius_);
+    const int bottom = std::min(colours_.height - 1, y + radius_);
+    const int left = std::max(0, x - radius_);
+    const int right = std::min(colours_.width - 1, x + radius_);
+    for (int i = std::max(end_, left); i <= right; ++i) {
+      int& column = column_at(i);
+      column = 0;
+      for (int j = top; j <= bottom; ++j) column += bend_at(colours_, i, j);
+    }
+    end_ = right + 1;
+    int sum = 0;
+    for (int i = left; i <= right; ++i) sum += column_at(i);
+    return 2 * sum / ((bottom - top + 1) * (right - left + 1));
   }
-  return 2 * sum / count;
-}
+
+ private:
+  static constexpr std::size_t kColumns = 64;  // more than the largest square has
+
+  int& column_at(int x) { return columns_[static_cast<std::size_t>(x) % kColumns]; }
+
+  ImageView<const CellColour> colours_;
+  int radius_;
+  int row_ = -1;
+  int end_ = 0;  // of the columns summed
+  std::array<int, kColumns> columns_{};
+};
 
 }  // namespace
 
@@ -65,12 +91,13 @@ bool measure_glaze(const DishRaster& raster, const GlazeParams& params, GlazeCol
   ByteHistogram red;
   ByteHistogram green;
   ByteHistogram texture;
+  TextureReader reader(raster.colours, params.texture_radius);
   for_each_cell(raster, DishZone::flange, [&](int x, int y) {
     const CellColour& colour = raster.colours.at(x, y);
     luma.add(colour.luma);
     red.add(colour.red);
     green.add(colour.green);
-    texture.add(texture_at(raster.colours, x, y, params.texture_radius));
+    texture.add(reader.at(x, y));
   });
   if (luma.total() < params.min_flange_cells) return false;
   glaze.median = {static_cast<std::uint8_t>(luma.median()), static_cast<std::uint8_t>(red.median()),

@@ -61,7 +61,52 @@ class Merging {
     }
   }
 
+  // Labels the cells of the parts that are items, but for the blocks where two parts meet: these are of both.
+  int label_parts(std::uint8_t first, int max_items, int side, ImageView<std::uint8_t> owners) {
+    // The roots' sums are no longer needed: `sides` then counts the blocks with no other part about them.
+    for (FoodBlock& block : blocks_) block.sides = 0;
+    for_each_block([&](int block) {
+      if (is_food(block) && !meets_other_part(block)) ++at(root(block)).sides;
+    });
+    int items = 0;
+    // … and `size` holds the label, 0 for what is none.
+    for_each_block([&](int block) {
+      if (!is_food(block) || root(block) != block) return;
+      FoodBlock& part = at(block);
+      const bool is_item =
+          part.size >= params_.min_item_blocks && part.sides >= params_.min_core_blocks && items < max_items;
+      part.size = is_item ? first + items++ : 0;
+    });
+    for_each_block([&](int block) {
+      if (!is_food(block) || meets_other_part(block)) return;
+      const int label = at(root(block)).size;
+      if (label == 0) return;
+      const int top = block / columns_ * side;
+      for (int y = top; y < top + side; ++y)
+        std::fill_n(owners.row(y) + block % columns_ * side, side, static_cast<std::uint8_t>(label));
+    });
+    return items;
+  }
+
  private:
+  template <class Take>
+  void for_each_block(Take&& take) const {
+    for (int block = 0; block < columns_ * rows_; ++block) take(block);
+  }
+
+  // Eight neighbours.
+  bool meets_other_part(int block) const {
+    const int own = root(block);
+    for (int y = std::max(0, block / columns_ - 1); y <= std::min(rows_ - 1, block / columns_ + 1); ++y) {
+      for (int x = std::max(0, block % columns_ - 1); x <= std::min(columns_ - 1, block % columns_ + 1);
+           ++x) {
+        const int other = y * columns_ + x;
+        if (is_food(other) && root(other) != own) return true;
+      }
+    }
+    return false;
+  }
+
   std::span<const PartBorder> measure_borders() {
     for (FoodBlock& block : blocks_) block.sides = 0;
     std::size_t count = 0;
@@ -91,9 +136,14 @@ class Merging {
 
   // About as high as a part's upper half.
   static float crest_mm(const FoodBlock& part) {
-    const auto n = static_cast<float>(part.size);
-    const float mean = part.height_mm / n;
-    return mean + std::sqrt(std::max(0.0F, part.height_squares / n - mean * mean));
+    const float mean = mean_mm(part);
+    const float square = part.height_squares / static_cast<float>(part.size);
+    return mean + std::sqrt(std::max(0.0F, square - mean * mean));
+  }
+  static float mean_mm(const FoodBlock& part) { return part.height_mm / static_cast<float>(part.size); }
+
+  static double ramp(double value, double none, double full) {
+    return std::clamp((value - none) / (full - none), 0.0, 1.0);
   }
 
   float tolerance_of(const PartBorder& border) const {
@@ -101,18 +151,31 @@ class Merging {
     const FoodBlock& b = at(border.second);
     const FoodBlock& smaller = a.size < b.size ? a : b;
     const double share = static_cast<double>(border.sides) / std::max(1, smaller.sides);
-    const double lower_mm = std::max(1.0F, std::min(crest_mm(a), crest_mm(b)));
     const double first_mm = border.heights_mm[0] / static_cast<float>(border.sides);
     const double second_mm = border.heights_mm[1] / static_cast<float>(border.sides);
+    const double lower_mm = std::max(1.0F, std::min(crest_mm(a), crest_mm(b)));
     const double valley = std::min(first_mm, second_mm) / lower_mm;
     const double step = std::abs(first_mm - second_mm) / std::max({1.0, first_mm, second_mm});
-    const double level =
-        std::clamp((valley - params_.least_valley) / (params_.full_valley - params_.least_valley), 0.0, 1.0) *
-        std::clamp((params_.most_step - step) / (params_.most_step - params_.full_step), 0.0, 1.0);
-    const double mixed = std::clamp(
-        (share - params_.touching_share) / (params_.mixed_share - params_.touching_share), 0.0, 1.0);
-    return static_cast<float>(params_.joined_difference * (0.5 + 0.5 * level) *
-                              (1.0 + (params_.most_joined_ratio - 1.0) * mixed * level));
+    const double level = ramp(valley, params_.least_valley, params_.full_valley) *
+                         ramp(-step, -params_.most_step, -params_.full_step);
+    const double mixed = ramp(share, params_.touching_share, params_.mixed_share) * level;
+    const double joined = std::max(mixed, flank_of(a, b, first_mm, second_mm, share));
+    return static_cast<float>(params_.joined_difference * (0.5 + 0.5 * std::max(level, joined)) *
+                              (1.0 + (params_.most_joined_ratio - 1.0) * joined));
+  }
+
+  // How sure it is that the lower part is the side of the higher one, 0 to 1: it is highest where both meet,
+  // and the higher one ends there without going down.
+  double flank_of(const FoodBlock& a, const FoodBlock& b, double a_border_mm, double b_border_mm,
+                  double share) const {
+    const bool is_a_lower = mean_mm(a) < mean_mm(b);
+    const double lower =
+        is_a_lower ? a_border_mm / std::max(1.0F, mean_mm(a)) : b_border_mm / std::max(1.0F, mean_mm(b));
+    const double higher =
+        is_a_lower ? b_border_mm / std::max(1.0F, crest_mm(b)) : a_border_mm / std::max(1.0F, crest_mm(a));
+    return ramp(lower, params_.least_flank, params_.full_flank) *
+           ramp(higher, params_.least_edge, params_.full_edge) *
+           ramp(share, params_.touching_share, params_.flank_share);
   }
 
   FoodBlock& at(int block) { return blocks_[static_cast<std::size_t>(block)]; }
@@ -269,23 +332,7 @@ int split_items(const DishRaster& raster, ImageView<const ReliefSample> relief, 
   Merging merging(blocks, workspace, columns, rows, params);
   merging.run();
   merging.join_parts();
-  int items = 0;
-  // The roots' sums are no longer needed: `size` then holds their label.
-  for (int block = 0; block < columns * rows; ++block) {
-    if (!merging.is_food(block) || merging.root(block) != block) continue;
-    FoodBlock& root = blocks[static_cast<std::size_t>(block)];
-    const bool is_item = root.size >= params.min_item_blocks && items < max_items;
-    root.size = is_item ? first + items++ : 0;
-  }
-  for (int block = 0; block < columns * rows; ++block) {
-    if (!merging.is_food(block)) continue;
-    const int label = blocks[static_cast<std::size_t>(merging.root(block))].size;
-    if (label == 0) continue;
-    for (int y = block / columns * side; y < (block / columns + 1) * side; ++y) {
-      std::fill_n(owners.row(y) + block % columns * side, side, static_cast<std::uint8_t>(label));
-    }
-  }
-  return items;
+  return merging.label_parts(first, max_items, side, owners);
 }
 
 }  // namespace traygauge

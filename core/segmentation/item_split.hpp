@@ -22,16 +22,25 @@ struct ItemSplitParams {
   // share (mixed food is interleaved, piles only touch) and the less the surface sinks between them.
   double joined_difference = 10.0;
   double most_joined_ratio = 8.0;  // over joined_difference, where all of that speaks for one item
-  double least_valley = 0.45;      // height of the border over the lower part's crest, which halves it
+  double least_valley = 0.45;      // height of the border over a part's own crest, which halves it
   double full_valley = 0.75;       // … from which there is no valley
   double most_step = 0.5;          // between both sides of the border over the higher one, which halves it
   double full_step = 0.2;          // … up to which there is no step
   double touching_share = 0.25;    // of an outline, that piles share
   double mixed_share = 0.55;
+  // The side of a food that stands: between which heights of its border over its own mean it is one, how high
+  // the other part is there over its crest, and from which share of the outline.
+  double least_flank = 1.24;
+  double full_flank = 1.4;
+  double least_edge = 0.79;
+  double full_edge = 0.85;
+  double flank_share = 0.35;
   // Deviation of a food's blocks from its mean that doubles what may be merged: mixed vegetables differ from
   // place to place.
   double mixed_deviation = 25.0;
   int min_item_blocks = 6;  // smaller is never an item of its own
+  // Of an item's blocks with no other part about them: what has fewer is where two items mix.
+  int min_core_blocks = 3;
 };
 
 // Blocks of equal food, summed.
@@ -80,8 +89,8 @@ struct ItemSplitWorkspace {
   }
 };
 
-// `owners`: every cell that is `food` in a block wholly of food gets a label from `first` on, by item; the
-// other cells stay. Returns how many labels there are, at most `max_items`.
+// `owners`: every cell that is `food` in a block wholly of food gets a label from `first` on, by item, if all
+// about it are of the same; the other cells stay. Returns how many labels there are, at most `max_items`.
 int split_items(const DishRaster& raster, ImageView<const ReliefSample> relief, std::uint8_t food,
                 double cell_mm, const ItemSplitParams& params, ItemSplitWorkspace& workspace,
                 std::uint8_t first, int max_items, ImageView<std::uint8_t> owners);

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <span>
 
+#include "core/base/median.hpp"
 #include "core/segmentation/label_regions.hpp"
 
 namespace traygauge {
@@ -42,13 +43,6 @@ void add_pixel(const std::uint8_t* pixel, PixelFormat format, Sum& sum) {
   sum.blue += format == PixelFormat::rgb8 ? right : left;
 }
 
-double median(std::span<double> values) {
-  if (values.empty()) return 1.0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 double at_least_one(double ratio) {
   return ratio < 1.0 ? 1.0 / ratio : ratio;
 }
@@ -65,7 +59,7 @@ double median_ratio(const RegionColours& first, const RegionColours& second, int
     if (a.samples < enough || b.samples < enough) continue;
     ratios[count++] = ratio(a, b);
   }
-  return at_least_one(median(std::span(ratios).first(count)));
+  return count == 0 ? 1.0 : at_least_one(median(std::span(ratios).first(count)));
 }
 
 }  // namespace

@@ -14,7 +14,8 @@ struct ReliefSample {
   std::int8_t height = 0;       // over the dish's surface, in kReliefUnitMm
   std::uint8_t food_cost = 0;   // twice the census bits in which the views differ, matched there
   std::uint8_t glaze_cost = 0;  // … and on the dish's own surface
-  bool is_known = false;
+  bool is_known : 1 = false;
+  bool is_confirmed : 1 = false;  // the other view found the same surface
 
   double height_mm() const { return kReliefUnitMm * height; }
 };
@@ -25,14 +26,16 @@ struct ReliefEvidenceParams {
 };
 
 // Evidence for food, −1 to 1. Where the match lies above the dish: by how much better it is than the match on
-// the dish's surface. Where it lies on the surface: against food, by how much better it is than chance. Where
-// nothing can be matched both are near 0.
-inline double lift_of(const ReliefSample& sample, const ReliefEvidenceParams& params) {
+// the dish's surface, if the other view found it, too: beside food that hides the dish from the other view
+// any match is better than the dish's. Where it lies on the surface: against food, by how much better it is
+// than chance. Where nothing can be matched both are near 0.
+inline double lift_of(const ReliefSample& sample, bool must_agree, const ReliefEvidenceParams& params) {
   if (!sample.is_known) return 0.0;
   const double chance = 0.5 * kSymmetricCensusBits;
   const double bits = sample.height_mm() > params.min_height_mm
                           ? 0.5 * (sample.glaze_cost - sample.food_cost)
                           : -std::max(0.0, chance - 0.5 * sample.food_cost);
+  if (bits > 0.0 && must_agree && !sample.is_confirmed) return 0.0;
   return std::clamp(bits / params.full_bits, -1.0, 1.0);
 }
 

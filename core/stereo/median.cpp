@@ -9,7 +9,7 @@ namespace traygauge {
 namespace {
 
 // Eight neighbouring pixels of a row at a time.
-constexpr int kLanes = kRowLanes;
+constexpr int kMedianLanes = kRowLanes;
 constexpr int kMaxWindow = (2 * kMaxMedianRadius + 1) * (2 * kMaxMedianRadius + 1);
 static_assert(kNoDisparity == std::numeric_limits<Disparity>::min(), "its complement is the highest value");
 
@@ -45,9 +45,9 @@ CostLanes median_of(CostLanes* values, int count) {
 CostLanes load_pixels(ImageView<const Disparity> picture, int x, int y) {
   if (y < 0 || y >= picture.height) return broadcast(kNoDisparity);
   const Disparity* row = picture.row(y);
-  if (x >= 0 && x + kLanes <= picture.width) return load_lanes<CostLanes>(row + x);
+  if (x >= 0 && x + kMedianLanes <= picture.width) return load_lanes<CostLanes>(row + x);
   CostLanes pixels = broadcast(kNoDisparity);
-  for (int i = 0; i < kLanes; ++i) {
+  for (int i = 0; i < kMedianLanes; ++i) {
     if (x + i >= 0 && x + i < picture.width) pixels[i] = row[x + i];
   }
   return pixels;
@@ -58,7 +58,7 @@ CostLanes load_pixels(ImageView<const Disparity> picture, int x, int y) {
 void filter_median(ImageView<const Disparity> source, int radius_px, ImageView<Disparity> target) {
   const int count = (2 * radius_px + 1) * (2 * radius_px + 1);
   for (int y = 0; y < source.height; ++y) {
-    for (int x = 0; x < source.width; x += kLanes) {
+    for (int x = 0; x < source.width; x += kMedianLanes) {
       CostLanes window[kMaxWindow];
       CostLanes highest_next = broadcast(-1);
       CostLanes* value = window;
@@ -74,7 +74,7 @@ void filter_median(ImageView<const Disparity> source, int radius_px, ImageView<D
       }
       const CostLanes median = median_of(window, count);
       const CostLanes centre = load_pixels(source, x, y);
-      for (int i = 0; i < kLanes && x + i < source.width; ++i) {
+      for (int i = 0; i < kMedianLanes && x + i < source.width; ++i) {
         target.at(x + i, y) = centre[i] == kNoDisparity ? kNoDisparity : median[i];
       }
     }

@@ -2,55 +2,111 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
+#include <cstring>
+#include <utility>
+
+#include "core/stereo/row_lanes.hpp"
 
 namespace traygauge {
 namespace {
 
 constexpr int kReach = kSymmetricCensusColumns;
 constexpr int kRows = 2 * kSymmetricCensusRows + 1;
-using Rows = std::array<const std::uint8_t*, kRows>;
+constexpr int kBlock = static_cast<int>(sizeof(ByteLanes));  // neighbouring pixels of a row at a time
+using Rows = std::array<const std::uint8_t*, static_cast<std::size_t>(kRows)>;
 
-// What a bit says about two pixels opposite each other, and the pixel between them.
+struct Offset {
+  int x = 0;
+  int y = 0;
+};
+
+// Of the pixel below or on the right; the one opposite is its negative. The highest bit of a code first.
+constexpr std::array<Offset, kSymmetricCensusBits> kOffsets = [] {
+  std::array<Offset, kSymmetricCensusBits> offsets{};
+  std::size_t bit = 0;
+  for (int dy = 0; dy <= kSymmetricCensusRows; ++dy) {
+    for (int dx = dy == 0 ? 1 : -kReach; dx <= kReach; ++dx) offsets[bit++] = {dx, dy};
+  }
+  return offsets;
+}();
+
+// What a bit says about two pixels opposite each other, and the pixel between them: all ones where it is set.
 struct IsGreater {
-  std::uint32_t operator()(std::uint8_t a, std::uint8_t b, std::uint8_t) const { return a > b ? 1U : 0U; }
+  ByteLanes operator()(ByteLanes a, ByteLanes b, ByteLanes) const {
+    return reinterpret_cast<ByteLanes>(a > b);
+  }
 };
 struct IsAlike {
-  std::uint32_t operator()(std::uint8_t a, std::uint8_t b, std::uint8_t centre) const {
-    return static_cast<std::uint32_t>(a == centre) & static_cast<std::uint32_t>(b == centre);
+  ByteLanes operator()(ByteLanes a, ByteLanes b, ByteLanes centre) const {
+    return reinterpret_cast<ByteLanes>((a == centre) & (b == centre));
   }
 };
 
-// The columns [first, last) of a row whose windows lie inside the picture.
-template <class Bit>
-void transform_inside(const Rows& rows, int first, int last, std::uint32_t* codes) {
-  const std::uint8_t* middle = rows[kSymmetricCensusRows];
-  for (int x = first; x < last; ++x) codes[x] = 0;
-  for (int dy = 0; dy <= kSymmetricCensusRows; ++dy) {
-    const std::uint8_t* upper = rows[static_cast<std::size_t>(kSymmetricCensusRows - dy)];
-    const std::uint8_t* lower = rows[static_cast<std::size_t>(kSymmetricCensusRows + dy)];
-    for (int dx = dy == 0 ? 1 : -kReach; dx <= kReach; ++dx) {
-      for (int x = first; x < last; ++x) {
-        codes[x] = (codes[x] << 1) | Bit{}(lower[x + dx], upper[x - dx], middle[x]);
-      }
+// Four bytes of each pixel's code come together from four registers.
+void store_codes(const std::array<ByteLanes, 4>& bytes, std::uint32_t* codes) {
+  static_assert(std::endian::native == std::endian::little, "the first byte is the lowest");
+  constexpr ByteLanes kFirst{0, 16, 1, 17, 2, 18, 3, 19, 4, 20, 5, 21, 6, 22, 7, 23};
+  constexpr ByteLanes kSecond{8, 24, 9, 25, 10, 26, 11, 27, 12, 28, 13, 29, 14, 30, 15, 31};
+  constexpr CostLanes kFirstPairs{0, 8, 1, 9, 2, 10, 3, 11};
+  constexpr CostLanes kSecondPairs{4, 12, 5, 13, 6, 14, 7, 15};
+  std::size_t at = 0;
+  for (const ByteLanes& half : {kFirst, kSecond}) {
+    const auto low = reinterpret_cast<CostLanes>(__builtin_shuffle(bytes[0], bytes[1], half));
+    const auto high = reinterpret_cast<CostLanes>(__builtin_shuffle(bytes[2], bytes[3], half));
+    for (const CostLanes& pairs : {kFirstPairs, kSecondPairs}) {
+      const CostLanes four = __builtin_shuffle(low, high, pairs);
+      std::memcpy(codes + at, &four, sizeof four);
+      at += sizeof four / sizeof *codes;
     }
   }
 }
 
-// The same for one column, with its neighbours clamped.
+// The bits from kFirst on, as the lowest of a byte.
+template <class Bit, std::size_t kFirst, std::size_t... kBits>
+ByteLanes collect_bits(const Rows& rows, std::index_sequence<kBits...>) {
+  const auto middle = load_lanes<ByteLanes>(rows[kSymmetricCensusRows]);
+  ByteLanes value{};
+  const auto add = [&](Offset offset) {
+    const auto a =
+        load_lanes<ByteLanes>(rows[static_cast<std::size_t>(kSymmetricCensusRows + offset.y)] + offset.x);
+    const auto b =
+        load_lanes<ByteLanes>(rows[static_cast<std::size_t>(kSymmetricCensusRows - offset.y)] - offset.x);
+    value = value + value - Bit{}(a, b, middle);
+  };
+  (add(kOffsets[kFirst + kBits]), ...);
+  return value;
+}
+
+// Of kBlock pixels from where `rows` points to, whose windows can be read.
 template <class Bit>
-std::uint32_t transform_at_border(const Rows& rows, int x, int width) {
-  const std::uint8_t* middle = rows[kSymmetricCensusRows];
-  std::uint32_t code = 0;
-  for (int dy = 0; dy <= kSymmetricCensusRows; ++dy) {
-    const std::uint8_t* upper = rows[static_cast<std::size_t>(kSymmetricCensusRows - dy)];
-    const std::uint8_t* lower = rows[static_cast<std::size_t>(kSymmetricCensusRows + dy)];
-    for (int dx = dy == 0 ? 1 : -kReach; dx <= kReach; ++dx) {
-      const std::uint8_t a = lower[std::clamp(x + dx, 0, width - 1)];
-      const std::uint8_t b = upper[std::clamp(x - dx, 0, width - 1)];
-      code = (code << 1) | Bit{}(a, b, middle[x]);
-    }
+void transform_block(const Rows& rows, std::uint32_t* codes) {
+  static_assert(kSymmetricCensusBits == 31);
+  const std::array<ByteLanes, 4> bytes = {
+      collect_bits<Bit, 23>(rows, std::make_index_sequence<8>()),
+      collect_bits<Bit, 15>(rows, std::make_index_sequence<8>()),
+      collect_bits<Bit, 7>(rows, std::make_index_sequence<8>()),
+      collect_bits<Bit, 0>(rows, std::make_index_sequence<7>()),
+  };
+  store_codes(bytes, codes);
+}
+
+// The same where windows or pixels lie beyond the picture's sides.
+template <class Bit>
+void transform_at_border(const Rows& rows, int left, int width, std::uint32_t* codes) {
+  std::array<std::array<std::uint8_t, kBlock + 2 * kReach>, kRows> padded;
+  Rows within{};
+  const int from = std::max(0, left - kReach);
+  const int to = std::min(width, left + kBlock + kReach);
+  for (std::size_t i = 0; i < padded.size(); ++i) {
+    auto* const inside = std::fill_n(padded[i].data(), from - (left - kReach), rows[i][0]);
+    std::fill(std::copy(rows[i] + from, rows[i] + to, inside), padded[i].data() + padded[i].size(),
+              rows[i][width - 1]);
+    within[i] = padded[i].data() + kReach;
   }
-  return code;
+  std::array<std::uint32_t, kBlock> block;
+  transform_block<Bit>(within, block.data());
+  std::copy_n(block.begin(), std::min(kBlock, width - left), codes + left);
 }
 
 template <class Bit>
@@ -61,12 +117,16 @@ void transform(ImageView<const std::uint8_t> picture, ImageView<std::uint32_t> c
       rows[static_cast<std::size_t>(i)] =
           picture.row(std::clamp(y + i - kSymmetricCensusRows, 0, picture.height - 1));
     }
-    const int first = std::min(kReach, picture.width);
-    const int last = std::max(first, picture.width - kReach);
-    for (int x = 0; x < first; ++x) codes.at(x, y) = transform_at_border<Bit>(rows, x, picture.width);
-    transform_inside<Bit>(rows, first, last, codes.row(y));
-    for (int x = last; x < picture.width; ++x)
-      codes.at(x, y) = transform_at_border<Bit>(rows, x, picture.width);
+    for (int left = 0; left < picture.width; left += kBlock) {
+      if (left < kReach || left + kBlock + kReach > picture.width) {
+        transform_at_border<Bit>(rows, left, picture.width, codes.row(y));
+        continue;
+      }
+      Rows here;
+      std::transform(rows.begin(), rows.end(), here.begin(),
+                     [&](const std::uint8_t* row) { return row + left; });
+      transform_block<Bit>(here, codes.row(y) + left);
+    }
   }
 }
 

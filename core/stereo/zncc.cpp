@@ -8,7 +8,7 @@ namespace {
 
 // Pixels are taken relative to mid-grey, so that products fit 16 bits and window sums 32.
 constexpr int kMidGrey = 128;
-constexpr int kFirstRow = -kFirstPixelRow;  // of the block, within a PixelColumn
+constexpr int kFirstZnccRow = -kFirstPixelRow;  // of the block, within a PixelColumn
 
 const PixelColumn& column_at(const BlockPicture& picture, int x) {
   return picture.pixels[static_cast<std::size_t>(std::clamp(x, 0, picture.width - 1))];
@@ -23,7 +23,7 @@ void take_moments(const BlockPicture& picture, int radius_px, std::span<WindowMo
       const PixelColumn& column = column_at(picture, x + dx);
       for (int dy = -radius_px; dy <= radius_px; ++dy) {
         for (int r = 0; r < kRowLanes; ++r) {
-          const int pixel = column.row[kFirstRow + r + dy] - kMidGrey;
+          const int pixel = column.row[kFirstZnccRow + r + dy] - kMidGrey;
           sum[r] += pixel;
           squares[r] += pixel * pixel;
         }
@@ -45,7 +45,7 @@ void sum_products(const MatchingBlock& block, int x, int d, int radius_px, Windo
     const PixelColumn& second = column_at(block.second, x + dx + d);
     for (int dy = -radius_px; dy <= radius_px; ++dy) {
       for (int r = 0; r < kRowLanes; ++r) {
-        const int row = kFirstRow + r + dy;
+        const int row = kFirstZnccRow + r + dy;
         products.sum[r] += (first.row[row] - kMidGrey) * (second.row[row] - kMidGrey);
       }
     }

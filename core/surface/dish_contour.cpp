@@ -7,17 +7,17 @@
 namespace traygauge {
 namespace {
 
-struct Step {
+struct ContourStep {
   int x = 0;
   int y = 0;
 };
 
 // Clockwise: up, right, down, left.
-constexpr std::array<Step, 4> kSteps{{{0, -1}, {1, 0}, {0, 1}, {-1, 0}}};
+constexpr std::array<ContourStep, 4> kSteps{{{0, -1}, {1, 0}, {0, 1}, {-1, 0}}};
 // The pixels right and left of a step that leaves the corner (x, y), which is the top left one of pixel (x,
 // y).
-constexpr std::array<Step, 4> kRightPixels{{{0, -1}, {0, 0}, {-1, 0}, {-1, -1}}};
-constexpr std::array<Step, 4> kLeftPixels{{{-1, -1}, {0, -1}, {0, 0}, {-1, 0}}};
+constexpr std::array<ContourStep, 4> kRightPixels{{{0, -1}, {0, 0}, {-1, 0}, {-1, -1}}};
+constexpr std::array<ContourStep, 4> kLeftPixels{{{-1, -1}, {0, -1}, {0, 0}, {-1, 0}}};
 
 class BorderWalk {
  public:
@@ -35,7 +35,7 @@ class BorderWalk {
     std::size_t heading = 0;
     double twice_area = 0.0;
     do {
-      const Step step = kSteps[heading];
+      const ContourStep step = kSteps[heading];
       if (!add_side(x, y, heading)) return 0.0;
       twice_area += x * step.y - y * step.x;
       x += step.x;
@@ -47,9 +47,9 @@ class BorderWalk {
 
  private:
   bool add_side(int x, int y, std::size_t heading) {
-    const Step step = kSteps[heading];
-    const Step outside{x + kLeftPixels[heading].x, y + kLeftPixels[heading].y};
-    const Step inside{x + kRightPixels[heading].x, y + kRightPixels[heading].y};
+    const ContourStep step = kSteps[heading];
+    const ContourStep outside{x + kLeftPixels[heading].x, y + kLeftPixels[heading].y};
+    const ContourStep inside{x + kRightPixels[heading].x, y + kRightPixels[heading].y};
     const bool against_table =
         labels_.contains(outside.x, outside.y) && labels_.at(outside.x, outside.y) == kBackgroundLabel;
     return contour_.sides.push_back({static_cast<float>(x) - 0.5F + 0.5F * static_cast<float>(step.x),

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/base/median.hpp"
+
 namespace traygauge {
 namespace {
 
@@ -12,8 +14,7 @@ constexpr double kLooseAzimuthSigmaRad = 0.5;   // of a measured place: keeps a 
 constexpr double kRoundAzimuthSigmaRad = 0.01;  // of a round dish, whose azimuth means nothing
 constexpr double kRoundMm = 0.5;                // axes that differ by less
 constexpr double kHold = 1e4;                   // times the information of a described size and height
-constexpr double kMinImprovement = 1e-6;   // relative decrease of the cost that is worth another iteration
-constexpr double kMedianToSigma = 1.4826;  // of normal errors
+constexpr double kMinImprovement = 1e-6;  // relative decrease of the cost that is worth another iteration
 constexpr double kScaleSigmas = 3.0;
 
 double information(double sigma) {

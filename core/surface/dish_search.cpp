@@ -156,7 +156,7 @@ class DishSearch {
       const RimShift& shift = workspace_.shifts[i];
       const float at = middle + moved.x() * shift.x + moved.y() * shift.y + moved.z() * shift.turn;
       if (!(at >= 0.0F) || at >= static_cast<float>(offsets)) continue;
-      sum += workspace_.steps[i * kMaxRimOffsets + static_cast<std::size_t>(at)];
+      sum += workspace_.steps[i * kMaxRimOffsets + static_cast<std::size_t>(static_cast<int>(at))];
     }
     return sum;
   }

@@ -20,9 +20,11 @@ class GraySampler {
       : frame_(frame), weights_(gray_weights(frame.format)), bytes_(bytes_per_pixel(frame.format)) {}
 
   bool sample(const Vec2& pixel, float& gray) const {
-    const int x = static_cast<int>(std::floor(pixel.x()));
-    const int y = static_cast<int>(std::floor(pixel.y()));
-    if (x < 0 || y < 0 || x + 1 >= frame_.width || y + 1 >= frame_.height) return false;
+    if (!(pixel.x() >= 0.0 && pixel.y() >= 0.0 && pixel.x() < frame_.width - 1 &&
+          pixel.y() < frame_.height - 1))
+      return false;
+    const int x = static_cast<int>(pixel.x());
+    const int y = static_cast<int>(pixel.y());
     const auto fx = static_cast<float>(pixel.x() - x);
     const auto fy = static_cast<float>(pixel.y() - y);
     const std::uint8_t* at = frame_.data + y * frame_.stride_bytes + x * bytes_;

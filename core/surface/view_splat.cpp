@@ -12,13 +12,13 @@ namespace {
 
 using Point = Eigen::Vector3f;
 
-using Corner = HeightMapWorkspace::Corner;
+using SurfaceCorner = HeightMapWorkspace::Corner;
 
-Point at(const Corner& corner) {
+Point at(const SurfaceCorner& corner) {
   return {corner.x, corner.y, corner.z};
 }
 
-Corner corner_at(const Point& place, std::uint8_t label) {
+SurfaceCorner corner_at(const Point& place, std::uint8_t label) {
   return {place.x(), place.y(), place.z(), label, true};
 }
 
@@ -26,7 +26,7 @@ constexpr float kEdgeTolerance = 1e-4F;  // barycentric; neighbours share their 
 
 class ViewSplatter {
  public:
-  ViewSplatter(const SurfaceGrid& view, const HeightMapParams& params, std::span<Corner> corners,
+  ViewSplatter(const SurfaceGrid& view, const HeightMapParams& params, std::span<SurfaceCorner> corners,
                HeightMap& map)
       : view_(view),
         corners_(corners),
@@ -48,12 +48,12 @@ class ViewSplatter {
   }
 
  private:
-  Corner* row(int y) const {
+  SurfaceCorner* row(int y) const {
     return corners_.data() + static_cast<std::ptrdiff_t>(y % 3) * view_.points.width;
   }
 
   void load_row(int y) {
-    Corner* corners = row(y);
+    SurfaceCorner* corners = row(y);
     const SurfacePoint* points = view_.points.row(y);
     const SurfaceEvidence* evidence = view_.evidence.row(y);
     const std::uint8_t* labels = view_.labels.row(y);
@@ -75,7 +75,7 @@ class ViewSplatter {
     const int bottom = std::min(y + 2, view_.points.height - 1);
     bool bare = true;
     for (int v = y; v <= bottom && bare; ++v) {
-      const Corner* corners = row(v);
+      const SurfaceCorner* corners = row(v);
       for (int u = x; u <= right; ++u) bare = bare && corners[u].known && !is_item(corners[u].label);
     }
     if (bare) {
@@ -83,13 +83,14 @@ class ViewSplatter {
       return;
     }
     for (int v = y; v < bottom; ++v) {
-      const Corner* upper = row(v);
-      const Corner* lower = row(v + 1);
+      const SurfaceCorner* upper = row(v);
+      const SurfaceCorner* lower = row(v + 1);
       for (int u = x; u < right; ++u) add_quad(upper[u], upper[u + 1], lower[u], lower[u + 1]);
     }
   }
 
-  void add_quad(const Corner& a, const Corner& b, const Corner& c, const Corner& d) {
+  void add_quad(const SurfaceCorner& a, const SurfaceCorner& b, const SurfaceCorner& c,
+                const SurfaceCorner& d) {
     const int known = int{a.known} + int{b.known} + int{c.known} + int{d.known};
     if (known < 3) return;
     if (known == 3) {
@@ -106,7 +107,7 @@ class ViewSplatter {
     }
   }
 
-  void add_triangle(const Corner& a, const Corner& b, const Corner& c) {
+  void add_triangle(const SurfaceCorner& a, const SurfaceCorner& b, const SurfaceCorner& c) {
     const Point normal = (at(b) - at(a)).cross(at(c) - at(a));
     const Point sight = camera_ - at(a);
     const float along = normal.dot(sight);
@@ -120,7 +121,7 @@ class ViewSplatter {
   }
 
   // A triangle whose corners lie on two surfaces, or on one that the line of sight grazes.
-  void add_occlusion(std::array<Corner, 3> c) {
+  void add_occlusion(std::array<SurfaceCorner, 3> c) {
     std::array<float, 3> range{};
     for (std::size_t i = 0; i < 3; ++i) range[i] = (at(c[i]) - camera_).norm();
     const auto order = [&](std::size_t i, std::size_t j) {
@@ -133,9 +134,9 @@ class ViewSplatter {
     order(1, 2);
     order(0, 1);
     const bool one_near = range[1] - range[0] > range[2] - range[1];
-    const Corner& alone = one_near ? c[0] : c[2];
-    const Corner& left = one_near ? c[1] : c[0];
-    const Corner& right = one_near ? c[2] : c[1];
+    const SurfaceCorner& alone = one_near ? c[0] : c[2];
+    const SurfaceCorner& left = one_near ? c[1] : c[0];
+    const SurfaceCorner& right = one_near ? c[2] : c[1];
     const auto [left_alone, left_pair] = halfway(alone, left);
     const auto [right_alone, right_pair] = halfway(alone, right);
     add_surface(alone, left_alone, right_alone, kExtrapolatedWeight);
@@ -146,17 +147,19 @@ class ViewSplatter {
   }
 
   // Lines of sight from the edge of what hides to where they end.
-  void add_sheet(const Corner& a, const Corner& b, const Corner& c, const Corner& edge, const Corner& foot) {
+  void add_sheet(const SurfaceCorner& a, const SurfaceCorner& b, const SurfaceCorner& c,
+                 const SurfaceCorner& edge, const SurfaceCorner& foot) {
     const float below_mm = cell_mm_ * foot.z;
     rasterise(a, b, c, {0.0F, below_mm, edge.label, foot.label, CellKind::hidden});
   }
 
-  void add_surface(const Corner& a, const Corner& b, const Corner& c, std::uint8_t weight) {
+  void add_surface(const SurfaceCorner& a, const SurfaceCorner& b, const SurfaceCorner& c,
+                   std::uint8_t weight) {
     rasterise(a, b, c, {.kind = CellKind::surface, .weight = weight});
   }
 
   // Both surfaces' ends on the line of sight halfway between two samples.
-  std::pair<Corner, Corner> halfway(const Corner& a, const Corner& b) const {
+  std::pair<SurfaceCorner, SurfaceCorner> halfway(const SurfaceCorner& a, const SurfaceCorner& b) const {
     const Point to_a = at(a) - camera_;
     const Point to_b = at(b) - camera_;
     const float range_a = to_a.norm();
@@ -165,7 +168,7 @@ class ViewSplatter {
     return {corner_at(camera_ + range_a * middle, a.label), corner_at(camera_ + range_b * middle, b.label)};
   }
 
-  void rasterise(const Corner& a, const Corner& b, const Corner& c, HeightCell patch) {
+  void rasterise(const SurfaceCorner& a, const SurfaceCorner& b, const SurfaceCorner& c, HeightCell patch) {
     const float left = std::ceil(std::min({a.x, b.x, c.x}) - kEdgeTolerance);
     const float right = std::floor(std::max({a.x, b.x, c.x}) + kEdgeTolerance);
     if (left > right) return;
@@ -217,7 +220,7 @@ class ViewSplatter {
   }
 
   const SurfaceGrid& view_;
-  std::span<Corner> corners_;
+  std::span<SurfaceCorner> corners_;
   ImageView<HeightCell> cells_;
   float cell_mm_;
   float per_mm_;
@@ -229,7 +232,7 @@ class ViewSplatter {
 
 }  // namespace
 
-void splat_view(const SurfaceGrid& view, const HeightMapParams& params, std::span<Corner> corners,
+void splat_view(const SurfaceGrid& view, const HeightMapParams& params, std::span<SurfaceCorner> corners,
                 HeightMap& map) {
   for (int y = 0; y < map.cells.height; ++y) {
     std::fill_n(map.cells.row(y), map.cells.width, HeightCell{});

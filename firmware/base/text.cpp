@@ -8,8 +8,7 @@ namespace traygauge {
 namespace {
 
 std::string padding(const std::string& text, std::size_t width) {
-  const auto is_first_byte = [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; };
-  const auto length = static_cast<std::size_t>(std::count_if(text.begin(), text.end(), is_first_byte));
+  const std::size_t length = count_characters(text);
   std::string spaces(width > length ? width - length : 0, ' ');
   return spaces;
 }
@@ -27,6 +26,11 @@ std::string fixed(double number, int decimals) {
 std::string mebibytes(std::size_t bytes) {
   constexpr double bytes_per_mebibyte = 1024.0 * 1024.0;
   return fixed(static_cast<double>(bytes) / bytes_per_mebibyte, 2);
+}
+
+std::size_t count_characters(const std::string& text) {
+  return static_cast<std::size_t>(std::count_if(
+      text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; }));
 }
 
 std::string pad_left(const std::string& text, std::size_t width) {

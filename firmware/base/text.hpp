@@ -12,7 +12,10 @@ std::string fixed(double number, int decimals);
 // Bytes in MiB, two decimals.
 std::string mebibytes(std::size_t bytes);
 
-// Padded with spaces to `width` characters (UTF-8 counted by character); the text stands right or left.
+// Of UTF-8, by character.
+std::size_t count_characters(const std::string& text);
+
+// Padded with spaces to `width` characters; the text stands right or left.
 std::string pad_left(const std::string& text, std::size_t width);
 std::string pad_right(const std::string& text, std::size_t width);
 

@@ -15,7 +15,7 @@
 namespace traygauge {
 namespace {
 
-constexpr std::size_t kNameWidth = 64;
+constexpr std::size_t kParameterWidth = 64;
 
 // The shortest text without an exponent that reads back as the same number.
 template <class Number>
@@ -113,8 +113,8 @@ ParameterList segmentation_parameters(Configuration& configuration) {
 void append_lines(const std::string& title, const ParameterList& list, std::vector<std::string>& lines) {
   lines.push_back("# " + title);
   for (const Parameter& parameter : list.items()) {
-    lines.push_back(pad_right(parameter.name + "=" + parameter.value, kNameWidth) + "  (" + parameter.domain +
-                    ")");
+    lines.push_back(pad_right(parameter.name + "=" + parameter.value, kParameterWidth) + "  (" +
+                    parameter.domain + ")");
   }
 }
 

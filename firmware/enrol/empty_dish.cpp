@@ -9,7 +9,7 @@
 namespace traygauge {
 namespace {
 
-const ViewDescription& view_of(const Capture& capture, int index) {
+const ViewDescription& description_of(const Capture& capture, int index) {
   return capture.views[static_cast<std::size_t>(index)];
 }
 
@@ -37,7 +37,8 @@ double to_hundredths(double value) {
 }  // namespace
 
 EmptyDish::EmptyDish(const Capture& capture, std::array<int, 2> pair)
-    : views_{load_empty_dish(view_of(capture, pair[0])), load_empty_dish(view_of(capture, pair[1]))},
+    : views_{load_empty_dish(description_of(capture, pair[0])),
+             load_empty_dish(description_of(capture, pair[1]))},
       setup_(set_up_pair(capture, pair, {})),
       block_(survey_bytes(configure(setup_))),
       surveyor_(block_.bytes(), configure(setup_)) {

@@ -14,7 +14,7 @@ using Json = nlohmann::ordered_json;
 
 constexpr int kEnrolVersion = 1;
 constexpr std::size_t kTitleWidth = 9;
-constexpr std::size_t kNumberWidth = 10;
+constexpr std::size_t kPointWidth = 10;
 
 bool has_edge(const DishSurvey& survey) {
   return survey.errors.size_mm > 0.0;
@@ -41,10 +41,10 @@ std::string line(const char* title, const std::string& text) {
 }
 
 std::string profile_rows(const DishDescription& dish) {
-  std::string text = pad_left("inset mm", kNumberWidth) + pad_left("height mm", kNumberWidth) + "\n";
+  std::string text = pad_left("inset mm", kPointWidth) + pad_left("height mm", kPointWidth) + "\n";
   for (const ProfilePoint& point : dish.profile) {
-    text += pad_left(fixed(point.inset_mm, 1), kNumberWidth) +
-            pad_left(fixed(point.height_mm, 2), kNumberWidth) + "\n";
+    text += pad_left(fixed(point.inset_mm, 1), kPointWidth) +
+            pad_left(fixed(point.height_mm, 2), kPointWidth) + "\n";
   }
   return text + "\n";
 }

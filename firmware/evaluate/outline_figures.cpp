@@ -12,7 +12,7 @@
 namespace traygauge {
 namespace {
 
-struct Collected {
+struct CollectedOutlines {
   std::vector<double> food_iou;
   std::vector<double> item_iou;
   std::vector<double> card_iou;
@@ -57,9 +57,9 @@ struct Collected {
 
 std::vector<OutlineFigures> summarise_outlines(const std::vector<PairRuns>& runs) {
   std::vector<OutlineFigures> figures;
-  Collected all;
+  CollectedOutlines all;
   for (std::size_t i = 0; i < runs.size();) {
-    Collected capture;
+    CollectedOutlines capture;
     const std::string& name = runs[i].capture;
     for (; i < runs.size() && runs[i].capture == name; ++i) {
       capture.add(runs[i]);

@@ -1,20 +1,11 @@
 #include "firmware/evaluate/table_cells.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 #include "firmware/base/text.hpp"
 #include "simulator/capture/input_error.hpp"
 
 namespace traygauge {
-namespace {
-
-std::size_t count_characters(const std::string& text) {
-  return static_cast<std::size_t>(std::count_if(
-      text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; }));
-}
-
-}  // namespace
 
 std::string cell(double value, int decimals) {
   return std::isnan(value) ? kNoValue : fixed(value, decimals);

@@ -8,6 +8,9 @@
 
 namespace traygauge {
 
+// Of a picture's proportions, unless these are so odd that nothing could be seen in it.
+cv::Size panel_size(const PictureSize& picture, int width_px);
+
 // The labelled part of a view as stored, tinted and outlined, every item with its number and volume.
 cv::Mat draw_view(const LoadedView& view, const Measurement& measurement, cv::Size size);
 

@@ -1,7 +1,5 @@
 #include "firmware/measure/picture_sheet.hpp"
 
-#include <algorithm>
-#include <cmath>
 #include <opencv2/core.hpp>
 #include <string>
 
@@ -15,16 +13,8 @@ namespace traygauge {
 namespace {
 
 constexpr int kPanelWidthPx = 800;
-constexpr int kMinPanelHeightPx = 300;
-constexpr int kMaxPanelHeightPx = 1100;
 constexpr int kGapPx = 8;
 constexpr double kHeadScale = 0.7;
-
-cv::Size panel_size(const PictureSize& picture) {
-  const double height = static_cast<double>(kPanelWidthPx) * picture.height / picture.width;
-  return {kPanelWidthPx,
-          std::clamp(static_cast<int>(std::lround(height)), kMinPanelHeightPx, kMaxPanelHeightPx)};
-}
 
 std::string headline(const MeasureReport& report) {
   const Measurement& measurement = *report.measurement;
@@ -45,7 +35,7 @@ std::string view_title(const MeasureReport& report, int view) {
 
 void write_picture_sheet(const std::filesystem::path& file, const MeasureReport& report,
                          const CaptureSession& session) {
-  const cv::Size size = panel_size(session.view(0).picture.size);
+  const cv::Size size = panel_size(session.view(0).picture.size, kPanelWidthPx);
   const Measurement& measurement = *report.measurement;
   const bool is_paper = report.profile != name(Profile::best);
   const cv::Mat panels[] = {

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <opencv2/imgproc.hpp>
 #include <string>
@@ -11,9 +12,11 @@
 namespace traygauge {
 namespace {
 
-constexpr double kTint = 0.25;    // share of the label's colour inside its outline
-constexpr double kMargin = 1.08;  // around what is labelled
-constexpr double kTextScale = 0.6;
+constexpr double kTint = 0.25;       // share of the label's colour inside its outline
+constexpr double kMargin = 1.08;     // around what is labelled
+constexpr double kFlattest = 0.375;  // height over width
+constexpr double kTallest = 1.375;
+constexpr double kLabelScale = 0.6;
 constexpr int kLineHeightPx = 22;
 
 cv::Mat to_bgr(const Picture& picture) {
@@ -79,14 +82,20 @@ void draw_item(cv::Mat& panel, const cv::Mat& labels, const ItemResult& item) {
                                                                : std::string(name(item.status))};
   int y = std::clamp(deepest.y, kLineHeightPx, std::max(kLineHeightPx, panel.rows - kLineHeightPx));
   for (const std::string& text : lines) {
-    const int width = measure_text(text, kTextScale).width;
+    const int width = measure_text(text, kLabelScale).width;
     const int x = std::clamp(deepest.x - width / 2, 2, std::max(2, panel.cols - width - 2));
-    draw_text(panel, text, {x, y}, kTextScale, kInk);
+    draw_text(panel, text, {x, y}, kLabelScale, kInk);
     y += kLineHeightPx;
   }
 }
 
 }  // namespace
+
+cv::Size panel_size(const PictureSize& picture, int width_px) {
+  const double height_px = static_cast<double>(width_px) * picture.height / picture.width;
+  return {width_px,
+          static_cast<int>(std::lround(std::clamp(height_px, kFlattest * width_px, kTallest * width_px)))};
+}
 
 cv::Mat draw_view(const LoadedView& view, const Measurement& measurement, cv::Size size) {
   const cv::Mat picture = to_bgr(view.picture);

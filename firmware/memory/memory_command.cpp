@@ -17,12 +17,12 @@
 namespace traygauge {
 namespace {
 
-constexpr std::size_t kNameWidth = 36;
+constexpr std::size_t kPartWidth = 36;
 constexpr std::size_t kFrames = 2;
 constexpr std::size_t kBytesPerPixel = 3 + 1;  // colour and label
 
 std::string row(const std::string& name, std::size_t bytes) {
-  return pad_right(name, kNameWidth) + pad_left(std::to_string(bytes), 12) + pad_left(mebibytes(bytes), 10) +
+  return pad_right(name, kPartWidth) + pad_left(std::to_string(bytes), 12) + pad_left(mebibytes(bytes), 10) +
          "\n";
 }
 
@@ -50,11 +50,13 @@ int run_memory(const MemoryOptions& options, std::ostream& out) {
   configuration.profile = choose_profile(options.profile);
   configuration.limits = limits;
   out << "Frames of " << options.width << " x " << options.height << " pixels\n\n";
-  out << pad_right("part", kNameWidth) << pad_left("bytes", 12) << pad_left("MiB", 10) << "\n";
+  out << pad_right("part", kPartWidth) << pad_left("bytes", 12) << pad_left("MiB", 10) << "\n";
   print_parts(describe_memory(configuration), out);
-  out << row("reserved at start", required_bytes(configuration)) << "\nwhere labels are found, beside it\n";
+  const bool lends = configuration.profile == Profile::best;  // see LabelDrawer
+  out << row("reserved at start", required_bytes(configuration)) << "\nwhere labels are found, "
+      << (lends ? "in the memory of *, before those" : "beside it") << "\n";
   print_parts(describe_segmenter(configuration), out);
-  out << row("reserved at start", segmenter_bytes(configuration))
+  out << row(lends ? "needed" : "reserved at start", segmenter_bytes(configuration))
       << "* one after the other in the same memory: the largest counts\n\n";
   const auto pixels = static_cast<std::size_t>(options.width) * static_cast<std::size_t>(options.height);
   out << row("beside it: frames, labels", kFrames * kBytesPerPixel * pixels);

@@ -36,11 +36,6 @@ void draw_titles(Svg& svg, const std::string& title, const std::string& subtitle
   svg.text({kLeftPx, 53.0}, subtitle, {kTextPx, "#555555", Anchor::start, false, false});
 }
 
-std::size_t count_characters(const std::string& text) {
-  return static_cast<std::size_t>(std::count_if(
-      text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; }));
-}
-
 void draw_marker(Svg& svg, SvgPoint centre, const MarkerStyle& style) {
   const double r = style.radius_px;
   if (style.marker == Marker::dot) {

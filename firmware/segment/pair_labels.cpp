@@ -22,34 +22,45 @@ bool fits(PictureSize size, const Picture& picture) {
 
 }  // namespace
 
-LabelDrawer::LabelDrawer(const Configuration& configuration) : block_(segmenter_bytes(configuration)) {
-  drawn_.reserved_bytes = block_.bytes().size();
+LabelDrawer::LabelDrawer(const Configuration& configuration) {
+  drawn_.working_bytes = segmenter_bytes(configuration);
   for (Picture& labels : drawn_.labels) labels = Picture(largest_frame(configuration), PixelFormat::gray8);
   if (configuration.profile == Profile::best) return;
+  block_.emplace(drawn_.working_bytes);
   for (Picture& gray : gray_) gray = Picture(largest_frame(configuration), PixelFormat::gray8);
   ArenaPlan plan;
   pattern_.allocate(plan, configuration.best.card.pattern);
   pattern_block_.emplace(plan.high_water_bytes());
 }
 
+void LabelDrawer::take_memory(const Estimator& estimator) {
+  const std::span<std::byte> lent = estimator.idle_memory();
+  const bool borrows = !block_ && lent.size() >= drawn_.working_bytes;
+  if (!borrows && !block_) block_.emplace(drawn_.working_bytes);
+  memory_ = borrows ? lent.first(drawn_.working_bytes) : block_->bytes();
+  drawn_.reserved_bytes = borrows ? 0 : block_->bytes().size();
+}
+
 void LabelDrawer::configure(const Configuration& configuration, const Estimator& estimator) {
-  reset();
-  segmenter_.reset();
-  const CardPattern* pattern = estimator.card_pattern();
-  if (pattern == nullptr && pattern_block_) {
+  configuration_ = configuration;
+  learned_ = estimator.card_pattern();
+  if (learned_ == nullptr && pattern_block_) {
     Arena arena(pattern_block_->bytes());
     pattern_.allocate(arena, configuration.best.card.pattern);
     const ReferenceCard& card = configuration.card;
     if (prepare_card_pattern(card.pattern, card.size(), configuration.best.card.pattern, pattern_).ok())
-      pattern = &pattern_;
+      learned_ = &pattern_;
   }
-  if (pattern != nullptr) segmenter_.emplace(block_.bytes(), configuration, *pattern);
+  if (learned_ != nullptr) take_memory(estimator);
+  reset();
 }
 
+// What the segmenter had learned lay where the stages have worked since.
 void LabelDrawer::reset() {
   view_count_ = 0;
   drawn_.segmentation = {};
-  if (segmenter_) segmenter_->reset();
+  segmenter_.reset();
+  if (learned_ != nullptr) segmenter_.emplace(memory_, configuration_, *learned_);
 }
 
 Status LabelDrawer::add_view(const ViewInput& view, const Estimator& estimator) {

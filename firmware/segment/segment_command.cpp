@@ -18,16 +18,12 @@
 namespace traygauge {
 namespace {
 
-constexpr int kPanelWidthPx = 1000;
-
-cv::Size panel_size(const PictureSize& picture) {
-  return {kPanelWidthPx, kPanelWidthPx * picture.height / picture.width};
-}
+constexpr int kOutlinePanelWidthPx = 1000;
 
 // Both views with what was found; where the capture has labels, those below.
 void write_picture(const std::filesystem::path& file, const CaptureSession& session,
                    const SegmentReport& report) {
-  const cv::Size size = panel_size(session.view(0).picture.size);
+  const cv::Size size = panel_size(session.view(0).picture.size, kOutlinePanelWidthPx);
   const bool has_given = report.scores.has_value();
   const int panel_height = size.height + kTitleHeightPx;
   cv::Mat sheet((has_given ? 2 : 1) * panel_height, 2 * size.width, CV_8UC3, kPaper);

@@ -1,5 +1,7 @@
 #include "firmware/station/estimator_measurer.hpp"
 
+#include <algorithm>
+
 namespace traygauge {
 
 EstimatorMeasurer::EstimatorMeasurer(Scene& scene, const EstimatorLimits& limits, Profile profile,
@@ -51,12 +53,20 @@ Status EstimatorMeasurer::add_view(const StationView& view) {
   return is_drawing_ ? drawer_->add_view(input, *estimator_) : estimator_->add_view(input);
 }
 
+// Where nothing lies between the two views.
+std::span<std::byte> EstimatorMeasurer::idle_memory() const {
+  if (!estimator_) return {};
+  const std::span<std::byte> idle = estimator_->idle_memory();
+  const std::size_t borrowed = drawer_ ? drawer_->borrowed_bytes() : 0;
+  return idle.subspan(std::min(borrowed, idle.size()));
+}
+
 // Looks for the card of the first view only here: who has an arm does not need it.
 std::optional<double> EstimatorMeasurer::turned_deg(const FrameView& live) {
   if (configured_with_ == nullptr || !first_view_) return std::nullopt;
   if (!first_view_->frame.empty()) {
     guide_.begin(configured_with_->card, first_view_->lens.value_or(configured_with_->lens),
-                 first_view_->frame, estimator_ ? estimator_->idle_memory() : std::span<std::byte>());
+                 first_view_->frame, idle_memory());
     first_view_->frame = {};
   }
   return guide_.turned_deg(live);

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 
 #include "core/estimator/estimator.hpp"
 #include "firmware/base/aligned_block.hpp"
@@ -47,6 +48,7 @@ class EstimatorMeasurer final : public Measurer {
 
  private:
   void configure(const Configuration& configuration);
+  std::span<std::byte> idle_memory() const;
 
   Scene& scene_;
   EstimatorLimits limits_;

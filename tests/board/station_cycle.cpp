@@ -19,6 +19,7 @@ using namespace std::chrono_literals;
 using nlohmann::json;
 
 constexpr double kMaxOff_ml = 0.01;
+constexpr double kMaxResident_mib = 64.0;  // the station's budget
 
 // Label to volume.
 std::map<int, double> volumes(const json& document) {
@@ -64,10 +65,12 @@ class Cycle {
     const bool is_right = rig_.wait_until_shows(lamps);
     tell(what, is_right, is_right ? "the lamp says so" : "the lamp never says so");
   }
-  void print_memory() const {
-    std::printf("the station's memory: %.1f MiB resident at most, %.1f of them the kernel's frame buffers\n",
-                static_cast<double>(memory_.peak_kib) / 1024.0,
-                static_cast<double>(memory_.buffers_kib) / 1024.0);
+  void expect_little_memory() {
+    const double peak_mib = static_cast<double>(memory_.peak_kib) / 1024.0;
+    std::ostringstream text;
+    text << peak_mib << " MiB resident at most, " << static_cast<double>(memory_.buffers_kib) / 1024.0
+         << " of them the kernel's frame buffers";
+    tell("the station's memory", peak_mib > 0.0 && peak_mib <= kMaxResident_mib, text.str());
   }
   bool is_good() const { return is_good_; }
 
@@ -90,8 +93,9 @@ class Cycle {
   bool is_good_ = true;
 };
 
-json measure(const std::string& program, const std::string& capture) {
-  ChildProgram run(program + " measure " + capture + " --labels given --seed 0 --json");
+json measure(const std::string& program, const std::string& capture, Outlines outlines) {
+  const char* const labels = outlines == Outlines::given ? "given" : "auto";
+  ChildProgram run(program + " measure " + capture + " --labels " + labels + " --seed 0 --json");
   std::string text;
   run.read_line(text);
   return json::parse(text);
@@ -105,6 +109,7 @@ void pull_out(StationRig& rig, UsbCamera& camera) {
 
 struct Course {
   StationMode mode;
+  Outlines outlines;
   int scans;  // pressed for, of them:
   int unmeasured;
   void (*play)(StationRig& rig, Cycle& cycle);
@@ -155,17 +160,17 @@ void play_two_cameras(StationRig& rig, Cycle& cycle) {
 }
 
 const std::map<std::string, Course> kCourses = {
-    {"arm", {StationMode::arm, 6, 2, play_arm}},
-    {"double", {StationMode::by_hand, 4, 2, play_hand}},
-    {"twin", {StationMode::by_second, 4, 1, play_two_cameras}},
+    {"arm", {StationMode::arm, Outlines::given, 6, 2, play_arm}},
+    {"double", {StationMode::by_hand, Outlines::found, 4, 2, play_hand}},
+    {"twin", {StationMode::by_second, Outlines::found, 4, 1, play_two_cameras}},
 };
 
 int run(const std::string& program, const std::string& folder, const Course& course) {
   StationRig rig(folder, course.mode);
   if (!rig.plug_in()) return 2;
   const std::string file = "/tmp/site/station.toml";
-  rig.write_station(file);
-  const auto expected = volumes(measure(program, folder));
+  rig.write_station(file, course.outlines);
+  const auto expected = volumes(measure(program, folder, course.outlines));
   std::printf("measure: %zu items\n", expected.size());
   ChildProgram check(program + " check " + file);
   for (std::string line; check.read_line(line);) std::printf("check: %s\n", line.c_str());
@@ -175,7 +180,7 @@ int run(const std::string& program, const std::string& folder, const Course& cou
                        " --devices hardware:" + file);
   Cycle cycle(rig, station, expected);
   course.play(rig, cycle);
-  cycle.print_memory();
+  cycle.expect_little_memory();
   const bool ended = station.finish() == (course.unmeasured > 0 ? 1 : 0);
   std::printf("%s  the station ended as it should\n", ended ? "ok  " : "FAIL");
   return cycle.is_good() && check_is_good && ended ? 0 : 1;

@@ -119,7 +119,7 @@ bool StationRig::wait_until_shows(const Lamps& lamps) {
   return true;
 }
 
-void StationRig::write_station(const fs::path& file) const {
+void StationRig::write_station(const fs::path& file, Outlines outlines) const {
   const auto& views = capture_.views;
   fs::create_directories(file.parent_path());
   std::ofstream out(file);
@@ -142,9 +142,11 @@ void StationRig::write_station(const fs::path& file) const {
   }
   const CardDescription& card = capture_.card;
   out << "[card]\npattern = " << fs::absolute(card.pattern.path) << "\nwidth_mm = " << card.width_mm
-      << "\nheight_mm = " << card.height_mm << "\nthickness_mm = " << card.thickness_mm
-      << "\n[trays]\nlabels = [" << fs::absolute(views[0].labels->path) << ", "
-      << fs::absolute(views[1].labels->path) << "]\n";
+      << "\nheight_mm = " << card.height_mm << "\nthickness_mm = " << card.thickness_mm << "\n";
+  if (outlines == Outlines::given) {
+    out << "[trays]\nlabels = [" << fs::absolute(views[0].labels->path) << ", "
+        << fs::absolute(views[1].labels->path) << "]\n";
+  }
   write_dish(capture_.dishes.at(0), file.parent_path() / "dishes" / "dish.toml");
 }
 

@@ -25,6 +25,12 @@ enum class StationMode : std::uint8_t {
   by_second,  // by a second camera
 };
 
+// Where the station has card, dish and food from.
+enum class Outlines : std::uint8_t {
+  given,  // the capture's label pictures
+  found,  // the station finds them
+};
+
 // Which lamps burn.
 struct Lamps {
   bool green = false;
@@ -48,7 +54,7 @@ class StationRig {
   // The cameras; false when the kernel has no virtual host controller.
   bool plug_in();
   // Describes the rig, with a folder of dishes beside.
-  void write_station(const std::filesystem::path& file) const;
+  void write_station(const std::filesystem::path& file, Outlines outlines) const;
 
   UsbCamera& camera() { return camera_; }
   UsbCamera& second_camera() { return *second_camera_; }

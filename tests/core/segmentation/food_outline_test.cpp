@@ -4,150 +4,25 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdint>
-#include <optional>
 #include <random>
 #include <vector>
 
 #include "tests/core/matching/workspace_block.hpp"
+#include "tests/core/segmentation/drawn_plate.hpp"
 
 namespace traygauge {
 namespace {
 
-constexpr int kSide = 600;
-constexpr double kPxPerMm = 2.5;
-constexpr double kRimPx = 290.0;
-
-struct Disc {
-  double x = 0.0;
-  double y = 0.0;
-  double radius = 0.0;
-  std::array<int, 3> bgr{};
-  double height_mm = 20.0;  // flat, with a steep edge
-  int grain = 0;            // grey values, from pixel to pixel
-  // Of pieces that are mixed with those of `bgr`; the same where there are none.
-  std::optional<std::array<int, 3>> other_bgr{};
-};
-
-double distance(double x, double y, const Disc& disc) {
-  return std::sqrt((x - disc.x) * (x - disc.x) + (y - disc.y) * (y - disc.y));
-}
-
-// A round plate lit from the left: its shade falls by `shade` across it, without an edge. Seen from above.
-class Plate {
- public:
-  explicit Plate(std::vector<Disc> food, double shade = 0.1, bool has_relief = true)
-      : food_(std::move(food)), has_relief_(has_relief) {
-    std::mt19937 random(7);
-    std::normal_distribution<double> noise(0.0, 2.0);
-    for (int y = 0; y < kSide; ++y) {
-      for (int x = 0; x < kSide; ++x) {
-        std::array<int, 3> bgr = {40, 50, 60};
-        if (distance(x, y, {300, 300, 0, {}}) < kRimPx) bgr = {205, 210, 215};
-        for (const Disc& disc : food_) {
-          if (distance(x, y, disc) >= disc.radius) continue;
-          bgr = disc.other_bgr && piece_at(x, y) ? *disc.other_bgr : disc.bgr;
-          const int grain =
-              disc.grain > 0
-                  ? static_cast<int>(random() % (2U * static_cast<unsigned>(disc.grain))) - disc.grain
-                  : 0;
-          for (int& value : bgr) value += grain;
-        }
-        for (const int value : bgr) {
-          const double lit = value * (1.0 - shade * x / kSide) + noise(random);
-          pixels_.push_back(static_cast<std::uint8_t>(std::clamp(lit, 0.0, 255.0)));
-        }
-      }
-    }
-  }
-
-  // Labels of the cells; returns the number of items.
-  int outline(std::vector<std::uint8_t>& labels, DishRaster& raster) {
-    const FrameView frame{pixels_.data(), kSide, kSide, 3 * kSide, PixelFormat::bgr8};
-    std::vector<Vec2> rim = ring(kRimPx);
-    EXPECT_TRUE(load_dish_raster(frame, rim, kPxPerMm, params_.raster, memory_.workspace.raster, raster));
-    mark_zone(raster, rim, DishZone::edge);
-    rim = ring(kRimPx - 6.0);
-    mark_zone(raster, rim, DishZone::flange);
-    rim = ring(kRimPx - 60.0);
-    mark_zone(raster, rim, DishZone::inside);
-    labels.assign(static_cast<std::size_t>(raster.width() * raster.height()), 0);
-    const ImageView<std::uint8_t> cells{labels.data(), raster.width(), raster.height()};
-    lay_relief(raster);
-    const ImageView<const ReliefSample> relief{relief_.data(), raster.width(), raster.height()};
-    EXPECT_TRUE(outline_food(raster, relief, params_, memory_.workspace, cells));
-    return label_items(raster, relief, params_, memory_.workspace, kFirstItemLabel, 100, cells);
-  }
-
-  // Share of the cells whose being food or not is right.
-  double right_share(const std::vector<std::uint8_t>& labels, const DishRaster& raster) const {
-    int right = 0;
-    for (int y = 0; y < raster.height(); ++y) {
-      for (int x = 0; x < raster.width(); ++x) {
-        const Vec2 pixel = raster.pixel_of(x, y);
-        bool is_food = false;
-        for (const Disc& disc : food_) is_food |= distance(pixel.x(), pixel.y(), disc) < disc.radius;
-        if (is_food == is_item(labels[static_cast<std::size_t>(y * raster.width() + x)])) ++right;
-      }
-    }
-    return static_cast<double>(right) / (raster.width() * raster.height());
-  }
-
- private:
-  // What two views would say: food of some height differs where it is compared on the glaze. Noise as of
-  // census windows; without relief nothing is known.
-  void lay_relief(const DishRaster& raster) {
-    relief_.assign(static_cast<std::size_t>(raster.width() * raster.height()), {});
-    if (!has_relief_) return;
-    std::mt19937 random(11);
-    std::normal_distribution<double> bits(0.0, 1.5);
-    const auto doubled = [&](double mean) {
-      return static_cast<std::uint8_t>(std::clamp(2.0 * (mean + bits(random)), 0.0, 62.0));
-    };
-    for (int y = 0; y < raster.height(); ++y) {
-      for (int x = 0; x < raster.width(); ++x) {
-        const Vec2 pixel = raster.pixel_of(x, y);
-        double height_mm = 0.0;
-        for (const Disc& disc : food_) {
-          const double part = distance(pixel.x(), pixel.y(), disc) / disc.radius;
-          if (part < 1.0) height_mm = std::max(height_mm, disc.height_mm * std::min(1.0, 6.0 * (1.0 - part)));
-        }
-        ReliefSample& sample = relief_[static_cast<std::size_t>(y * raster.width() + x)];
-        sample.is_known = true;
-        sample.height = static_cast<std::int8_t>(std::lround(height_mm / kReliefUnitMm));
-        sample.food_cost = doubled(9.0);
-        sample.glaze_cost = height_mm > 0.0 ? doubled(14.0) : sample.food_cost;
-      }
-    }
-  }
-
-  // Pieces of 8 mm, either kind as often.
-  static bool piece_at(int x, int y) {
-    const auto cell = static_cast<std::uint32_t>(x / 20 + 71 * (y / 20));
-    return ((cell * 2654435761U) >> 16U & 1U) != 0;
-  }
-
-  static std::vector<Vec2> ring(double radius) {
-    std::vector<Vec2> points;
-    for (int i = 0; i < 120; ++i)
-      points.emplace_back(300.0 + radius * std::cos(i * 0.05236), 300.0 + radius * std::sin(i * 0.05236));
-    return points;
-  }
-
-  std::vector<Disc> food_;
-  bool has_relief_;
-  std::vector<ReliefSample> relief_;
-  std::vector<std::uint8_t> pixels_;
-  FoodOutlineParams params_;
-  WithMemory<FoodOutlineWorkspace> memory_{FoodOutlineParams{}};
-};
-
-constexpr std::array<int, 3> kGreen = {40, 130, 50};
-constexpr std::array<int, 3> kBrown = {40, 80, 150};
-constexpr std::array<int, 3> kOchre = {50, 110, 160};
-constexpr std::array<int, 3> kOrange = {40, 110, 210};
+using testing::Disc;
+using testing::kBrown;
+using testing::kGreen;
+using testing::kOchre;
+using testing::kOrange;
+using testing::kPxPerMm;
+using testing::kWhite;
+using testing::Plate;
 
 TEST(FoodOutline, EmptyPlateHasNoFood) {
   Plate plate({}, 0.25);
@@ -177,6 +52,7 @@ TEST(FoodOutline, ColourSplitsPilesThatTouch) {
   EXPECT_NE(label_at(240, 300), label_at(380, 300));
   EXPECT_EQ(label_at(200, 280), label_at(285, 300));
   EXPECT_EQ(label_at(320, 300), label_at(400, 340));
+  EXPECT_GT(plate.item_share(labels, raster), 0.99);
 }
 
 TEST(FoodOutline, CrumbsAndLinesOfDecorationAreNoFood) {
@@ -189,7 +65,6 @@ TEST(FoodOutline, CrumbsAndLinesOfDecorationAreNoFood) {
 }
 
 TEST(FoodOutline, FoodOfTheGlazesColourIsToldByItsHeight) {
-  constexpr std::array<int, 3> kWhite = {204, 209, 214};
   const Disc mash{260, 310, 80, kWhite, 20.0, 14};
   std::vector<std::uint8_t> labels;
   DishRaster raster;
@@ -198,6 +73,34 @@ TEST(FoodOutline, FoodOfTheGlazesColourIsToldByItsHeight) {
   EXPECT_GT(plate.right_share(labels, raster), 0.98);
   Plate blind({mash}, 0.1, false);
   EXPECT_EQ(blind.outline(labels, raster), 0);
+}
+
+// Beside food that hides the dish from the other view, any height is matched better than the dish.
+TEST(FoodOutline, GlazeWhoseHeightOnlyOneViewFoundIsNoFood) {
+  Disc seen{260, 310, 80, kWhite, 20.0, 14};
+  Disc hidden = seen;
+  hidden.is_agreed = false;
+  std::vector<std::uint8_t> labels;
+  DishRaster raster;
+  Plate agreed({seen});
+  EXPECT_EQ(agreed.outline(labels, raster), 1);
+  Plate plate({hidden});
+  EXPECT_EQ(plate.outline(labels, raster), 0);
+}
+
+// Yoghurt in a white bowl: smooth and without a colour of its own, matched badly, but nowhere on the dish.
+TEST(FoodOutline, WhiteFillingOfABowlIsToldByStandingHighAllOver) {
+  Disc filling{300, 300, 262, kWhite, 20.0};
+  filling.is_agreed = false;
+  std::vector<std::uint8_t> labels;
+  DishRaster raster;
+  Plate bowl({filling});
+  bowl.set_depth_mm(30.0);
+  EXPECT_EQ(bowl.outline(labels, raster), 1);
+  EXPECT_GT(bowl.right_share(labels, raster), 0.9);
+  // As high as the edge: an empty bowl's edge, continued.
+  bowl.set_depth_mm(21.0);
+  EXPECT_EQ(bowl.outline(labels, raster), 0);
 }
 
 TEST(FoodOutline, GlazeTintedByFoodIsToldByLyingFlat) {
@@ -254,7 +157,7 @@ TEST(FoodField, OutlineCostDecidesHowFarCellsAgree) {
     int lifted = 0;
     for (ReliefSample& sample : relief) {
       const bool is_lifted = random() % 3 == 0;
-      sample = {40, 10, static_cast<std::uint8_t>(is_lifted ? 60 : 10), true};
+      sample = {40, 10, static_cast<std::uint8_t>(is_lifted ? 60 : 10), true, true};
       lifted += is_lifted ? 1 : 0;
     }
     DishRaster raster;

@@ -1,0 +1,101 @@
+// Blocks of food, laid out by hand: which of them are one item.
+#include "core/segmentation/item_split.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <vector>
+
+#include "tests/core/matching/workspace_block.hpp"
+
+namespace traygauge {
+namespace {
+
+constexpr int kWide = 140;
+constexpr int kSide_mm = 7;
+constexpr std::uint8_t kFood = 250;
+constexpr CellColour kDark = {60, 120, 70};
+constexpr CellColour kPale = {150, 135, 95};
+constexpr CellColour kBright = {170, 150, 115};
+constexpr CellColour kGreenish = {90, 80, 140};
+
+class Food {
+ public:
+  Food()
+      : colours_(kWide * kWide),
+        zones_(colours_.size(), DishZone::inside),
+        relief_(colours_.size()),
+        owners_(colours_.size(), kGlaze) {}
+
+  // Of blocks from (left, top), as high as `height_mm` says at every column.
+  template <class HeightOf>
+  void add(int left, int top, int columns, int rows, const CellColour& colour, HeightOf&& height_mm) {
+    for (int y = kSide_mm * top; y < kSide_mm * (top + rows); ++y) {
+      for (int x = kSide_mm * left; x < kSide_mm * (left + columns); ++x) {
+        const auto at = static_cast<std::size_t>(y * kWide + x);
+        colours_[at] = colour;
+        owners_[at] = kFood;
+        relief_[at].height = static_cast<std::int8_t>(height_mm(x - kSide_mm * left) / kReliefUnitMm);
+        relief_[at].is_known = relief_[at].is_confirmed = true;
+      }
+    }
+  }
+  int split() {
+    DishRaster raster;
+    raster.colours = {colours_.data(), kWide, kWide};
+    raster.zones = {zones_.data(), kWide, kWide};
+    return split_items(raster, {relief_.data(), kWide, kWide}, kFood, 1.0, params_, memory_.workspace, 2, 100,
+                       {owners_.data(), kWide, kWide});
+  }
+  std::uint8_t owner(int column, int row) const {
+    return owners_[static_cast<std::size_t>((kSide_mm * row + 3) * kWide + kSide_mm * column + 3)];
+  }
+
+ private:
+  static constexpr std::uint8_t kGlaze = 251;
+  std::vector<CellColour> colours_;
+  std::vector<DishZone> zones_;
+  std::vector<ReliefSample> relief_;
+  std::vector<std::uint8_t> owners_;
+  ItemSplitParams params_;
+  WithMemory<ItemSplitWorkspace> memory_{ItemSplitParams{}};
+};
+
+// A piece of cake: its top, and the side that is seen beside it.
+TEST(ItemSplit, TheSideOfWhatStandsBelongsToIt) {
+  Food cake;
+  cake.add(2, 4, 6, 6, kDark, [](int) { return 34.0; });
+  cake.add(8, 4, 3, 6, kPale, [](int x) { return 31.0 - 1.4 * x; });
+  EXPECT_EQ(cake.split(), 1);
+}
+
+TEST(ItemSplit, AFlatFoodBesideAHighOneIsItsOwn) {
+  Food food;
+  food.add(2, 4, 6, 6, kDark, [](int) { return 34.0; });
+  food.add(8, 4, 4, 6, kPale, [](int) { return 12.0; });
+  EXPECT_EQ(food.split(), 2);
+}
+
+TEST(ItemSplit, FoodsThatSinkTowardsEachOtherAreTwo) {
+  Food food;
+  food.add(2, 4, 5, 6, kDark, [](int x) { return 34.0 - 0.8 * std::max(0, x - 7); });
+  food.add(7, 4, 5, 6, kPale, [](int x) { return 8.0 + 0.8 * std::min(28, x); });
+  EXPECT_EQ(food.split(), 2);
+}
+
+// A row of blocks between two foods, half of either, is neither's colour.
+TEST(ItemSplit, WhereTwoFoodsMixThereIsNoThird) {
+  const auto height_mm = [](int) { return 15.0; };
+  Food food;
+  food.add(2, 2, 6, 8, kDark, height_mm);
+  food.add(8, 2, 1, 8, kBright, height_mm);
+  food.add(9, 2, 6, 8, kGreenish, height_mm);
+  EXPECT_EQ(food.split(), 2);
+  // What both meet in is left to the picture's colours, cell by cell.
+  for (const int column : {7, 8, 9}) EXPECT_EQ(food.owner(column, 5), kFood) << column;
+  EXPECT_NE(food.owner(4, 5), food.owner(12, 5));
+}
+
+}  // namespace
+}  // namespace traygauge
