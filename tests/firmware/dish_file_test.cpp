@@ -11,6 +11,7 @@
 #include "simulator/capture/input_error.hpp"
 #include "simulator/capture/png_writer.hpp"
 #include "tests/simulator/capture/temporary_capture.hpp"
+#include "tests/support/random_seed.hpp"
 
 namespace traygauge {
 namespace {
@@ -52,14 +53,13 @@ DishDescription draw_dish(std::mt19937& random) {
 TEST(DishFile, WhatIsWrittenIsReadBack) {
   const TemporaryFolder folder;
   const fs::path file = folder.path() / "dish.toml";
-  const unsigned seed = std::random_device{}();
-  std::mt19937 random(seed);
+  std::mt19937 random(testing::random_seed());
   for (int round = 0; round < 200; ++round) {
     DishDescription dish = draw_dish(random);
     dish.style = round % 2 == 0 ? "soup" : "";
     write_dish_file(file, dish);
     expect_same(read_dish_file(file), dish);
-    ASSERT_FALSE(testing::Test::HasFailure()) << "seed " << seed << ", round " << round << "\n"
+    ASSERT_FALSE(::testing::Test::HasFailure()) << "round " << round << "\n"
                                               << read_text(file);
   }
 }

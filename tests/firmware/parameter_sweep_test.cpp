@@ -6,7 +6,6 @@
 #include <cstdlib>
 #include <iostream>
 #include <limits>
-#include <random>
 #include <string>
 #include <type_traits>
 #include <vector>
@@ -20,6 +19,7 @@
 #include "firmware/measure/pair_setup.hpp"
 #include "firmware/segment/pair_labels.hpp"
 #include "simulator/capture/capture.hpp"
+#include "tests/support/random_seed.hpp"
 
 namespace traygauge {
 namespace {
@@ -97,7 +97,7 @@ double draw(const Slot& slot, Random& random) {
   return slot.is_whole ? std::max(whole(value, range), range.low) : value;
 }
 
-class ParameterSweep : public testing::TestWithParam<Profile> {
+class ParameterSweep : public ::testing::TestWithParam<Profile> {
  protected:
   static void SetUpTestSuite() {
     const std::string folder = TRAYGAUGE_SOURCE_DIR "/simulator/demo/fish_and_potatoes";
@@ -113,9 +113,8 @@ class ParameterSweep : public testing::TestWithParam<Profile> {
 
   void SetUp() override {
     if (GetParam() == Profile::paper && !has_surf()) GTEST_SKIP() << "profile paper is not in this build";
-    if (const char* given = std::getenv("TRAYGAUGE_SEED")) seed_ = std::strtoull(given, nullptr, 10);
     if (const char* given = std::getenv("TRAYGAUGE_SWEEP_SHARE")) share_ = std::strtod(given, nullptr);
-    std::cout << "TRAYGAUGE_SEED=" << seed_ << " TRAYGAUGE_SWEEP_SHARE=" << share_ << std::endl;
+    std::cout << "TRAYGAUGE_SWEEP_SHARE=" << share_ << std::endl;
   }
 
   static Configuration configuration() {
@@ -147,7 +146,7 @@ class ParameterSweep : public testing::TestWithParam<Profile> {
     }
   }
 
-  std::uint64_t seed_ = std::random_device{}();
+  const std::uint64_t seed_ = testing::random_seed();
   double share_ = 1.0;  // of what is tried: a part where sanitizers take ten times as long
   int volumes_ = 0;
 
@@ -156,7 +155,7 @@ class ParameterSweep : public testing::TestWithParam<Profile> {
   static inline std::array<LoadedView, 2>* views_ = nullptr;
 };
 
-INSTANTIATE_TEST_SUITE_P(Both, ParameterSweep, testing::Values(Profile::best, Profile::paper),
+INSTANTIATE_TEST_SUITE_P(Both, ParameterSweep, ::testing::Values(Profile::best, Profile::paper),
                          [](const auto& profile) { return std::string(name(profile.param)); });
 
 TEST_P(ParameterSweep, OneAtATime) {

@@ -22,6 +22,7 @@ constexpr double kFocal_px = 1050.0;
 constexpr double kCardWidth_mm = 85.60;
 constexpr double kCardHeight_mm = 53.98;
 constexpr double kCardThickness_mm = 0.8;
+constexpr double kCardGap_mm = 12.0;  // between dish and card
 const char* const kPattern = TRAYGAUGE_SOURCE_DIR "/simulator/demo/fish_and_potatoes/card.png";
 
 // Grey values on a plane, periodic, read bilinearly.
@@ -74,7 +75,7 @@ class Renderer {
     const cv::Mat1b print = cv::imread(kPattern, cv::IMREAD_GRAYSCALE);
     cv::resize(print, print_, {}, 0.2, 0.2, cv::INTER_AREA);  // 4 px per mm, twice what the views show
     const double reach = surface_.profile.semi_axes_mm().maxCoeff();
-    card_corner_mm_ = scene.centre_mm + Vec2(-reach - kCardWidth_mm - 12.0, 30.0);
+    card_corner_mm_ = scene.centre_mm + Vec2(-reach - kCardGap_mm - kCardWidth_mm, 30.0);
   }
 
   void render(const SyntheticCamera& camera, cv::Mat1b& gray, cv::Mat1b& labels) const {
@@ -97,7 +98,8 @@ class Renderer {
     const double tilt = scene_.tilt_deg[static_cast<std::size_t>(view)] * std::numbers::pi / 180.0;
     const double turn = view * scene_.turn_deg * std::numbers::pi / 180.0;
     const Vec3 back(std::sin(tilt) * std::sin(turn), -std::sin(tilt) * std::cos(turn), std::cos(tilt));
-    const Vec3 target(0.5 * (scene_.centre_mm.x() + card_corner_mm_.x()) + 25.0, scene_.centre_mm.y(), 0.0);
+    // The middle of dish and card, so that neither is cut off.
+    const Vec3 target(scene_.centre_mm.x() - 0.5 * (kCardGap_mm + kCardWidth_mm), scene_.centre_mm.y(), 0.0);
     return look_at(target + scene_.distance_mm * back, target, 0.02 * view, kFocal_px, kWidth, kHeight);
   }
 

@@ -11,6 +11,7 @@
 #include "core/rectification/plane_rectification.hpp"
 #include "tests/support/cameras.hpp"
 #include "tests/support/opencv_camera.hpp"
+#include "tests/support/random_seed.hpp"
 
 namespace traygauge {
 namespace {
@@ -66,9 +67,7 @@ Vec3 on_plane(const Vec3& camera_mm, const Vec3& point) {
 }
 
 TEST(PlaneRectification, RowsAreEpipolarLinesForAnyMotion) {
-  const unsigned seed = std::random_device{}();
-  SCOPED_TRACE(seed);
-  std::mt19937 random(seed);
+  std::mt19937 random(testing::random_seed());
   std::uniform_real_distribution<double> offset(-120.0, 120.0);
   std::uniform_real_distribution<double> share(0.0, 1.0);
   int built = 0;

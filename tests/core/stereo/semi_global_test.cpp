@@ -16,6 +16,7 @@
 #include "core/stereo/symmetric_census.hpp"
 #include "tests/support/capture_truth.hpp"
 #include "tests/support/pictures.hpp"
+#include "tests/support/random_seed.hpp"
 
 namespace traygauge {
 namespace {
@@ -104,8 +105,7 @@ struct Stereogram {
 };
 
 TEST(SemiGlobal, FindsBothSurfaces) {
-  const unsigned seed = std::random_device{}();
-  SCOPED_TRACE(seed);
+  const unsigned seed = testing::random_seed();
   const Stereogram scene(3, 21, seed);
   for (const bool diagonal : {false, true}) {
     SemiGlobalParams params;
@@ -118,8 +118,7 @@ TEST(SemiGlobal, FindsBothSurfaces) {
 }
 
 TEST(SemiGlobal, BandsMayDifferFromPixelToPixel) {
-  const unsigned seed = std::random_device{}();
-  SCOPED_TRACE(seed);
+  const unsigned seed = testing::random_seed();
   const Stereogram scene(-9, 26, seed);
   std::mt19937 random(seed);
   cv::Mat_<std::int16_t> start(scene.first.size());

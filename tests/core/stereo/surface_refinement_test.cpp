@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/base/arena.hpp"
+#include "tests/support/random_seed.hpp"
 
 namespace traygauge {
 namespace {
@@ -77,8 +78,7 @@ struct Pair {
 };
 
 TEST(SurfaceRefinement, FindsSubpixelShiftsOfSlantedAndCurvedSurfaces) {
-  const unsigned seed = std::random_device{}();
-  SCOPED_TRACE(seed);
+  const unsigned seed = testing::random_seed();
   const auto flat = [](int, int) { return 7.37; };
   const auto slanted = [](int x, int y) { return 4.0 + 0.08 * x - 0.02 * y; };
   const auto curved = [](int x, int y) { return 5.0 + 3.0 * std::sin(0.03 * x) + 2.0 * std::cos(0.05 * y); };

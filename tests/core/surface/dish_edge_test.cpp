@@ -8,6 +8,7 @@
 
 #include "tests/core/surface/block.hpp"
 #include "tests/core/surface/edge_outlines.hpp"
+#include "tests/support/random_seed.hpp"
 
 namespace traygauge {
 namespace {
@@ -33,9 +34,7 @@ class UnknownDish : public ::testing::Test {
 };
 
 TEST_F(UnknownDish, SizeAndHeightFollowFromBothOutlines) {
-  const unsigned seed = std::random_device{}();
-  SCOPED_TRACE("seed " + std::to_string(seed));
-  std::mt19937 random(seed);
+  std::mt19937 random(testing::random_seed());
   const auto draw = [&](double low, double high) {
     return std::uniform_real_distribution<double>(low, high)(random);
   };

@@ -9,6 +9,7 @@
 
 #include "tests/core/surface/block.hpp"
 #include "tests/core/surface/solid_scene.hpp"
+#include "tests/support/random_seed.hpp"
 
 namespace traygauge {
 namespace {
@@ -74,9 +75,7 @@ TEST_P(ProfileThroughRings, FollowsExactHeightsInFewPoints) {
 }
 
 TEST_P(ProfileThroughRings, NeverRisesInwardOfTheCrestWhateverTheNoise) {
-  const unsigned seed = std::random_device{}();
-  SCOPED_TRACE("seed " + std::to_string(seed));
-  std::mt19937 random(seed);
+  std::mt19937 random(testing::random_seed());
   for (int round = 0; round < 100; ++round) {
     rings_ = rings_of(profile_);
     const double sigma_mm = std::uniform_real_distribution<double>(0.0, 0.3)(random);

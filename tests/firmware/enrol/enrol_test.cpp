@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <filesystem>
 #include <map>
 #include <memory>
@@ -15,6 +14,7 @@
 #include "tests/firmware/command_runner.hpp"
 #include "tests/support/empty_dish.hpp"
 #include "tests/support/profile_difference.hpp"
+#include "tests/support/random_seed.hpp"
 
 namespace traygauge {
 namespace {
@@ -106,10 +106,7 @@ TEST_F(EnrolDish, WritesTheDishThatWasRendered) {
 }
 
 TEST_F(EnrolDish, WhateverTheDishAndWhereverTheCameras) {
-  const char* given = std::getenv("TRAYGAUGE_SEED");
-  const unsigned long seed = given != nullptr ? std::strtoul(given, nullptr, 10) : std::random_device{}();
-  SCOPED_TRACE("TRAYGAUGE_SEED=" + std::to_string(seed));
-  std::mt19937 random(seed);
+  std::mt19937 random(testing::random_seed());
   const auto draw = [&](double low, double high) {
     return std::uniform_real_distribution<double>(low, high)(random);
   };

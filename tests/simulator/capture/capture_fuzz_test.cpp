@@ -2,12 +2,12 @@
 #include <gtest/gtest.h>
 
 #include <array>
-#include <iostream>
 #include <random>
 #include <string>
 
 #include "simulator/capture/capture.hpp"
 #include "tests/simulator/capture/temporary_capture.hpp"
+#include "tests/support/random_seed.hpp"
 
 namespace traygauge {
 namespace {
@@ -35,9 +35,7 @@ TEST(CaptureFuzz, NoTruncationIsAccepted) {
 TEST(CaptureFuzz, DamagedBytesAreAcceptedOrNamed) {
   const TemporaryCapture files;
   const std::string whole = files.document.dump();
-  const unsigned seed = std::random_device{}();
-  std::cout << "seed " << seed << std::endl;  // flushed: a crash must not swallow it
-  std::mt19937 random(seed);
+  std::mt19937 random(testing::random_seed());
   int refused = 0;
   for (int round = 0; round < 1500; ++round) {
     std::string damaged = whole;
@@ -54,9 +52,7 @@ TEST(CaptureFuzz, TokensInTheWrongPlaceAreAcceptedOrNamed) {
       "true", "[[]", "0.5",   "\\u0000", "\"..\"", "\"/\"", "99999999999999999999"};
   const TemporaryCapture files;
   const std::string whole = files.document.dump();
-  const unsigned seed = std::random_device{}();
-  std::cout << "seed " << seed << std::endl;  // flushed: a crash must not swallow it
-  std::mt19937 random(seed);
+  std::mt19937 random(testing::random_seed());
   int refused = 0;
   for (int round = 0; round < 1500; ++round) {
     std::string damaged = whole;

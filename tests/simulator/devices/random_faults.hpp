@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "simulator/devices/fault.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace traygauge {
 
@@ -81,18 +82,11 @@ inline std::string random_fault_script(unsigned seed, const std::vector<Simulate
 // A file of its own that is gone with the object.
 class FaultFile {
  public:
-  explicit FaultFile(const std::string& text)
-      : path_(std::filesystem::temp_directory_path() /
-              ("faults_" + std::to_string(std::random_device()()) + ".toml")) {
-    std::ofstream(path_) << text;
-  }
-  FaultFile(const FaultFile&) = delete;
-  FaultFile& operator=(const FaultFile&) = delete;
-  ~FaultFile() { std::filesystem::remove(path_); }
-  const std::filesystem::path& path() const { return path_; }
+  explicit FaultFile(const std::string& text) { std::ofstream(path()) << text; }
+  std::filesystem::path path() const { return folder_.path() / "faults.toml"; }
 
  private:
-  std::filesystem::path path_;
+  TemporaryFolder folder_;
 };
 
 }  // namespace traygauge

@@ -3,13 +3,13 @@
 
 #include <gtest/gtest.h>
 
-#include <iostream>
 #include <opencv2/calib3d.hpp>
 #include <random>
 #include <stdexcept>
 #include <vector>
 
 #include "tests/simulator/render/opencv_view_camera.hpp"
+#include "tests/support/random_seed.hpp"
 
 namespace traygauge {
 namespace {
@@ -63,9 +63,7 @@ TEST(Lens, AgreesWithOpenCvBothWays) {
 }
 
 TEST(Lens, AgreesWithOpenCvForAnyLens) {
-  const unsigned seed = std::random_device{}();
-  std::cout << "seed " << seed << std::endl;
-  std::mt19937 random(seed);
+  std::mt19937 random(testing::random_seed());
   std::uniform_real_distribution<double> unit(-1.0, 1.0);
   for (int i = 0; i < 30; ++i) {
     const ViewCamera camera = camera_with({0.12 * unit(random), 0.02 * unit(random), 0.003 * unit(random),
