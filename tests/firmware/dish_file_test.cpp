@@ -59,8 +59,7 @@ TEST(DishFile, WhatIsWrittenIsReadBack) {
     dish.style = round % 2 == 0 ? "soup" : "";
     write_dish_file(file, dish);
     expect_same(read_dish_file(file), dish);
-    ASSERT_FALSE(::testing::Test::HasFailure()) << "round " << round << "\n"
-                                              << read_text(file);
+    ASSERT_FALSE(::testing::Test::HasFailure()) << "round " << round << "\n" << read_text(file);
   }
 }
 
