@@ -22,6 +22,18 @@ function(traygauge_fast_loops target)
   cmake_parse_arguments(arg "" "" "OPTIONS" ${ARGN})
   if(NOT TRAYGAUGE_SANITIZERS)
     set_source_files_properties(${arg_UNPARSED_ARGUMENTS}
-      TARGET_DIRECTORY ${target} PROPERTIES COMPILE_OPTIONS "-O3;${arg_OPTIONS}")
+      TARGET_DIRECTORY ${target} PROPERTIES COMPILE_OPTIONS "-O3;${arg_OPTIONS}" SKIP_PRECOMPILE_HEADERS ON)
+  endif()
+endfunction()
+
+# traygauge_precompile(TARGET header…) or (TARGET REUSE_FROM other): what libraries declare is parsed once for all sources. Where
+# sources are edited, it would hide which of them forgets an include.
+function(traygauge_precompile target)
+  if(TRAYGAUGE_PRECOMPILED_HEADERS)
+    if(ARGV1 STREQUAL REUSE_FROM)
+      target_precompile_headers(${target} REUSE_FROM ${ARGV2})
+    else()
+      target_precompile_headers(${target} PRIVATE ${ARGN})
+    endif()
   endif()
 endfunction()

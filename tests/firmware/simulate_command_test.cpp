@@ -20,9 +20,8 @@ struct Result {
   std::string error;
 };
 
-Result simulate(std::vector<std::string> arguments) {
-  arguments.insert(arguments.begin(), "traygauge-simulate");
-  std::vector<const char*> pointers;
+Result simulate(const std::vector<std::string>& arguments) {
+  std::vector<const char*> pointers = {"traygauge-simulate"};
   for (const std::string& argument : arguments) pointers.push_back(argument.c_str());
   std::ostringstream out;
   std::ostringstream error;

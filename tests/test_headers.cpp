@@ -1,0 +1,1 @@
+// The headers that test programs share are precompiled with this source.
