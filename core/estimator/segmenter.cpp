@@ -128,7 +128,7 @@ Status Segmenter::find_card(const SegmentedView& view, const LensModel& lens, st
   const Status status = locate_card(
       gray, view.labels, lens,
       {pattern_, memory_.print, params_.card, configuration_.card_search, configuration_.best.card,
-       params_.max_alignments, params_.sure_correlation, memory_.card.search, memory_.card.alignment},
+       params_.card_rounds, memory_.card.search, memory_.card.alignment},
       card, outline_px);
   if (!status.ok()) return status;
   if (card.correlation < params_.sure_card_correlation) result_.is_card_doubtful = true;

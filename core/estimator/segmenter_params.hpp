@@ -3,7 +3,7 @@
 
 #include <array>
 
-#include "core/scale/card_search.hpp"
+#include "core/scale/card_location.hpp"
 #include "core/segmentation/dish_relief.hpp"
 #include "core/segmentation/food_outline.hpp"
 #include "core/surface/dish_search.hpp"
@@ -30,12 +30,10 @@ struct SegmenterParams {
   // both lead to the same item.
   std::array<double, 2> food_heights_mm{3.0, 22.0};
   double min_confirmed_share = 0.2;  // of an item's pixels in one view over the other's
-  int max_alignments = 3;            // of the card, each from the outline that the last one gave
   // Of print and picture, where the card lies flat and free: 0.954 and more in pictures without a fault. A
   // fifth of the card covered leaves 0.7, ends bent up by a fiftieth of its length 0.92.
   double sure_card_correlation = 0.94;
-  // From which the card's place is sure, and need not be aligned again; tilted the wrong way it reaches 0.94.
-  double sure_correlation = 0.95;
+  CardRoundsParams card_rounds;
 };
 
 }  // namespace traygauge

@@ -9,7 +9,7 @@
 namespace traygauge {
 namespace {
 
-constexpr int kSamplesAtOnce = 64;  // samples at a time
+constexpr int kSamplesAtOnce = 64;
 constexpr int kMaxSubSamples = kMaxSamplesPerAxis * kMaxSamplesPerAxis;
 constexpr int kFractionBits = 7;  // of a position; weights then have 14 bits
 constexpr int kPlaneUnit = 1 << kFractionBits;

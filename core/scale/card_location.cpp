@@ -54,7 +54,7 @@ Status locate_card(ImageView<const std::uint8_t> gray, ImageView<std::uint8_t> l
                                    locator.detection, locator.search_space, corners);
   if (!found.ok()) return found;
   outline_px = outline_of(corners, lens);
-  for (int round = 0; round < locator.max_alignments; ++round) {
+  for (int round = 0; round < locator.rounds.max_alignments; ++round) {
     draw_card(outline_px, labels);
     CardAlignment aligned;
     const Status reached = align_card(gray, labels, measure_regions(labels).card, lens, locator.pattern,
@@ -63,7 +63,7 @@ Status locate_card(ImageView<const std::uint8_t> gray, ImageView<std::uint8_t> l
     if (!reached.ok() || aligned.correlation <= alignment.correlation) break;
     alignment = aligned;
     outline_px = outline_of(corners_of(aligned.camera_from_table, locator.pattern.size), lens);
-    if (aligned.correlation >= locator.sure_correlation) break;
+    if (aligned.correlation >= locator.rounds.sure_correlation) break;
   }
   draw_card(outline_px, labels);
   return StatusCode::ok;
@@ -77,7 +77,7 @@ Status locate_card(ImageView<const std::uint8_t> gray, ImageView<std::uint8_t> l
   CardPolygon outline_px;
   return locate_card(gray, labels, lens,
                      {workspace.pattern, workspace.print, params.search, detection, params.alignment,
-                      params.max_alignments, params.sure_correlation, workspace.search, workspace.alignment},
+                      params.rounds, workspace.search, workspace.alignment},
                      alignment, outline_px);
 }
 

@@ -16,14 +16,19 @@
 
 namespace traygauge {
 
+// How often a card that was found is aligned, each time from the outline that the last one gave.
+struct CardRoundsParams {
+  int max_alignments = 3;
+  // Of print and picture, from which the card's place is sure; a print out of focus or hidden reaches less,
+  // and one seen from above, tilted the wrong way, 0.94.
+  double sure_correlation = 0.95;
+};
+
 struct CardLocationParams {
   CardSearchParams search;
   CardDetectionParams detection;  // of the homography among the corners found
   CardAlignmentParams alignment;
-  int max_alignments = 3;  // each from the outline that the last one gave
-  // Of print and picture, from which the card's place is sure; a print out of focus or hidden reaches less,
-  // and one seen from above, tilted the wrong way, 0.94.
-  double sure_correlation = 0.95;
+  CardRoundsParams rounds;
 };
 
 // What is known of the print, and scratch.
@@ -58,8 +63,7 @@ struct CardLocator {
   const CardSearchParams& search;
   const CardParams& detection;
   const CardAlignmentParams& alignment;
-  int max_alignments;
-  double sure_correlation;
+  const CardRoundsParams& rounds;
   CardSearchWorkspace& search_space;
   CardAlignmentWorkspace& alignment_space;
 };
