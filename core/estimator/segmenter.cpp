@@ -125,11 +125,12 @@ Status Segmenter::find_card(const SegmentedView& view, const LensModel& lens, st
   collect_rim_edges(gray, lens, params_.dish.edges, memory_.card.edges, memory_.edges[index]);
   CardAlignment& card = result_.cards[index];
   CardPolygon outline_px;
-  const Status status = locate_card(
-      gray, view.labels, lens,
-      {pattern_, memory_.print, params_.card, configuration_.card_search, configuration_.best.card,
-       params_.card_rounds, memory_.card.search, memory_.card.alignment},
-      card, outline_px);
+  const CardRoundsParams rounds{params_.max_alignments, params_.sure_correlation};
+  const Status status =
+      locate_card(gray, view.labels, lens,
+                  {pattern_, memory_.print, params_.card, configuration_.card_search,
+                   configuration_.best.card, rounds, memory_.card.search, memory_.card.alignment},
+                  card, outline_px);
   if (!status.ok()) return status;
   if (card.correlation < params_.sure_card_correlation) result_.is_card_doubtful = true;
   return is_within(view.frame, outline_px) ? StatusCode::ok : StatusCode::card_hidden;

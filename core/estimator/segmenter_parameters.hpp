@@ -171,9 +171,9 @@ void visit_segmentation_parameters(Params& segmentation, Visit&& visit) {
   visit("segmentation.food_heights_mm.low", segmentation.food_heights_mm[0], Range{0, 200});
   visit("segmentation.food_heights_mm.high", segmentation.food_heights_mm[1], Range{0, 200});
   visit("segmentation.min_confirmed_share", segmentation.min_confirmed_share, Range{0, 1});
-  visit("segmentation.max_alignments", segmentation.card_rounds.max_alignments, Range{1, 100});
+  visit("segmentation.max_alignments", segmentation.max_alignments, Range{1, 100});
   visit("segmentation.sure_card_correlation", segmentation.sure_card_correlation, Range{0, 1});
-  visit("segmentation.sure_correlation", segmentation.card_rounds.sure_correlation, Range{0, 1});
+  visit("segmentation.sure_correlation", segmentation.sure_correlation, Range{0, 1});
 }
 
 }  // namespace traygauge

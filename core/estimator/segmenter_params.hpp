@@ -33,7 +33,9 @@ struct SegmenterParams {
   // Of print and picture, where the card lies flat and free: 0.954 and more in pictures without a fault. A
   // fifth of the card covered leaves 0.7, ends bent up by a fiftieth of its length 0.92.
   double sure_card_correlation = 0.94;
-  CardRoundsParams card_rounds;
+  // Of the card's alignment.
+  int max_alignments = CardRoundsParams{}.max_alignments;
+  double sure_correlation = CardRoundsParams{}.sure_correlation;
 };
 
 }  // namespace traygauge

@@ -63,7 +63,7 @@ struct CardLocator {
   const CardSearchParams& search;
   const CardParams& detection;
   const CardAlignmentParams& alignment;
-  const CardRoundsParams& rounds;
+  CardRoundsParams rounds;
   CardSearchWorkspace& search_space;
   CardAlignmentWorkspace& alignment_space;
 };
