@@ -26,14 +26,10 @@ function(traygauge_fast_loops target)
   endif()
 endfunction()
 
-# traygauge_precompile(TARGET header…) or (TARGET REUSE_FROM other): what libraries declare is parsed once for all sources. Where
-# sources are edited, it would hide which of them forgets an include.
+# traygauge_precompile(TARGET header…): what libraries declare is parsed once for all sources. Where sources are edited, it would
+# hide which of them forgets an include.
 function(traygauge_precompile target)
   if(TRAYGAUGE_PRECOMPILED_HEADERS)
-    if(ARGV1 STREQUAL REUSE_FROM)
-      target_precompile_headers(${target} REUSE_FROM ${ARGV2})
-    else()
-      target_precompile_headers(${target} PRIVATE ${ARGN})
-    endif()
+    target_precompile_headers(${target} PRIVATE ${ARGN})
   endif()
 endfunction()
