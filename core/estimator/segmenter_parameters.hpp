@@ -147,6 +147,10 @@ void visit_food_parameters(Params& segmentation, Visit&& visit) {
   visit("segmentation.food.split.full_edge", food.split.full_edge, Range{0.82, 10});
   visit("segmentation.food.split.flank_share", food.split.flank_share, Range{0.31, 1});
   visit("segmentation.food.split.min_core_blocks", food.split.min_core_blocks, Range{1, 65536});
+  visit("segmentation.food.assignment.fold", food.assignment.fold, Range{2, 8});
+  visit("segmentation.food.assignment.window_mm", food.assignment.window_mm, Range{0, 50});
+  visit("segmentation.food.assignment.nearness", food.assignment.nearness, Range{0, 1000});
+  visit("segmentation.food.assignment.rounds", food.assignment.rounds, Range{0, 100});
   visit_food_field_parameters(food.field, visit);
   visit("segmentation.food.band_mm", food.band_mm, Range{0, 20});
   visit("segmentation.food.smoothing_mm", food.smoothing_mm, Range{0, 20});

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "core/base/lanes.hpp"
 #include "core/segmentation/geodesic.hpp"
 
 namespace traygauge {
@@ -198,18 +199,30 @@ class FoodField {
     const float* below = &workspace_.below[row];
     const float* above = y > 0 ? below - width : nullptr;
     const float* evidence = &workspace_.evidence[row];
-    const auto settle = [&](std::size_t x, float flow) {
+    const auto flow = [&](std::size_t x) {
+      return right[x] - (x > 0 ? right[x - 1] : 0.0F) + below[x] - (above != nullptr ? above[x] : 0.0F);
+    };
+    const auto settle = [&](std::size_t x) {
       const float before = share[x];
-      share[x] = std::clamp(before + kStep * (flow + evidence[x]), 0.0F, 1.0F);
+      share[x] = std::clamp(before + kStep * (flow(x) + evidence[x]), 0.0F, 1.0F);
       leading[x] = 2.0F * share[x] - before;
     };
-    const auto from_above = [&](std::size_t x) { return above == nullptr ? 0.0F : above[x]; };
-    settle(0, right[0] + below[0] - from_above(0));
-    if (above == nullptr) {
-      for (std::size_t x = 1; x < width; ++x) settle(x, right[x] - right[x - 1] + below[x]);
-    } else {
-      for (std::size_t x = 1; x < width; ++x) settle(x, right[x] - right[x - 1] + below[x] - above[x]);
+    settle(0);
+    std::size_t x = 1;
+    constexpr FloatLanes kNone{};
+    constexpr FloatLanes kAll = {1.0F, 1.0F, 1.0F, 1.0F};
+    for (; x + kFloatLanes <= width; x += kFloatLanes) {
+      const FloatLanes before = load_floats(share + x);
+      const FloatLanes from_above = above != nullptr ? load_floats(above + x) : kNone;
+      const FloatLanes inflow =
+          load_floats(right + x) - load_floats(right + x - 1) + load_floats(below + x) - from_above;
+      FloatLanes settled = before + kStep * (inflow + load_floats(evidence + x));
+      settled = settled < kNone ? kNone : settled;
+      settled = settled > kAll ? kAll : settled;
+      store_floats(share + x, settled);
+      store_floats(leading + x, 2.0F * settled - before);
     }
+    for (; x < width; ++x) settle(x);
   }
 
   const DishRaster& raster_;

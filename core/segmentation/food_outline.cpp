@@ -149,6 +149,7 @@ int label_items(const DishRaster& raster, ImageView<const ReliefSample> relief,
 
 void spread_items(const DishRaster& raster, const FoodOutlineParams& params, FoodOutlineWorkspace& workspace,
                   ImageView<std::uint8_t> cells) {
+  assign_items(raster, kUnlabelled, params.assignment, workspace.assignment, cells);
   const int count = raster.width() * raster.height();
   // The dish is barred while items spread over the food; zones tell it from what is outside.
   for (int cell = 0; cell < count; ++cell) {

@@ -9,6 +9,7 @@
 #include "core/segmentation/food_field.hpp"
 #include "core/segmentation/geodesic.hpp"
 #include "core/segmentation/glaze.hpp"
+#include "core/segmentation/item_assignment.hpp"
 #include "core/segmentation/item_split.hpp"
 
 namespace traygauge {
@@ -21,6 +22,7 @@ struct FoodOutlineParams {
   GlazeParams glaze;
   GeodesicParams geodesic;
   ItemSplitParams split;
+  ItemAssignmentParams assignment;
   FoodFieldParams field;
   double band_mm = 3.0;         // to either side of the field's outline, in which the picture's edges decide
   double smoothing_mm = 1.6;    // radius of the majority that smooths outlines
@@ -38,6 +40,7 @@ struct FoodOutlineWorkspace {
   FoodFieldWorkspace field;
   std::span<std::int32_t> column_sums;
   ItemSplitWorkspace split;
+  ItemAssignmentWorkspace assignment;
   GeodesicWorkspace geodesic;
 
   // Nothing may be taken behind it that is used at the same time.
@@ -54,6 +57,8 @@ struct FoodOutlineWorkspace {
     column_sums = arena.template take<std::int32_t>(cells / 3);  // a raster has three rows and more
     arena.rewind(shared);
     split.allocate(arena, params.split);
+    arena.rewind(shared);
+    assignment.allocate(arena, params.raster.max_cells, params.assignment);
     arena.rewind(shared);
     geodesic.allocate(arena, params.raster.max_cells);
   }

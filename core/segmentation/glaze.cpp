@@ -79,13 +79,6 @@ class TextureReader {
 
 }  // namespace
 
-int bend_at(ImageView<const CellColour> colours, int x, int y) {
-  if (x == 0 || y == 0 || x + 1 == colours.width || y + 1 == colours.height) return 0;
-  const CellColour* row = colours.row(y);
-  return std::abs(2 * row[x].luma - row[x - 1].luma - row[x + 1].luma) +
-         std::abs(2 * row[x].luma - colours.at(x, y - 1).luma - colours.at(x, y + 1).luma);
-}
-
 bool measure_glaze(const DishRaster& raster, const GlazeParams& params, GlazeColour& glaze) {
   ByteHistogram luma;
   ByteHistogram red;

@@ -1,6 +1,8 @@
 // What a dish's glaze looks like: the flange shows it.
 #pragma once
 
+#include <cstdlib>
+
 #include "core/image_view/image_view.hpp"
 #include "core/segmentation/dish_raster.hpp"
 
@@ -24,6 +26,11 @@ bool measure_glaze(const DishRaster& raster, const GlazeParams& params, GlazeCol
 
 // How much luma bends from cell to cell along both axes: slopes, as on a shaded wall, have none. 0 at the
 // raster's border.
-int bend_at(ImageView<const CellColour> colours, int x, int y);
+inline int bend_at(const ImageView<const CellColour>& colours, int x, int y) {
+  if (x == 0 || y == 0 || x + 1 == colours.width || y + 1 == colours.height) return 0;
+  const CellColour* cell = colours.row(y) + x;
+  return std::abs(2 * cell->luma - cell[-1].luma - cell[1].luma) +
+         std::abs(2 * cell->luma - cell[-colours.stride].luma - cell[colours.stride].luma);
+}
 
 }  // namespace traygauge
