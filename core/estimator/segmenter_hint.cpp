@@ -25,26 +25,27 @@ double cost_of(const RegionColour& a, const RegionColour& b) {
 }  // namespace
 
 // Too few: borders that are weaker and weaker separate, down to a strength below which they are none; without
-// success what was found stands. Too many: borders that are stronger and stronger join, as long as enough are
+// success what was found stands. Too many: parts that are less and less alike join, as long as enough are
 // left; then those on one dish that resemble each other most are one.
 void Segmenter::meet_hint() {
   FoodOutlineParams food = params_.food;
+  double& likeness = food.split.likeness.constant;
   if (result_.items < params_.items) {
     while (result_.items < params_.items &&
            food.split.max_difference > params_.weakest_border * params_.food.split.max_difference) {
       food.split.max_difference *= params_.border_step;
-      food.split.joined_difference *= params_.border_step;
+      likeness -= params_.likeness_step;
       draw_items(food);
     }
     if (result_.items < params_.items) draw_items(params_.food);
   } else if (result_.items > params_.items) {
-    const double most = params_.food.split.joined_difference / params_.weakest_border;
-    while (result_.items > params_.items && food.split.joined_difference < most) {
-      food.split.joined_difference /= params_.border_step;
+    while (result_.items > params_.items &&
+           likeness < params_.food.split.likeness.constant + params_.most_likeness) {
+      likeness += params_.likeness_step;
       draw_items(food);
     }
     if (result_.items < params_.items) {
-      food.split.joined_difference *= params_.border_step;
+      likeness -= params_.likeness_step;
       draw_items(food);
     }
   }

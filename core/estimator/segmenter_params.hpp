@@ -21,6 +21,10 @@ struct SegmenterParams {
   // steps, down to this share of it: weaker ones lie within an item.
   double weakest_border = 0.5;
   double border_step = 0.85;
+  // With each of these steps, and where fewer items are known, parts must be more or less alike by so much,
+  // as food.split.likeness has it; more than that is no likeness.
+  double likeness_step = 0.5;
+  double most_likeness = 6.0;
   // Insets from the outer edge between which a flange counts as such, and the depth below it where the well
   // begins.
   double flange_begin_mm = 2.5;

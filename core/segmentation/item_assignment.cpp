@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/segmentation/colour_classes.hpp"
 #include "core/segmentation/label_regions.hpp"
 #include "core/segmentation/square_sums.hpp"
 
@@ -20,21 +21,6 @@ static_assert(kColourClasses <= 256);
 constexpr int kMaxWindowRadius = 7;  // cells
 constexpr int kMostNear = (4 * kMaxWindowRadius + 1) * (4 * kMaxWindowRadius + 1);
 constexpr float kLogUnit = 256.0F;  // logarithms are summed as whole numbers
-
-using ClassTable = std::array<std::uint8_t, 256>;
-
-// Splits bytes into classes of equal counts.
-ClassTable equal_classes(const std::array<int, 256>& counts, int total, int classes) {
-  ClassTable table{};
-  int below = 0;
-  for (std::size_t value = 0; value < counts.size(); ++value) {
-    const int middle = 2 * below + counts[value];
-    table[value] =
-        static_cast<std::uint8_t>(std::min(classes - 1, classes * middle / std::max(1, 2 * total)));
-    below += counts[value];
-  }
-  return table;
-}
 
 class Assignment {
  public:
@@ -129,7 +115,7 @@ class Assignment {
   }
 
   void classify_colours() {
-    std::array<std::array<int, 256>, 3> counts{};
+    std::array<ByteCounts, 3> counts{};
     int total = 0;
     const auto for_each_food = [&](auto&& take) {
       for (int y = 0; y < height_; ++y) {

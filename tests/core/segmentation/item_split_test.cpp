@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <random>
 #include <vector>
 
 #include "tests/core/matching/workspace_block.hpp"
@@ -38,6 +39,20 @@ class Food {
         owners_[at] = kFood;
         relief_[at].height = static_cast<std::int8_t>(height_mm(x - kSide_mm * left) / kReliefUnitMm);
         relief_[at].is_known = relief_[at].is_confirmed = true;
+      }
+    }
+  }
+  // Likewise, cells of two colours in an order without a pattern, of which the first has `share_of(column)`.
+  template <class ShareOf, class HeightOf>
+  void mix(int left, int top, int columns, int rows, const CellColour& a, const CellColour& b,
+           ShareOf&& share_of, HeightOf&& height_mm) {
+    add(left, top, columns, rows, b, height_mm);
+    std::mt19937 random(1);
+    std::uniform_real_distribution<double> draw;
+    for (int y = kSide_mm * top; y < kSide_mm * (top + rows); ++y) {
+      for (int x = kSide_mm * left; x < kSide_mm * (left + columns); ++x) {
+        if (draw(random) < share_of(x / kSide_mm - left))
+          colours_[static_cast<std::size_t>(y * kWide + x)] = a;
       }
     }
   }
@@ -81,6 +96,23 @@ TEST(ItemSplit, FoodsThatSinkTowardsEachOtherAreTwo) {
   Food food;
   food.add(2, 4, 5, 6, kDark, [](int x) { return 34.0 - 0.8 * std::max(0, x - 7); });
   food.add(7, 4, 5, 6, kPale, [](int x) { return 8.0 + 0.8 * std::min(28, x); });
+  EXPECT_EQ(food.split(), 2);
+}
+
+// Vegetables in sauce: of each there is more in one place than in another.
+TEST(ItemSplit, MixedFoodIsOneItem) {
+  Food food;
+  food.mix(
+      2, 2, 12, 8, kDark, kPale, [](int column) { return column % 6 < 3 ? 0.65 : 0.35; },
+      [](int) { return 15.0; });
+  EXPECT_EQ(food.split(), 1);
+}
+
+TEST(ItemSplit, MixedFoodsThatShareAColourAreTwo) {
+  const auto half = [](int) { return 0.5; };
+  Food food;
+  food.mix(2, 2, 6, 8, kDark, kPale, half, [](int x) { return 20.0 - 0.4 * std::max(0, x - 20); });
+  food.mix(8, 2, 6, 8, kDark, kGreenish, half, [](int x) { return 12.0 + 0.4 * std::min(20, x); });
   EXPECT_EQ(food.split(), 2);
 }
 
