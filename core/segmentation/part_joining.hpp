@@ -14,14 +14,14 @@ namespace traygauge {
 
 // Logarithm of the odds that two parts are one item, by logistic regression over the borders that parts of
 // rendered meals have while they are joined as they should be; a meal counts as much as another, and borders
-// within an item as much as those between two. The constant is lower by 1.25 than that gives: two foods taken
+// within an item as much as those between two. The constant is lower by 1.6 than that gives: two foods taken
 // for one cost more than one food in two.
 struct PartLikenessParams {
-  double constant = -0.8;
-  double spread = -0.035;  // for each unit by which the parts' blocks deviate from their means
-  double texture = -0.86;  // for each doubling of one's bends over the other's
-  double share = 4.7;      // of the smaller one's outline, that they share: mixed food is interleaved
-  double valley = 2.3;     // height of the border over the lower part's crest, `most_valley` at most
+  double constant = -2.0;
+  double spread = -0.021;  // for each unit by which the parts' blocks deviate from their means
+  double texture = -0.52;  // for each doubling of one's bends over the other's
+  double share = 4.9;      // of the smaller one's outline, that they share: mixed food is interleaved
+  double valley = 2.6;     // height of the border over the lower part's crest, `most_valley` at most
   double most_valley = 1.3;
   double colours = -8.1;  // distance of how often each colour is, 0 to 1
   // What stands upon another food: the step of the surface at the border, in shares of the higher side's
@@ -32,7 +32,7 @@ struct PartLikenessParams {
   double full_step = 0.6;
   double least_enclosed = 0.5;
   double full_enclosed = 0.8;
-  double neck = 0.385;  // length of the border over the root of the smaller one's area
+  double neck = 0.57;  // length of the border over the root of the smaller one's area
   // The side of a food that stands, whose colour is of no account: between which heights of its border over
   // its own mean it is one, how high the other part is there over its crest, and between which shares of its
   // outline.

@@ -27,7 +27,7 @@ stereo.cost=sad stereo.cost=zncc stereo.census_radius_px=2 stereo.census_radius_
 stereo.window_radius_px=3 stereo.levels=1 stereo.levels=3 stereo.band_px=2 stereo.band_px=5 stereo.smoothness=4 stereo.smoothness=16
 stereo.smoothness_deviation=2 stereo.smoothness_deviation=8 stereo.median_radius_px=0 stereo.median_radius_px=1 stereo.subpixel=false
 mesh.points=1024 mesh.points=2048 mesh.points=8192 mesh.points=16384 mesh.sampling=cell_mean
-rim.source=dense rim.source=both dish.surface=card_alone dish.height=rim_points_over_card_plane volume.folded=added"
+rim.source=dense rim.source=both dish.surface=card_alone dish.height=rim_points_over_card_plane volume.folded=subtracted"
 
 echo "| change | MAPE % | bias % | CV % | MAPE over the dish % | rotation deg | direction deg | scale % | refused |"
 echo "| --- | --- | --- | --- | --- | --- | --- | --- | --- |"
