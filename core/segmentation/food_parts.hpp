@@ -55,7 +55,7 @@ class FoodParts {
     }
   }
 
-  void join(int kept, int joined) {
+  void join(int kept, int joined) const {
     FoodBlock& a = at(kept);
     FoodBlock& b = at(joined);
     a.size += b.size;

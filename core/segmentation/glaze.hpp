@@ -1,7 +1,7 @@
 // What a dish's glaze looks like: the flange shows it.
 #pragma once
 
-#include <cstdlib>
+#include <cmath>
 
 #include "core/image_view/image_view.hpp"
 #include "core/segmentation/dish_raster.hpp"

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 
 #include "core/segmentation/colour_classes.hpp"
 
@@ -36,7 +35,7 @@ class PartJoining {
       if (best == nullptr) return;
       PartColours& kept = colours_of(best->first);
       const PartColours& joined = colours_of(best->second);
-      std::transform(kept.begin(), kept.end(), joined.begin(), kept.begin(), std::plus<>());
+      for (std::size_t i = 0; i < kept.size(); ++i) kept[i] += joined[i];
       parts_.join(best->first, best->second);
     }
   }
