@@ -44,7 +44,7 @@ class CornerResponse {
  public:
   CornerResponse(ImageView<const std::uint8_t> gray, CornerResponseWorkspace& workspace);
 
-  int first_row() const { return kCornerBorder; }
+  static constexpr int first_row() { return kCornerBorder; }
   int end_row() const { return gray_.height - kCornerBorder; }
 
   // The responses of the next row, first first_row(): squared grey values per pixel, 0 along the edges.

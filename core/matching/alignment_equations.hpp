@@ -20,17 +20,15 @@ enum class PatchMotion : std::uint8_t {
 };
 
 // Parameters: second(u) = first(u + shift + matrix · u) · (1 + gain) + offset.
-enum AlignmentColumn : std::uint8_t {
-  kShiftX,
-  kShiftY,
-  kXByX,
-  kXByY,
-  kYByX,
-  kYByY,
-  kGain,
-  kOffset,
-  kAlignmentColumns
-};
+inline constexpr int kShiftX = 0;
+inline constexpr int kShiftY = 1;
+inline constexpr int kXByX = 2;
+inline constexpr int kXByY = 3;
+inline constexpr int kYByX = 4;
+inline constexpr int kYByY = 5;
+inline constexpr int kGain = 6;
+inline constexpr int kOffset = 7;
+inline constexpr int kAlignmentColumns = 8;
 using AlignmentEquations = NormalEquations<kAlignmentColumns>;
 using ShiftEquations = NormalEquations<4>;  // shift, gain, offset
 inline constexpr int kGainOfShift = 2;

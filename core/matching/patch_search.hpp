@@ -13,9 +13,9 @@
 
 namespace traygauge {
 
-inline constexpr int kSearchSide = 8;    // of the patch, pixels of the level searched
-inline constexpr int kMaxBandSide = 64;  // of a band's box: a longer band is not searched
-inline constexpr int kMaxPeaks = 64;     // of all bands of a search together
+inline constexpr int kSearchSide = 8;            // of the patch, pixels of the level searched
+inline constexpr int kMaxBandSide = 64;          // of a band's box: a longer band is not searched
+inline constexpr int kMaxCorrelationPeaks = 64;  // of all bands of a search together
 
 // Positions of the patch's centre.
 struct SearchBand {
@@ -42,7 +42,7 @@ struct PatchSearchWorkspace {
   constexpr void allocate(Allocator& arena) {
     area = arena.template take<std::int16_t>(static_cast<std::size_t>(kAreaSide) * kAreaSide);
     scores = arena.template take<float>(static_cast<std::size_t>(kScoreSide) * kScoreSide);
-    peaks = arena.template take<CorrelationPeak>(kMaxPeaks);
+    peaks = arena.template take<CorrelationPeak>(kMaxCorrelationPeaks);
   }
 };
 

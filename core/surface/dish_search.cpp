@@ -29,7 +29,7 @@ class DishSearch {
 
   Status run(std::span<const DishModel> candidates, FoundDish& found) {
     const std::span<RimPeak> storage =
-        std::span(peaks_).first(std::min(kMaxPeaks, static_cast<std::size_t>(params_.max_peaks)));
+        std::span(peaks_).first(std::min(kMaxRimPeaks, static_cast<std::size_t>(params_.max_peaks)));
     const std::size_t count =
         vote_for_places(views_, edges_, candidates, taken_, params_, workspace_, storage);
     Status status = StatusCode::rim_not_found;
@@ -229,7 +229,7 @@ class DishSearch {
   DishSearchWorkspace& workspace_;
   TableCameras cameras_;
   FocalsPx focals_px_{};
-  std::array<RimPeak, kMaxPeaks> peaks_;
+  std::array<RimPeak, kMaxRimPeaks> peaks_;
 };
 
 }  // namespace

@@ -10,7 +10,7 @@
 
 namespace traygauge {
 
-inline constexpr std::size_t kMaxPeaks = 16;
+inline constexpr std::size_t kMaxRimPeaks = 16;
 
 // A place that the edges vote for.
 struct RimPeak {
