@@ -22,10 +22,10 @@ constexpr int kMaxWindowRadius = 7;  // cells
 constexpr int kMostNear = (4 * kMaxWindowRadius + 1) * (4 * kMaxWindowRadius + 1);
 constexpr float kLogUnit = 256.0F;  // logarithms are summed as whole numbers
 
-class Assignment {
+class ItemAssignment {
  public:
-  Assignment(const DishRaster& raster, std::uint8_t unknown, const ItemAssignmentParams& params,
-             ItemAssignmentWorkspace& workspace, ImageView<std::uint8_t> cells)
+  ItemAssignment(const DishRaster& raster, std::uint8_t unknown, const ItemAssignmentParams& params,
+                 ItemAssignmentWorkspace& workspace, ImageView<std::uint8_t> cells)
       : raster_(raster),
         unknown_(unknown),
         params_(params),
@@ -247,7 +247,7 @@ class Assignment {
 
 void assign_items(const DishRaster& raster, std::uint8_t unknown, const ItemAssignmentParams& params,
                   ItemAssignmentWorkspace& workspace, ImageView<std::uint8_t> cells) {
-  Assignment assignment(raster, unknown, params, workspace, cells);
+  ItemAssignment assignment(raster, unknown, params, workspace, cells);
   if (assignment.run()) assignment.write();
 }
 
