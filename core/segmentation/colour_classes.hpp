@@ -6,22 +6,53 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "core/segmentation/dish_raster.hpp"
+
 namespace traygauge {
 
-using ByteCounts = std::array<int, 256>;
-using ClassTable = std::array<std::uint8_t, 256>;
+using ClassTable = std::array<std::uint8_t, 256>;  // the class of every byte
 
-// Splits the `total` bytes counted into classes of about equal counts; the class of every byte.
-inline ClassTable equal_classes(const ByteCounts& counts, int total, int classes) {
-  ClassTable table{};
-  int below = 0;
-  for (std::size_t value = 0; value < counts.size(); ++value) {
-    const int middle = 2 * below + counts[value];
-    table[value] =
-        static_cast<std::uint8_t>(std::min(classes - 1, classes * middle / std::max(1, 2 * total)));
-    below += counts[value];
+// The classes of a colour's three bytes.
+struct ColourClasses {
+  ClassTable luma;
+  ClassTable red;
+  ClassTable green;
+};
+
+// How often the bytes of colours occur.
+class ColourCounts {
+ public:
+  void add(const CellColour& colour) {
+    ++luma_[colour.luma];
+    ++red_[colour.red];
+    ++green_[colour.green];
+    ++total_;
   }
-  return table;
-}
+
+  // Classes of about equal counts.
+  ColourClasses equal_classes(int luma_classes, int share_classes) const {
+    return {split(luma_, luma_classes), split(red_, share_classes), split(green_, share_classes)};
+  }
+
+ private:
+  using ByteCounts = std::array<int, 256>;
+
+  ClassTable split(const ByteCounts& counts, int classes) const {
+    ClassTable table{};
+    int below = 0;
+    for (std::size_t value = 0; value < counts.size(); ++value) {
+      const int middle = 2 * below + counts[value];
+      table[value] =
+          static_cast<std::uint8_t>(std::min(classes - 1, classes * middle / std::max(1, 2 * total_)));
+      below += counts[value];
+    }
+    return table;
+  }
+
+  ByteCounts luma_{};
+  ByteCounts red_{};
+  ByteCounts green_{};
+  int total_ = 0;
+};
 
 }  // namespace traygauge

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/base/lanes.hpp"
+#include "core/segmentation/colour_sum.hpp"
 #include "core/segmentation/geodesic.hpp"
 
 namespace traygauge {
@@ -103,18 +104,13 @@ class FoodField {
   // Means over a cell of the field; its evidence by relief alone.
   void fold(int x, int y) {
     const int fold = params_.fold;
-    int luma = 0;
-    int red = 0;
-    int green = 0;
+    ColourSum colours;
     int bends = 0;
     double lift = 0.0;
     bool is_outside = false;
     for (int j = y * fold; j < (y + 1) * fold; ++j) {
       for (int i = x * fold; i < (x + 1) * fold; ++i) {
-        const CellColour& colour = raster_.colours.at(i, j);
-        luma += colour.luma;
-        red += colour.red;
-        green += colour.green;
+        colours.add(raster_.colours.at(i, j));
         bends += bend_at(raster_.colours, i, j);
         const double told = lift_of(relief_.at(i, j), !is_filled_, params_.relief);
         lift += told * (told > 0.0 ? params_.lift_weight : params_.against_weight);
@@ -124,8 +120,7 @@ class FoodField {
     }
     const int count = fold * fold;
     const std::size_t at = field_.at(x, y);
-    workspace_.colours[at] = {static_cast<std::uint8_t>(luma / count), static_cast<std::uint8_t>(red / count),
-                              static_cast<std::uint8_t>(green / count)};
+    workspace_.colours[at] = colours.mean(count);
     workspace_.bends[at] = static_cast<std::uint8_t>(std::min(255, 2 * bends / count));
     workspace_.evidence[at] = is_outside ? kOutside : static_cast<float>(params_.prior + lift / count);
   }

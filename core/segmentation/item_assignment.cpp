@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "core/segmentation/colour_classes.hpp"
+#include "core/segmentation/colour_sum.hpp"
 #include "core/segmentation/label_regions.hpp"
 #include "core/segmentation/square_sums.hpp"
 
@@ -41,6 +42,7 @@ class ItemAssignment {
   // False when there is one item or none.
   bool run() {
     read_labels();
+    if (measure_items() < 2) return false;
     classify_colours();
     const PixelBox all{0, 0, width_, height_};
     const auto is_food = [&](std::size_t at) { return workspace_.is_food[at] ? 1 : 0; };
@@ -48,7 +50,7 @@ class ItemAssignment {
     sum_squares(all, 2 * radius_, is_food,
                 [&](std::size_t at, int sum) { workspace_.near[at] = count_of(sum); });
     for (int round = 0; round < params_.rounds; ++round) {
-      if (measure_items() < 2) return false;
+      if (round > 0 && measure_items() < 2) return false;
       start_round();
       for (std::size_t label = kFirstItemLabel; label <= kLastItemLabel; ++label)
         if (sizes_[label] > 0) try_item(static_cast<std::uint8_t>(label));
@@ -100,23 +102,13 @@ class ItemAssignment {
   }
 
   CellColour mean_colour(int x, int y) const {
-    int luma = 0;
-    int red = 0;
-    int green = 0;
-    for_each_cell_of(x, y, [&](int i, int j) {
-      const CellColour& colour = raster_.colours.at(i, j);
-      luma += colour.luma;
-      red += colour.red;
-      green += colour.green;
-    });
-    const int count = params_.fold * params_.fold;
-    return {static_cast<std::uint8_t>(luma / count), static_cast<std::uint8_t>(red / count),
-            static_cast<std::uint8_t>(green / count)};
+    ColourSum sum;
+    for_each_cell_of(x, y, [&](int i, int j) { sum.add(raster_.colours.at(i, j)); });
+    return sum.mean(params_.fold * params_.fold);
   }
 
   void classify_colours() {
-    std::array<ByteCounts, 3> counts{};
-    int total = 0;
+    ColourCounts counts;
     const auto for_each_food = [&](auto&& take) {
       for (int y = 0; y < height_; ++y) {
         for (int x = 0; x < width_; ++x) {
@@ -124,18 +116,12 @@ class ItemAssignment {
         }
       }
     };
-    for_each_food([&](std::size_t, const CellColour& colour) {
-      ++counts[0][colour.luma];
-      ++counts[1][colour.red];
-      ++counts[2][colour.green];
-      ++total;
-    });
-    const ClassTable luma = equal_classes(counts[0], total, kLumaClasses);
-    const ClassTable red = equal_classes(counts[1], total, kShareClasses);
-    const ClassTable green = equal_classes(counts[2], total, kShareClasses);
+    for_each_food([&](std::size_t, const CellColour& colour) { counts.add(colour); });
+    const ColourClasses classes = counts.equal_classes(kLumaClasses, kShareClasses);
     for_each_food([&](std::size_t cell, const CellColour& colour) {
       workspace_.colours[cell] = static_cast<std::uint8_t>(
-          (luma[colour.luma] * kShareClasses + red[colour.red]) * kShareClasses + green[colour.green]);
+          (classes.luma[colour.luma] * kShareClasses + classes.red[colour.red]) * kShareClasses +
+          classes.green[colour.green]);
     });
   }
 

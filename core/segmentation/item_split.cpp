@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "core/segmentation/colour_sum.hpp"
 #include "core/segmentation/glaze.hpp"
 
 namespace traygauge {
@@ -128,19 +129,14 @@ int label_parts(const FoodParts& parts, const ItemSplitParams& params, std::uint
 bool sum_block(const DishRaster& raster, ImageView<const ReliefSample> relief,
                ImageView<const std::uint8_t> owners, std::uint8_t food, int left, int top, int side,
                double luma_weight, FoodBlock& block) {
-  int luma = 0;
-  int red = 0;
-  int green = 0;
+  ColourSum colours;
   int bends = 0;
   int known = 0;
   double height_mm = 0.0;
   for (int y = top; y < top + side; ++y) {
     for (int x = left; x < left + side; ++x) {
       if (owners.at(x, y) != food) return false;
-      const CellColour& colour = raster.colours.at(x, y);
-      luma += colour.luma;
-      red += colour.red;
-      green += colour.green;
+      colours.add(raster.colours.at(x, y));
       bends += bend_at(raster.colours, x, y);
       const ReliefSample& sample = relief.at(x, y);
       known += sample.is_known ? 1 : 0;
@@ -152,9 +148,9 @@ bool sum_block(const DishRaster& raster, ImageView<const ReliefSample> relief,
   block.own_height_mm = block.height_mm = known > 0 ? static_cast<float>(height_mm / known) : 0.0F;
   block.height_squares = block.height_mm * block.height_mm;
   block.texture = std::log2(1.0F + scale * static_cast<float>(bends));
-  block.luma = scale * static_cast<float>(luma);
-  block.red = scale * static_cast<float>(red);
-  block.green = scale * static_cast<float>(green);
+  block.luma = scale * static_cast<float>(colours.luma);
+  block.red = scale * static_cast<float>(colours.red);
+  block.green = scale * static_cast<float>(colours.green);
   const float weighted = static_cast<float>(luma_weight) * block.luma;
   block.squares = weighted * weighted + block.red * block.red + block.green * block.green;
   return true;

@@ -57,8 +57,7 @@ class PartJoining {
 
   // Classes are the dish's own: of all its food's cells as many in each.
   void count_colours() {
-    std::array<ByteCounts, 3> counts{};
-    int total = 0;
+    ColourCounts counts;
     std::int16_t slots = 0;
     parts_.for_each_block([&](int block) {
       if (!parts_.is_food(block)) return;
@@ -67,25 +66,18 @@ class PartJoining {
         workspace_.colours[static_cast<std::size_t>(slots)].fill(0);
         slot_of(block) = slots++;
       }
-      for_each_cell_of(block, [&](const CellColour& colour) {
-        ++counts[0][colour.luma];
-        ++counts[1][colour.red];
-        ++counts[2][colour.green];
-        ++total;
-      });
+      for_each_cell_of(block, [&](const CellColour& colour) { counts.add(colour); });
     });
-    std::array<ClassTable, 3> classes;
-    for (std::size_t i = 0; i < classes.size(); ++i)
-      classes[i] = equal_classes(counts[i], total, kPartColourClasses);
+    const ColourClasses classes = counts.equal_classes(kPartColourClasses, kPartColourClasses);
     parts_.for_each_block([&](int block) {
       if (!parts_.is_food(block)) return;
       const int part = parts_.root(block);
       if (slot_of(part) == kNotCounted) return;
       PartColours& colours = colours_of(part);
       for_each_cell_of(block, [&](const CellColour& colour) {
-        ++colours[classes[0][colour.luma]];
-        ++colours[std::size_t{kPartColourClasses} + classes[1][colour.red]];
-        ++colours[std::size_t{2} * kPartColourClasses + classes[2][colour.green]];
+        ++colours[classes.luma[colour.luma]];
+        ++colours[std::size_t{kPartColourClasses} + classes.red[colour.red]];
+        ++colours[std::size_t{2} * kPartColourClasses + classes.green[colour.green]];
       });
     });
   }
