@@ -28,9 +28,9 @@ Eigen::Vector3f smooth_at(const SurfaceMap& map, const std::vector<Eigen::Vector
   float weights = 0.0F;
   for (int v = std::max(y - reach, 0); v <= std::min(y + reach, map.height - 1); ++v) {
     for (int u = std::max(x - reach, 0); u <= std::min(x + reach, map.width - 1); ++u) {
-      const std::size_t there = map.index(u, v);
-      if (map.objects[there] != map.objects[here] || map.is_mixed[there] != 0) continue;
       const float square = static_cast<float>((u - x) * (u - x) + (v - y) * (v - y)) * per_square_px;
+      const std::size_t there = map.index(u, v);
+      if (square >= 1.0F || map.objects[there] != map.objects[here] || map.is_mixed[there] != 0) continue;
       const float turn = (1.0F - map.normals[here].dot(map.normals[there])) / kTurnShare;
       const float off = per_plane_mm * map.normals[here].dot(map.points_mm[there] - map.points_mm[here]);
       const float weight = bell(square) * bell(turn * turn) * bell(off * off);

@@ -10,12 +10,12 @@ struct RenderSettings {
   // time grows with it.
   int samples = 8;
   // Likewise at edges, if it is more. Fewer: jagged edges.
-  int edge_samples = 24;
+  int edge_samples = 16;
   // Of each 8 rays, 1 to 8 gather light from other surfaces and the room. Fewer: noisier shade, smoothed by
   // the filter.
-  int indirect_samples = 8;
+  int indirect_samples = 4;
   // Where some of a light is hidden, this many further shadow rays for each of the rays.
-  int penumbra_samples = 8;
+  int penumbra_samples = 4;
   // Light that was scattered up to this many times before it reaches what is seen, 1 to 8.
   int bounces = 2;
   // Light from other surfaces is smoothed over like surface within this many pixels; 0: not.
