@@ -7,6 +7,7 @@
 #include "core/base/lanes.hpp"
 #include "core/segmentation/colour_sum.hpp"
 #include "core/segmentation/geodesic.hpp"
+#include "core/segmentation/square_medians.hpp"
 
 namespace traygauge {
 namespace {
@@ -40,9 +41,10 @@ class FoodField {
     for (int y = 0; y < field_.height; ++y) {
       for (int x = 0; x < field_.width; ++x) fold(x, y);
     }
-    for (int y = 0; y < field_.height; ++y) {
-      for (int x = 0; x < field_.width; ++x) add_colour(x, y);
-    }
+    for_each_square_median(
+        field_.width, field_.height, params_.texture_reach,
+        [&](int x, int y) { return workspace_.bends[field_.at(x, y)]; },
+        [&](int x, int y, std::uint8_t bends) { add_colour(field_.at(x, y), bends); });
     for (int y = 0; y < field_.height; ++y) {
       for (int x = 0; x < field_.width; ++x) limit_flow(x, y);
     }
@@ -125,20 +127,14 @@ class FoodField {
     workspace_.evidence[at] = is_outside ? kOutside : static_cast<float>(params_.prior + lift / count);
   }
 
-  void add_colour(int x, int y) {
-    const std::size_t at = field_.at(x, y);
+  // `bends`: the median about the cell, in which lines such as the food's border are outnumbered.
+  void add_colour(std::size_t at, std::uint8_t bends) {
     if (!(workspace_.evidence[at] > kOutside)) return;
     const CellColour& colour = workspace_.colours[at];
     const int red = colour.red - glaze_.median.red;
     const int green = colour.green - glaze_.median.green;
     const double off = std::sqrt(static_cast<double>(red * red + green * green)) / glaze_.share_sigma;
-    int bends = 0;
-    int seen = 0;
-    for (int j = std::max(0, y - 1); j <= std::min(field_.height - 1, y + 1); ++j) {
-      for (int i = std::max(0, x - 1); i <= std::min(field_.width - 1, x + 1); ++i, ++seen)
-        bends += workspace_.bends[field_.at(i, j)];
-    }
-    const double texture = static_cast<double>(bends) / seen / glaze_.texture;
+    const double texture = bends / glaze_.texture;
     const double told = std::clamp(
         (off - params_.neutral_deviations) / (params_.full_deviations - params_.neutral_deviations),
         params_.least_colour, params_.most_colour);
@@ -148,7 +144,8 @@ class FoodField {
     const double like_glaze = told < 0.0 ? (1.0 - rough) * told / params_.least_colour : 0.0;
     float& evidence = workspace_.evidence[at];
     if (evidence > 0.0F) evidence *= static_cast<float>(1.0 - (1.0 - params_.plain_share) * like_glaze);
-    evidence += static_cast<float>(params_.colour_weight * (told < 0.0 ? (1.0 - rough) * told : told));
+    evidence += static_cast<float>(params_.colour_weight * (told < 0.0 ? (1.0 - rough) * told : told) +
+                                   params_.texture_weight * rough);
   }
 
   float limit_between(std::size_t a, std::size_t b) const {

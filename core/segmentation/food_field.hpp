@@ -36,9 +36,13 @@ struct FoodFieldParams {
   double neutral_deviations = 7.0;
   double full_deviations = 10.0;
   double most_colour = 3.0;
-  double least_colour = -0.25;   // of the glaze's own colour: white food has it, too
-  double neutral_texture = 1.5;  // over the glaze's
-  double full_texture = 4.0;
+  double least_colour = -0.25;  // of the glaze's own colour: white food has it, too
+  // Texture over the glaze's: the median of the bends over so many cells of the field to either side. Shades
+  // have none, and lines such as food's own border are outnumbered.
+  int texture_reach = 2;
+  double neutral_texture = 2.5;
+  double full_texture = 10.0;
+  double texture_weight = 1.5;
   double outline = 3.0;         // for each side of a cell
   double edge_contrast = 9.0;   // of luma and twice the colour shares, that halves it
   double least_outline = 0.07;  // share that is left at the strongest edge

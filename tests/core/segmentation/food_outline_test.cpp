@@ -75,6 +75,25 @@ TEST(FoodOutline, FoodOfTheGlazesColourIsToldByItsHeight) {
   EXPECT_EQ(blind.outline(labels, raster), 0);
 }
 
+// The foot of a heap of white rice: too low for its height to tell.
+TEST(FoodOutline, LowFoodOfTheGlazesColourIsToldByItsTexture) {
+  std::vector<std::uint8_t> labels;
+  DishRaster raster;
+  Plate rice({{260, 310, 80, kWhite, 1.0, 60}});
+  EXPECT_EQ(rice.outline(labels, raster), 1);
+  EXPECT_GT(rice.right_share(labels, raster), 0.97);
+  Plate smooth({{260, 310, 80, kWhite, 1.0, 6}});
+  EXPECT_EQ(smooth.outline(labels, raster), 0);
+}
+
+// A shadow's sharp border has texture, but only along a line.
+TEST(FoodOutline, AShadowsBorderIsNoFood) {
+  std::vector<std::uint8_t> labels;
+  DishRaster raster;
+  Plate plate({{260, 310, 80, {150, 153, 157}, 0.0}});
+  EXPECT_EQ(plate.outline(labels, raster), 0);
+}
+
 // Beside food that hides the dish from the other view, any height is matched better than the dish.
 TEST(FoodOutline, GlazeWhoseHeightOnlyOneViewFoundIsNoFood) {
   Disc seen{260, 310, 80, kWhite, 20.0, 14};
