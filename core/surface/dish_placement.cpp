@@ -61,6 +61,31 @@ void invert_information(const NormalEquations<kPlaceParameters>& equations, Plac
   }
 }
 
+// Of the points further than `scale_px` off the outline, those between the edge itself and the edge let down
+// to the table.
+int count_on_wall(const DishOutlines& outlines, const TableCameras& cameras, const FocalsPx& focals_px,
+                  const DishPlace& place, std::size_t step, double scale_px) {
+  DishPlace sharp = place;
+  sharp.edge_drop_mm = 0.0;
+  DishPlace let_down = place;
+  let_down.edge_drop_mm = place.edge_height_mm;
+  int count = 0;
+  for (std::size_t view = 0; view < 2; ++view) {
+    const RimProjection outline(place, cameras[view], focals_px[view]);
+    const RimProjection edge(sharp, cameras[view], focals_px[view]);
+    const RimProjection foot(let_down, cameras[view], focals_px[view]);
+    for (std::size_t i = 0; i < outlines[view].size(); i += step) {
+      const Vec2& ray = outlines[view][i];
+      double off_px = 0.0;
+      double outside_px = 0.0;
+      double below_px = 0.0;
+      if (outline.residual(ray, off_px) && edge.residual(ray, outside_px) && foot.residual(ray, below_px))
+        count += std::abs(off_px) > scale_px && outside_px >= -scale_px && below_px <= scale_px ? 1 : 0;
+    }
+  }
+  return count;
+}
+
 class DishPlacement {
  public:
   DishPlacement(const DishOutlines& outlines, const TableCameras& cameras, const FocalsPx& focals_px,
@@ -248,6 +273,7 @@ double robust_scale_px(const DishOutlines& outlines, const TableCameras& cameras
     ++fit.inliers;
   }
   fit.rms_px = fit.inliers > 0 ? std::sqrt(squares / fit.inliers) : 0.0;
+  fit.on_wall = count_on_wall(outlines, cameras, focals_px, place, step, scale_px);
   return scale_px;
 }
 

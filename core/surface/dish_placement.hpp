@@ -1,6 +1,7 @@
 // Where a dish stands on the table, and which of the known dishes it is, from its outlines in both views.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <span>
@@ -43,7 +44,11 @@ struct DishPlacementParams {
 struct OutlineFit {
   int points = 0;
   int inliers = 0;
+  // Off the outline but between the edge and the table below it, on the near side: a bowl's outer wall.
+  int on_wall = 0;
   double rms_px = 0.0;  // of the inliers
+
+  double explained_share() const { return static_cast<double>(inliers + on_wall) / std::max(1, points); }
 };
 
 struct PlacedDish {

@@ -25,8 +25,8 @@ struct BestPipelineParams {
   double summit_margin_mm = 20.0;
   // No search ends below this height over a dish's bottom, however few points there are on the food.
   double min_top_mm = 40.0;
-  // Of a dish's outlines on the rim found; fewer: the outlines are of another picture. Right ones reach 0.93
-  // and more, those of a view 5 degrees off 0.63 to 0.80.
+  // Of a dish's outlines on the rim found, or on the wall below it; fewer: the outlines are of another
+  // picture. Right ones reach 0.93 and more, those of a view 5 degrees off 0.63 to 0.80.
   double min_rim_inlier_share = 0.88;
   // Of an item's samples; fewer: its volume is doubtful. Food with texture reaches 0.65 and more between
   // 10 and 30 degrees, a banana 0.6.

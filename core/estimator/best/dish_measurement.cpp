@@ -80,8 +80,7 @@ void measure_dish(const ViewPair& views, const SceneGeometry& geometry, std::siz
   const DishModel& model = dish.candidates[static_cast<std::size_t>(placed.placed.candidate)];
   report.rim_height_mm = placed.placed.place.edge_height_mm;
   report.rim_rms_px = placed.placed.fit.rms_px;
-  report.rim_inlier_share =
-      static_cast<double>(placed.placed.fit.inliers) / std::max(1, placed.placed.fit.points);
+  report.rim_inlier_share = placed.placed.fit.explained_share();
   report.dish_index = static_cast<int>(&model - configuration.dishes.data());
   if (report.rim_inlier_share < best.pipeline.min_rim_inlier_share)
     return refuse(StatusCode::labels_inconsistent);

@@ -152,9 +152,8 @@ Status DishSurveyor::find_edge(const ViewPair& views, std::uint64_t seed) {
       angle_between_views_deg(geometry.joint.camera_from_table, middle_of(survey_.place, 0.0));
   status = check_angle(survey_.relative_angle_deg, configuration_.geometry);
   if (!status.ok()) return status;
-  return survey_.outline.inliers >= params_.min_inlier_share * survey_.outline.points
-             ? StatusCode::ok
-             : StatusCode::labels_inconsistent;
+  return survey_.outline.explained_share() >= params_.min_inlier_share ? StatusCode::ok
+                                                                       : StatusCode::labels_inconsistent;
 }
 
 Status DishSurveyor::match(const ViewPair& views, double bottom_mm, std::array<SurfaceGrid, 2>& grids) {

@@ -104,6 +104,40 @@ TEST_F(Placement, WithstandsAHiddenStretch) {
   EXPECT_LT(placed_.fit.inliers, placed_.fit.points);
 }
 
+// A bowl from the side, whose outer wall is a part of its outlines on the near side. As far outside on the
+// far side lies something else.
+TEST_F(Placement, KnowsABowlsWallBelowItsEdge) {
+  cameras_ = {camera_at(20.0, 20.0), camera_at(38.0, 50.0)};
+  const DishPlace truth{{12.0, -20.0}, 0.0, 60.0, {150.0, 150.0}, 1.0};
+  const DishPlace foot{truth.centre_mm, 0.0, 25.0, {140.0, 140.0}, 0.0};
+  const DishPlace napkin{truth.centre_mm, 0.0, 60.0, {166.0, 166.0}, 0.0};
+  for (const bool is_near : {true, false}) {
+    show(truth);
+    int moved = 0;
+    for (std::size_t view = 0; view < 2; ++view) {
+      const RimProjection edge(truth, cameras_[view], testing::kOutlineFocalPx);
+      const std::vector<Vec2> lower = outline_of(foot, cameras_[view]);
+      const std::vector<Vec2> wider = outline_of(napkin, cameras_[view]);
+      for (std::size_t i = 0; i < lower.size(); ++i) {
+        double outside_px = 0.0;
+        ASSERT_TRUE(edge.residual(lower[i], outside_px));
+        if (is_near ? outside_px < 8.0 : outside_px > -60.0) continue;
+        rays_[view][i] = is_near ? lower[i] : wider[i];
+        ++moved;
+      }
+    }
+    ASSERT_GT(moved, 60);
+    ASSERT_TRUE(place({model_of(150.0, 150.0, 60.0)}).ok());
+    EXPECT_LT((placed_.place.centre_mm - truth.centre_mm).norm(), 0.3);
+    EXPECT_LT(placed_.fit.inliers, 0.95 * placed_.fit.points);
+    if (is_near) {
+      EXPECT_GT(placed_.fit.explained_share(), 0.99);
+    } else {
+      EXPECT_LT(placed_.fit.explained_share(), 0.95);
+    }
+  }
+}
+
 TEST_F(Placement, NeedsPoints) {
   rays_[0].resize(5);
   EXPECT_EQ(place({model_of(260.0, 260.0, 21.4)}).code(), StatusCode::rim_not_found);
