@@ -38,6 +38,9 @@ constexpr std::array<WarningText, kWarningCount> kWarnings = {{
      "far off."},
     {"dish_not_found",
      "A dish was not found whole in both pictures, and its food is not measured; see traygauge segment."},
+    {"item_uncertain",
+     "An item's volume is less sure than usual, as of steep pieces with gaps; see its sigma, or measure from "
+     "another side."},
 }};
 
 }  // namespace

@@ -19,6 +19,19 @@ bool is_border(const HeightMap& map, int x, int y) {
          map.cells.at(x, y - 1).label != label || map.cells.at(x, y + 1).label != label;
 }
 
+// Of the walls between a cell and its neighbours to the right and below that belong to the same item.
+double wall_mm2(const HeightMap& map, int x, int y, double slope) {
+  const HeightCell& cell = map.cells.at(x, y);
+  double area_mm2 = 0.0;
+  const auto add = [&](const HeightCell& next) {
+    const double rise_mm = std::abs(static_cast<double>(next.z_mm) - static_cast<double>(cell.z_mm));
+    if (next.label == cell.label && rise_mm > slope * map.cell_mm) area_mm2 += rise_mm * map.cell_mm;
+  };
+  if (x + 1 < map.cells.width) add(map.cells.at(x + 1, y));
+  if (y + 1 < map.cells.height) add(map.cells.at(x, y + 1));
+  return area_mm2;
+}
+
 double max_height(std::span<const std::uint32_t> histogram, double ignored_cells) {
   double above = 0.0;
   for (std::size_t bin = histogram.size(); bin-- > 0;) {
@@ -51,6 +64,7 @@ Status integrate_height_map(const HeightMap& map, const InnerSurface& dish, cons
         item.hidden_share += cell_mm2;
       }
       if (cell.kind == CellKind::surface && cell.below_label != 0) item.undercut_mm2 += cell_mm2;
+      item.wall_mm2 += wall_mm2(map, x, y, params.wall_slope);
       if (is_border(map, x, y)) item.border_share += cell_mm2;
       if (cell.kind != CellKind::unseen) {
         item.centre_mm += Vec3(place_mm.x(), place_mm.y(), cell.z_mm);

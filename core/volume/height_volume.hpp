@@ -20,12 +20,16 @@ struct HeightVolume {
   double hidden_share = 0.0;      // of the area
   double border_share = 0.0;      // of the area, in cells at the item's outline
   double undercut_mm2 = 0.0;      // below this area of the item a view sees another surface
+  double wall_mm2 = 0.0;          // seen from the side: of walls within the item
   Vec3 centre_mm = Vec3::Zero();  // of its upper surface where a view tells of it, table frame
 };
 
 struct HeightVolumeParams {
   // The highest so much of an item's area does not count as its greatest height, where noise peaks.
   double max_height_ignored_mm2 = 3.0;
+  // What rises by more per way is a wall: views see its place and not its height. Smaller counts slopes,
+  // larger loses the sides of balls.
+  double wall_slope = 1.5;
 };
 
 struct HeightVolumeWorkspace {

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "core/estimator/best/best_params.hpp"
 #include "core/estimator/measurement.hpp"
 #include "firmware/measure/capture_session.hpp"
 #include "tests/firmware/command_runner.hpp"
@@ -275,7 +276,6 @@ TEST_P(Faults, NeverFarOffWithoutAWord) {
   }
 }
 
-// All pairs of all captures, trays by one of their dishes: no doubt about the pictures.
 // A banana's skin is so plain that its volume comes out a fifth too small.
 TEST(FoodWithoutTexture, IsDoubted) {
   if (captures_folder().empty()) GTEST_SKIP() << "TRAYGAUGE_CAPTURES names no captures";
@@ -286,6 +286,8 @@ TEST(FoodWithoutTexture, IsDoubted) {
   EXPECT_TRUE(measurement.warnings[static_cast<std::size_t>(Warning::item_hardly_matched)]);
 }
 
+// All pairs of all captures, trays by one of their dishes: no doubt about the pictures, and about an item
+// where its sigma is large.
 TEST(PicturesWithoutAFault, RaiseNoDoubt) {
   if (captures_folder().empty()) GTEST_SKIP() << "TRAYGAUGE_CAPTURES names no captures";
   constexpr std::array<Warning, 7> kDoubts = {Warning::blurred,
@@ -296,6 +298,8 @@ TEST(PicturesWithoutAFault, RaiseNoDoubt) {
                                               Warning::exposure_differs,
                                               Warning::white_balance_differs};
   int pairs = 0;
+  int unsure_pairs = 0;
+  const double max_sigma_share = BestPipelineParams().max_sigma_share;
   for (const fs::path& folder : capture_folders()) {
     const Capture capture = read_capture(folder);
     for (const auto& pair : capture.pairs) {
@@ -307,10 +311,17 @@ TEST(PicturesWithoutAFault, RaiseNoDoubt) {
       for (const Warning doubt : kDoubts) {
         EXPECT_FALSE(measurement.warnings[static_cast<std::size_t>(doubt)]) << name(doubt);
       }
+      const bool is_unsure = std::any_of(
+          measurement.items.begin(), measurement.items.end(),
+          [&](const ItemResult& item) { return item.sigma_ml > max_sigma_share * item.volume_ml; });
+      EXPECT_EQ(measurement.warnings[static_cast<std::size_t>(Warning::item_uncertain)], is_unsure);
+      unsure_pairs += is_unsure ? 1 : 0;
       ++pairs;
     }
   }
   EXPECT_GE(pairs, 25);
+  EXPECT_GE(unsure_pairs, 1);
+  EXPECT_LE(unsure_pairs, 6);
 }
 
 INSTANTIATE_TEST_SUITE_P(Profiles, Faults, ::testing::Values("best", "paper"),

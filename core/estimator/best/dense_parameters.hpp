@@ -69,6 +69,7 @@ void visit_volume_parameters(Params& best, Visit&& visit) {
   auto& pipeline = best.pipeline;
   using Range = ParameterRange;
   visit("best.volume.max_height_ignored_mm2", best.volume.max_height_ignored_mm2, Range{0, 1e5});
+  visit("best.volume.wall_slope", best.volume.wall_slope, Range{0, 100});
   visit("best.overhang.min_undercut_share", best.overhang.min_undercut_share, Range{0, 1000});
   visit("best.overhang.column_over_closed", best.overhang.column_over_closed, Range{1, 10});
   visit("best.overhang.min_undercut_mm2", best.overhang.min_undercut_mm2, Range{0, 1e6});
@@ -78,13 +79,14 @@ void visit_volume_parameters(Params& best, Visit&& visit) {
   visit("best.uncertainty.hidden_share", sigma.hidden_share, Range{0, 100});
   visit("best.uncertainty.outline_px", sigma.outline_px, Range{0, 100});
   visit("best.uncertainty.surface_share", sigma.surface_share, Range{0, 100});
-  visit("best.uncertainty.steepness_share", sigma.steepness_share, Range{0, 100});
+  visit("best.uncertainty.wall_mm", sigma.wall_mm, Range{0, 100});
   visit("best.uncertainty.filled_share", sigma.filled_share, Range{0, 100});
   visit("best.uncertainty.round_share", sigma.round_share, Range{0, 100});
   visit("best.uncertainty.dish_height_mm", sigma.dish_height_mm, Range{0, 100});
   visit("best.pipeline.summit_margin_mm", pipeline.summit_margin_mm, Range{0, 400});
   visit("best.pipeline.min_top_mm", pipeline.min_top_mm, Range{0, 400});
   visit("best.pipeline.min_rim_inlier_share", pipeline.min_rim_inlier_share, Range{0, 1});
+  visit("best.pipeline.max_sigma_share", pipeline.max_sigma_share, Range{0, 100});
   visit("best.pipeline.min_matched_share", pipeline.min_matched_share, Range{0, 1});
   visit("best.pipeline.max_outline_points", pipeline.max_outline_points, Range{16, 65536});
   visit("best.pipeline.max_contour_sides", pipeline.max_contour_sides, Range{256, 1 << 20});

@@ -153,6 +153,8 @@ void measure_dish(const ViewPair& views, const SceneGeometry& geometry, std::siz
                                  round.contains(label)};
     item.sigma_ml = estimate_sigma_ml(input, geometry.joint.camera_from_table, geometry.joint.covariance,
                                       best.uncertainty);
+    if (item.status == StatusCode::ok && item.sigma_ml > best.pipeline.max_sigma_share * item.volume_ml)
+      measurement.warn(Warning::item_uncertain, true);
     workspace.items.push_back(item);
   });
 }

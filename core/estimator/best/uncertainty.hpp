@@ -11,11 +11,11 @@ struct UncertaintyParams {
   double disparity_bias_px = 0.03;  // of an item's mean disparity: smooth skin, gloss, slanted windows
   double hidden_share = 0.25;       // of the volume that no view sees
   double outline_px = 0.2;          // of an item's outline, all along it
-  // Of the volume: matching errors that follow the food, shine and roughness; and per mean height over the
-  // square root of the area, because steep sides are matched worse than flat tops. These and the next
-  // from the spread of the rendered captures' errors.
-  double surface_share = 0.015;
-  double steepness_share = 0.015;
+  // Of the volume: matching errors that follow the food, shine and roughness. And of the place of walls
+  // within an item, all of which are matched too far in or out together. Both from the spread of the errors
+  // of rendered captures, tests/evaluation/README.md.
+  double surface_share = 0.0135;
+  double wall_mm = 0.5;
   // Of the volume, times the squared share that was filled instead of matched: the wider a gap, the less its
   // rims say about it.
   double filled_share = 0.5;

@@ -128,6 +128,24 @@ TEST(HeightVolume, KnowsTheCentresOfItems) {
   }
 }
 
+// Two blocks of one item: 18 mm of wall between them over 40 mm. What bounds an item is no wall of its own,
+// nor is a slope. The walls that fill what is hidden behind a block count as well.
+TEST(HeightVolume, MeasuresWallsWithinItems) {
+  SolidScene scene;
+  scene.dish = testing::dinner_plate();
+  const Vec2& c = scene.dish.place.centre_mm;
+  scene.solids = {testing::box(2, c + Vec2(-55, 0), {15, 20}, 0.0, 34),
+                  testing::box(2, c + Vec2(-25, 0), {15, 20}, 0.0, 16),
+                  testing::cone(3, c + Vec2(40, 30), 32, kBottomMm, 30)};
+  for (const CameraPairOfScene& cameras : camera_pairs()) {
+    SceneMeasurement measured(scene, cameras);
+    ASSERT_TRUE(measured.status().ok());
+    std::printf("wall %.0f mm2, of the cone %.0f\n", measured.item(2).wall_mm2, measured.item(3).wall_mm2);
+    EXPECT_GT(measured.item(2).wall_mm2, 0.9 * 18.0 * 40.0);
+    EXPECT_LT(measured.item(3).wall_mm2, 60.0);
+  }
+}
+
 TEST(HeightVolume, SurvivesDepthAndLabelNoise) {
   const SolidScene scene = plate_of_fields();
   SceneNoise noise;
