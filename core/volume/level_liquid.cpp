@@ -23,7 +23,8 @@ std::uint8_t largest_item(const HeightMap& map) {
   for (int y = 0; y < map.cells.height; ++y) {
     for (int x = 0; x < map.cells.width; ++x) ++count[map.cells.at(x, y).label];
   }
-  const auto largest = std::max_element(count.begin() + kFirstItemLabel, count.begin() + kLastItemLabel + 1);
+  const auto* const largest =
+      std::max_element(count.begin() + kFirstItemLabel, count.begin() + kLastItemLabel + 1);
   return *largest > 0 ? static_cast<std::uint8_t>(largest - count.begin()) : std::uint8_t{0};
 }
 
@@ -75,12 +76,13 @@ bool reaches_wall(const HeightMap& map, const InnerSurface& dish, std::uint8_t l
     // From the outside inward, past the crest, to where the wall comes down to the level.
     double radius = dish.profile.semi_axes_mm().maxCoeff();
     bool inside_crest = false;
-    for (; radius > 0.0; radius -= 0.5 * map.cell_mm) {
+    while (radius > 0.0) {
       const Vec2 at = dish.place.centre_mm + radius * along;
       const double inset = dish.profile.inset_mm(dish.to_dish(at));
       const double wall = dish.height_mm(at);
       inside_crest = inside_crest || (inset > 0.0 && wall > dish.profile.crest_height_mm() - 1.0);
       if (inside_crest && wall <= level_mm) break;
+      radius -= 0.5 * map.cell_mm;
     }
     bool found = false;
     for (double gap = 0.0; gap <= params.max_gap_mm && !found; gap += map.cell_mm) {

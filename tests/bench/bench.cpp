@@ -43,7 +43,7 @@ int main(int argc, char** argv) {
   add(compare_sparse_stages(paper));
   add(compare_dense_stages(paper));
   for (const Scene& scene : scenes) {
-    const bool is_coloured = scene.frames[0].format == PixelFormat::bgr8;
+    const bool is_coloured = scene.frames[0].format != PixelFormat::gray8;
     if (is_coloured) comparisons.push_back(compare_segmentation(scene));
     for (const Profile profile : {Profile::best, Profile::paper})
       comparisons.push_back(compare_measurement(scene, profile));

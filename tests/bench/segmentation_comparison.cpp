@@ -18,6 +18,11 @@ cv::Mat picture_of(const Scene& scene, std::size_t view) {
   return {frame.size.height, frame.size.width, CV_8UC3, const_cast<std::uint8_t*>(frame.pixels.data())};
 }
 
+cv::ColorConversionCodes either(const Scene& scene, cv::ColorConversionCodes from_rgb,
+                                cv::ColorConversionCodes from_bgr) {
+  return scene.frames[0].format == PixelFormat::rgb8 ? from_rgb : from_bgr;
+}
+
 // How much of what is food both say is, in %, over both views.
 double food_percent(const Scene& scene, const std::array<Picture, 2>& labels) {
   double sum = 0.0;
@@ -111,11 +116,12 @@ cv::RotatedRect find_dish_by_opencv(const cv::Mat& gray) {
 }
 
 // Colours by mean shift; what is coloured or dark on the dish is food.
-cv::Mat find_food_by_opencv(const cv::Mat& picture, const cv::RotatedRect& dish) {
+cv::Mat find_food_by_opencv(const cv::Mat& picture, const cv::RotatedRect& dish,
+                            cv::ColorConversionCodes to_lab) {
   cv::Mat smooth;
   cv::pyrMeanShiftFiltering(picture, smooth, 8.0, 16.0, 1);
   cv::Mat lab;
-  cv::cvtColor(smooth, lab, cv::COLOR_BGR2Lab);
+  cv::cvtColor(smooth, lab, to_lab);
   std::array<cv::Mat, 3> planes;
   cv::split(lab, planes.data());
   cv::Mat labels(picture.size(), CV_8U, cv::Scalar(0));
@@ -131,9 +137,10 @@ std::array<Picture, 2> draw_by_opencv(const Scene& scene, const PrintFeatures& p
     cv::Mat half;
     cv::Mat gray;
     cv::resize(picture_of(scene, v), half, {}, kHalf, kHalf, cv::INTER_AREA);
-    cv::cvtColor(half, gray, cv::COLOR_BGR2GRAY);
+    cv::cvtColor(half, gray, either(scene, cv::COLOR_RGB2GRAY, cv::COLOR_BGR2GRAY));
     find_card_by_opencv(gray, print, orb);
-    const cv::Mat labels = find_food_by_opencv(half, find_dish_by_opencv(gray));
+    const cv::Mat labels = find_food_by_opencv(half, find_dish_by_opencv(gray),
+                                               either(scene, cv::COLOR_RGB2Lab, cv::COLOR_BGR2Lab));
     drawn[v] = Picture(scene.frames[v].size, PixelFormat::gray8);
     cv::Mat full(drawn[v].size.height, drawn[v].size.width, CV_8U, drawn[v].pixels.data());
     cv::resize(labels, full, full.size(), 0.0, 0.0, cv::INTER_NEAREST);
