@@ -25,8 +25,8 @@ std::array<std::int8_t, 2> rounded(const Vec2& v) {
 Vec2 draw_place(Random& random) {
   constexpr double kReach = kBinaryPatchRadius - 2.0;
   for (;;) {
-    const Vec2 place(kReach * (random.uniform() + random.uniform() - 1.0),
-                     kReach * (random.uniform() + random.uniform() - 1.0));
+    Vec2 place(kReach * (random.uniform() + random.uniform() - 1.0),
+               kReach * (random.uniform() + random.uniform() - 1.0));
     if (place.squaredNorm() <= kReach * kReach) return place;
   }
 }
@@ -51,7 +51,7 @@ void BinarySampling::draw(std::uint64_t seed) {
 
 const std::array<BinarySampling::Comparison, 256>& BinarySampling::turned_towards(
     const Vec2& direction) const {
-  const auto nearest =
+  const auto* const nearest =
       std::max_element(directions_.begin(), directions_.end(),
                        [&](const Vec2& a, const Vec2& b) { return a.dot(direction) < b.dot(direction); });
   return turns_[static_cast<std::size_t>(nearest - directions_.begin())];

@@ -75,7 +75,7 @@ class CornerBuckets {
     *place = corner;
   }
 
-  void drop_weak(float min_share_of_best) {
+  void drop_weak(float min_share_of_best) const {
     for (std::size_t bucket = 0; bucket < count(); ++bucket) {
       const std::span<const Corner> list = candidates(bucket);
       std::uint8_t& count = workspace_.counts[bucket];

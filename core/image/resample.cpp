@@ -43,8 +43,9 @@ void compute_positions(const LensModel& lens, const PinholeCamera& camera, int l
 
 // Offsets of the samples of a target pixel, in the frame.
 struct SubGrid {
-  std::array<float, kMaxSamplesAcross * kMaxSamplesAcross> x{};
-  std::array<float, kMaxSamplesAcross * kMaxSamplesAcross> y{};
+  static constexpr std::size_t kMaxSamples = std::size_t{kMaxSamplesAcross} * kMaxSamplesAcross;
+  std::array<float, kMaxSamples> x{};
+  std::array<float, kMaxSamples> y{};
   int size = 0;
   float reach_px = 0.0F;
 };
@@ -60,10 +61,10 @@ SubGrid make_sub_grid(const LensModel& lens, const PinholeCamera& camera, const 
       frame_position(lens, camera, centre + half_x) - frame_position(lens, camera, centre - half_x);
   const Vec2 by_y =
       frame_position(lens, camera, centre + half_y) - frame_position(lens, camera, centre - half_y);
+  std::size_t index = 0;
   for (int j = 0; j < per_axis; ++j) {
-    for (int i = 0; i < per_axis; ++i) {
+    for (int i = 0; i < per_axis; ++i, ++index) {
       const Vec2 offset = by_x * ((i + 0.5) / per_axis - 0.5) + by_y * ((j + 0.5) / per_axis - 0.5);
-      const auto index = static_cast<std::size_t>(j * per_axis + i);
       grid.x[index] = static_cast<float>(offset.x());
       grid.y[index] = static_cast<float>(offset.y());
       grid.reach_px = std::max(grid.reach_px, static_cast<float>(offset.cwiseAbs().maxCoeff()));

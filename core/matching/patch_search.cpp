@@ -45,7 +45,8 @@ float correlate(const SearchTemplate& patch, const std::int16_t* window, std::pt
   // In one piece, so that three long sums remain instead of many short ones.
   alignas(16) std::int16_t values[kPixels];
   for (int j = 0; j < kSearchSide; ++j)
-    std::memcpy(values + j * kSearchSide, window + j * stride, kSearchSide * sizeof values[0]);
+    std::memcpy(values + std::ptrdiff_t{j} * kSearchSide, window + j * stride,
+                kSearchSide * sizeof values[0]);
   std::int32_t products = 0;
   std::int32_t squares = 0;
   std::int32_t sum = 0;

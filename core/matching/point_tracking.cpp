@@ -151,7 +151,8 @@ void Tracker::look_first(std::span<const Corner> corners) {
   const int across = std::clamp(params_.first_look_cells, 1, static_cast<int>(kMaxCells));
   const int side = std::max(picture.width, picture.height) / across + 1;
   for (const Corner& corner : corners) {
-    const auto cell = static_cast<std::size_t>(corner.y / side * across + corner.x / side);
+    const auto cell = static_cast<std::size_t>(corner.y / side) * static_cast<std::size_t>(across) +
+                      static_cast<std::size_t>(corner.x / side);
     const Corner*& place = strongest[kGrounds * cell + static_cast<std::size_t>(ground_of(corner.label))];
     if (place == nullptr || corner.response > place->response) place = &corner;
   }

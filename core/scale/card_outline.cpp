@@ -35,7 +35,7 @@ class OutlinePoints {
   OutlinePoints(ImageView<const std::uint8_t> labels, const PixelBox& box, const LensModel& lens,
                 std::span<Vec2> storage)
       : labels_(labels), box_(box), lens_(lens), points_(storage) {
-    const auto lines = static_cast<std::size_t>(box.width() + box.height());
+    const auto lines = static_cast<std::size_t>(box.width()) + static_cast<std::size_t>(box.height());
     step_ = static_cast<int>(2 * lines / std::max<std::size_t>(1, storage.size())) + 1;
   }
 
@@ -95,6 +95,7 @@ std::span<Vec2> convex_hull(std::span<Vec2> sorted, std::span<Vec2> hull) {
 // be.
 bool remove_cheapest_side(std::span<Vec2> hull) {
   const std::size_t count = hull.size();
+  if (count == 0) return false;
   double least = std::numeric_limits<double>::infinity();
   std::size_t cheapest = 0;
   Vec2 joint = Vec2::Zero();

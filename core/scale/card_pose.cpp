@@ -51,7 +51,7 @@ class ReprojectionProblem {
     return cost(pose);
   }
 
-  Pose moved(const Pose& pose, const Equations::Vector& step) const {
+  static Pose moved(const Pose& pose, const Equations::Vector& step) {
     return {rotation_about(step.head<3>()) * pose.rotation, pose.translation + step.tail<3>()};
   }
 

@@ -129,7 +129,7 @@ bool fit_homography(std::span<const CardTrack> tracks, std::span<const std::uint
         if (step == 0) {  // algebraic distances
           equations.add(coefficients(ray, 1.0, target(row), row), target(row));
         } else {
-          const double mapped = h.segment<3>(3 * row).dot(ray.homogeneous()) / w;
+          const double mapped = h.segment<3>(Eigen::Index{3} * row).dot(ray.homogeneous()) / w;
           equations.add(coefficients(ray, w, mapped, row), target(row) - mapped);
         }
       }

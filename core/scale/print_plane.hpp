@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/LU>
+#include <utility>
 
 #include "core/base/geometry.hpp"
 #include "core/base/table_frame.hpp"
@@ -24,8 +25,8 @@ class PrintPlane {
   static constexpr double kMinDepthMm = 1.0;
   static constexpr double kMaxDistance = 4.0;  // from the print's centre, in half its width and height
 
-  PrintPlane(const Pose& camera_from_table, const CardModelSize& size)
-      : pose_(camera_from_table), size_(size) {
+  PrintPlane(Pose camera_from_table, const CardModelSize& size)
+      : pose_(std::move(camera_from_table)), size_(size) {
     Mat3 ray_from_print;
     ray_from_print << pose_.rotation.col(0), -pose_.rotation.col(1),
         pose_.rotation.col(2) * size.thickness_mm + pose_.translation;

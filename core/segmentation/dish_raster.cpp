@@ -35,7 +35,7 @@ Rgb sum_square(const FrameView& frame, int left, int top, int step) {
   const int bytes = bytes_per_pixel(frame.format);
   const bool is_bgr = frame.format == PixelFormat::bgr8;
   for (int y = top; y < top + step; ++y) {
-    const std::uint8_t* pixel = frame.data + y * frame.stride_bytes + left * bytes;
+    const std::uint8_t* pixel = frame.data + y * frame.stride_bytes + std::ptrdiff_t{left} * bytes;
     for (int x = 0; x < step; ++x, pixel += bytes) {
       sum.red += pixel[bytes == 1 ? 0 : (is_bgr ? 2 : 0)];
       sum.green += pixel[bytes == 1 ? 0 : 1];

@@ -71,7 +71,7 @@ void compare_view(std::size_t v, const std::array<SurfaceGrid, 2>& grids, const 
   const int sign = v == 0 ? 1 : -1;
   const GlazeDisparity glaze(relief.grid, dish, static_cast<int>(v), params.node_step);
   const std::span<float> nodes =
-      workspace.nodes.first(static_cast<std::size_t>((width - 1) / params.node_step + 2));
+      workspace.nodes.first(static_cast<std::size_t>((width - 1) / params.node_step) + 2);
   const SurfaceGrid& grid = grids[v];
   for (int y = 0; y < samples.height; ++y) {
     if (y % params.node_step == 0) glaze.load_row(y, nodes);

@@ -57,8 +57,10 @@ class DistanceBuckets {
   std::int32_t& head_of(int distance) {
     return workspace_.heads[static_cast<std::size_t>(distance % (kMaxGeodesicStep + 1))];
   }
-  std::int32_t& next(std::int32_t cell) { return workspace_.next[static_cast<std::size_t>(cell)]; }
-  std::int32_t& previous(std::int32_t cell) { return workspace_.previous[static_cast<std::size_t>(cell)]; }
+  std::int32_t& next(std::int32_t cell) const { return workspace_.next[static_cast<std::size_t>(cell)]; }
+  std::int32_t& previous(std::int32_t cell) const {
+    return workspace_.previous[static_cast<std::size_t>(cell)];
+  }
 
   GeodesicWorkspace& workspace_;
   int listed_ = 0;

@@ -38,9 +38,9 @@ void local_costs(const MatchingBlock& block, int x, Interval interval, const Ste
   }
   ByteLanes* compared = std::fill_n(costs, partners.lo - (x + interval.lo), outside);
   if (params.cost == MatchingCost::census) {
-    const int bytes = census_bytes(params.census_radius_px);
-    hamming_distances(&block.first_codes[static_cast<std::size_t>(x * bytes)],
-                      &block.second_codes[static_cast<std::size_t>(partners.lo * bytes)],
+    const auto bytes = static_cast<std::size_t>(census_bytes(params.census_radius_px));
+    hamming_distances(&block.first_codes[static_cast<std::size_t>(x) * bytes],
+                      &block.second_codes[static_cast<std::size_t>(partners.lo) * bytes],
                       params.census_radius_px, partners.count(), compared);
   } else {
     absolute_differences(block, x, partners, params.sad_limit, compared);

@@ -34,9 +34,9 @@ inline ByteLanes spread(std::uint8_t value) {
 // The least lane, in all lanes. Shuffles of whole words are single instructions on every processor.
 inline ByteLanes spread_least(ByteLanes v) {
   const auto words = reinterpret_cast<WordLanes>(v);
-  v = least(v, reinterpret_cast<ByteLanes>(__builtin_shuffle(words, WordLanes{2, 3, 0, 1})));
+  v = least(v, reinterpret_cast<ByteLanes>(__builtin_shufflevector(words, words, 2, 3, 0, 1)));
   const auto pairs = reinterpret_cast<WordLanes>(v);
-  v = least(v, reinterpret_cast<ByteLanes>(__builtin_shuffle(pairs, WordLanes{1, 0, 3, 2})));
+  v = least(v, reinterpret_cast<ByteLanes>(__builtin_shufflevector(pairs, pairs, 1, 0, 3, 2)));
   const auto halves = reinterpret_cast<WordLanes>(v);
   v = least(v, reinterpret_cast<ByteLanes>((halves << 16) | (halves >> 16)));
   const auto bytes = reinterpret_cast<WideLanes>(v);
@@ -96,15 +96,15 @@ void add_paths(const std::array<const PathCosts<kChunks>*, 4>& paths, bool first
   for (int chunk = 0; chunk < kChunks; ++chunk) {
     WideLanes even{};
     WideLanes odd{};
+    const std::ptrdiff_t first_lane = std::ptrdiff_t{chunk} * kBandLanes;
     for (std::size_t k = 0; k < kPaths; k += 2) {
       // Two path costs fit a byte: twice worst cost and large penalty.
-      const auto pair =
-          reinterpret_cast<WideLanes>(load_lanes<ByteLanes>(paths[k]->lanes + chunk * kBandLanes) +
-                                      load_lanes<ByteLanes>(paths[k + 1]->lanes + chunk * kBandLanes));
+      const auto pair = reinterpret_cast<WideLanes>(load_lanes<ByteLanes>(paths[k]->lanes + first_lane) +
+                                                    load_lanes<ByteLanes>(paths[k + 1]->lanes + first_lane));
       even += pair & 0xff;
       odd += pair >> 8;
     }
-    std::uint16_t* at = sums + chunk * kBandLanes;
+    std::uint16_t* at = sums + first_lane;
     if (!first) {
       even += load_lanes<WideLanes>(at);
       odd += load_lanes<WideLanes>(at + kHalfLanes);

@@ -106,7 +106,7 @@ void Matcher<kChunks>::compute_costs(int x, int y) {
       v = v + (v >> 8);
       bits[k] = static_cast<std::uint8_t>((v + (v >> 16)) & 0x3fU);
     }
-    const auto others = load_lanes<ByteLanes>(labels + chunk * kBandLanes);
+    const auto others = load_lanes<ByteLanes>(labels + std::ptrdiff_t{chunk} * kBandLanes);
     const auto different = reinterpret_cast<ByteLanes>(others != label);
     const ByteLanes cost = load_lanes<ByteLanes>(bits) + (different & label_penalty_);
     costs_[static_cast<std::size_t>(chunk)] = others == ByteLanes{} ? spread(kWorstCost) : cost;
@@ -136,8 +136,8 @@ void Matcher<kChunks>::extend(const Path& before, int shift, ByteLanes large, Pa
     ByteLanes best = jump;
     if (!apart) {
       // From the whole object: a band that is shifted reads its neighbour's padding.
-      const std::uint8_t* from =
-          reinterpret_cast<const std::uint8_t*>(&before) + kBandPadding + chunk * kBandLanes + shift;
+      const std::uint8_t* from = reinterpret_cast<const std::uint8_t*>(&before) + kBandPadding +
+                                 std::ptrdiff_t{chunk} * kBandLanes + shift;
       const ByteLanes beside = least(load_lanes<ByteLanes>(from - 1), load_lanes<ByteLanes>(from + 1));
       best = least(best, least(load_lanes<ByteLanes>(from), beside + small_penalty_));
     }

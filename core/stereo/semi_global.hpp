@@ -49,11 +49,11 @@ struct SemiGlobalWorkspace {
   template <class Allocator>
   constexpr void allocate(Allocator& arena, int max_columns, int max_states) {
     const auto columns = static_cast<std::size_t>(max_columns) + 2;
-    constexpr auto kLanes = static_cast<std::size_t>(kMaxBandLanes + 2 * kBandPadding + kBandLanes);
+    constexpr auto kLanes = std::size_t{kMaxBandLanes} + std::size_t{2} * kBandPadding + kBandLanes;
     sums = arena.template take<std::uint16_t>(static_cast<std::size_t>(max_states));
     for (auto& row : paths) row = arena.template take<std::uint8_t>(3 * columns * kLanes);
-    padded_codes = arena.template take<std::uint32_t>(columns + 2 * kMaxBandLanes);
-    padded_labels = arena.template take<std::uint8_t>(columns + 2 * kMaxBandLanes);
+    padded_codes = arena.template take<std::uint32_t>(columns + std::size_t{2} * kMaxBandLanes);
+    padded_labels = arena.template take<std::uint8_t>(columns + std::size_t{2} * kMaxBandLanes);
   }
 };
 

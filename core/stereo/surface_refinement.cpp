@@ -37,7 +37,7 @@ class Refinement {
              const SurfaceRefinementParams& params, SurfaceRefinementWorkspace& workspace,
              ImageView<float> disparity)
       : pair_(pair), trusted_(trusted), params_(params), workspace_(workspace), disparity_(disparity) {
-    columns_ = static_cast<std::ptrdiff_t>(disparity.width) + 2 * kMaxRefinementRadius;
+    columns_ = static_cast<std::ptrdiff_t>(disparity.width) + std::ptrdiff_t{2} * kMaxRefinementRadius;
   }
 
   void tie_neighbours();
@@ -46,12 +46,14 @@ class Refinement {
   void relax(bool downwards);
 
  private:
-  float* terms(int y, int channel) {
+  float* terms(int y, int channel) const {
     const int slot = y % (2 * kMaxRefinementRadius + 1);
     return workspace_.terms.data() + (slot * kChannels + channel) * columns_ + kMaxRefinementRadius;
   }
-  float* windows(int channel) { return workspace_.windows.data() + channel * columns_; }
-  float* sums(int channel) { return workspace_.sums.data() + channel * columns_ + kMaxRefinementRadius; }
+  float* windows(int channel) const { return workspace_.windows.data() + channel * columns_; }
+  float* sums(int channel) const {
+    return workspace_.sums.data() + channel * columns_ + kMaxRefinementRadius;
+  }
   static std::ptrdiff_t at(ImageView<float> picture, int y) { return std::ptrdiff_t{y} * picture.width; }
   // First labelled column of a row, and the one behind the last.
   std::pair<int, int> labelled_columns(int y) const {
@@ -121,7 +123,7 @@ void Refinement::compute_terms(int y) {
   const std::uint8_t* labels = pair_.labels.row(y);
   const std::uint8_t* other = pair_.other_gray.row(y);
   const std::uint8_t* other_labels = pair_.other_labels.row(y);
-  const float last = static_cast<float>(pair_.other_gray.width - 3);
+  const auto last = static_cast<float>(pair_.other_gray.width - 3);
   const auto sign = static_cast<float>(pair_.sign);
   const auto dish_weight = static_cast<float>(params_.dish_weight);
   for (int x = 0; x < disparity_.width; ++x) {

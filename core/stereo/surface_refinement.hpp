@@ -45,7 +45,7 @@ struct SurfaceRefinementWorkspace {
   template <class Allocator>
   constexpr void allocate(Allocator& arena, int max_columns, int max_samples) {
     const auto samples = static_cast<std::size_t>(max_samples);
-    const auto columns = static_cast<std::size_t>(max_columns + 2 * kMaxRefinementRadius);
+    const auto columns = static_cast<std::size_t>(max_columns) + std::size_t{2} * kMaxRefinementRadius;
     certainty = arena.template take<float>(samples);
     target = arena.template take<float>(samples);
     right_tie = arena.template take<float>(samples);

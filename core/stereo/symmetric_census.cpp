@@ -43,23 +43,35 @@ struct IsAlike {
   }
 };
 
+// The first and the second halves of two vectors, lane beside lane.
+ByteLanes interleave_first(ByteLanes a, ByteLanes b) {
+  return __builtin_shufflevector(a, b, 0, 16, 1, 17, 2, 18, 3, 19, 4, 20, 5, 21, 6, 22, 7, 23);
+}
+ByteLanes interleave_second(ByteLanes a, ByteLanes b) {
+  return __builtin_shufflevector(a, b, 8, 24, 9, 25, 10, 26, 11, 27, 12, 28, 13, 29, 14, 30, 15, 31);
+}
+CostLanes interleave_first(CostLanes a, CostLanes b) {
+  return __builtin_shufflevector(a, b, 0, 8, 1, 9, 2, 10, 3, 11);
+}
+CostLanes interleave_second(CostLanes a, CostLanes b) {
+  return __builtin_shufflevector(a, b, 4, 12, 5, 13, 6, 14, 7, 15);
+}
+
 // Four bytes of each pixel's code come together from four registers.
 void store_codes(const std::array<ByteLanes, 4>& bytes, std::uint32_t* codes) {
   static_assert(std::endian::native == std::endian::little, "the first byte is the lowest");
-  constexpr ByteLanes kFirst{0, 16, 1, 17, 2, 18, 3, 19, 4, 20, 5, 21, 6, 22, 7, 23};
-  constexpr ByteLanes kSecond{8, 24, 9, 25, 10, 26, 11, 27, 12, 28, 13, 29, 14, 30, 15, 31};
-  constexpr CostLanes kFirstPairs{0, 8, 1, 9, 2, 10, 3, 11};
-  constexpr CostLanes kSecondPairs{4, 12, 5, 13, 6, 14, 7, 15};
-  std::size_t at = 0;
-  for (const ByteLanes& half : {kFirst, kSecond}) {
-    const auto low = reinterpret_cast<CostLanes>(__builtin_shuffle(bytes[0], bytes[1], half));
-    const auto high = reinterpret_cast<CostLanes>(__builtin_shuffle(bytes[2], bytes[3], half));
-    for (const CostLanes& pairs : {kFirstPairs, kSecondPairs}) {
-      const CostLanes four = __builtin_shuffle(low, high, pairs);
-      std::memcpy(codes + at, &four, sizeof four);
-      at += sizeof four / sizeof *codes;
-    }
-  }
+  const auto store = [&codes](CostLanes four) {
+    std::memcpy(codes, &four, sizeof four);
+    codes += sizeof four / sizeof *codes;
+  };
+  const auto store_half = [&](ByteLanes low_bytes, ByteLanes high_bytes) {
+    const auto low = reinterpret_cast<CostLanes>(low_bytes);
+    const auto high = reinterpret_cast<CostLanes>(high_bytes);
+    store(interleave_first(low, high));
+    store(interleave_second(low, high));
+  };
+  store_half(interleave_first(bytes[0], bytes[1]), interleave_first(bytes[2], bytes[3]));
+  store_half(interleave_second(bytes[0], bytes[1]), interleave_second(bytes[2], bytes[3]));
 }
 
 // The bits from kFirst on, as the lowest of a byte.

@@ -31,7 +31,9 @@ class EdgeSearch {
   bool find_level(const DishEdgeParams& params, DishPlace& best) const {
     double least = kUnseenPlace;
     const double step_mm = std::max(params.level_step_mm, 0.1);
-    for (double level_mm = params.lowest_mm; level_mm <= params.highest_mm; level_mm += step_mm) {
+    const int levels = static_cast<int>((params.highest_mm - params.lowest_mm) / step_mm) + 1;
+    for (int i = 0; i < levels; ++i) {
+      const double level_mm = params.lowest_mm + i * step_mm;
       DishPlace place;
       if (!guess_place(outlines_, cameras_, level_mm, step_, workspace_, place)) continue;
       place.edge_drop_mm = placement_.edge_drop_mm;

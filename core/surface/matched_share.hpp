@@ -19,7 +19,9 @@ inline std::array<double, 256> matched_shares(std::span<const SurfaceGrid> views
       const SurfaceEvidence* evidence = view.evidence.row(y);
       for (int x = 0; x < view.labels.width; ++x) {
         samples[labels[x]] += 1.0;
-        matched[labels[x]] += evidence[x] == SurfaceEvidence::single || evidence[x] == SurfaceEvidence::both;
+        const bool is_matched =
+            evidence[x] == SurfaceEvidence::single || evidence[x] == SurfaceEvidence::both;
+        matched[labels[x]] += is_matched ? 1.0 : 0.0;
       }
     }
   }

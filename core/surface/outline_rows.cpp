@@ -84,8 +84,8 @@ OutlineRows collect_outline_rows(const std::array<SurfaceGrid, 2>& views, std::u
   }
   for (int y = kSlantRows; y + kSlantRows < height; ++y) {
     OutlineRow& row = rows[static_cast<std::size_t>(y)];
-    const OutlineRow& above = rows[static_cast<std::size_t>(y - kSlantRows)];
-    const OutlineRow& below = rows[static_cast<std::size_t>(y + kSlantRows)];
+    const OutlineRow& above = rows[static_cast<std::size_t>(y) - kSlantRows];
+    const OutlineRow& below = rows[static_cast<std::size_t>(y) + kSlantRows];
     bool usable = true;
     for (std::size_t v = 0; v < 2; ++v) {
       usable = usable && row.chords[v].count() > 1 && !above.chords[v].empty() && !below.chords[v].empty() &&

@@ -36,7 +36,7 @@ class ProfileFit {
       squares += ring.spread_mm * ring.spread_mm;
     }
     if (known == 0) return false;
-    const double count = static_cast<double>(known);
+    const auto count = static_cast<double>(known);
     fitted_.known_share = count / static_cast<double>(rings_.size());
     fitted_.spread_mm = std::sqrt(squares / count);
     const bool is_bottom_known = last_mm >= bottom_begin_mm();

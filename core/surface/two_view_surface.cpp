@@ -104,7 +104,7 @@ static_assert(kDisparityScale == 16);
 
 // The range of a level, counted from the reference view, and one more at either end.
 DisparityRange range_at(DisparityRange range, std::size_t level, int sign) {
-  const double scale = static_cast<double>(1 << level);
+  const auto scale = static_cast<double>(1 << level);
   const DisparityRange reduced{static_cast<int>(std::floor(range.min_px / scale)) - 1,
                                static_cast<int>(std::ceil(range.max_px / scale)) + 1};
   return sign > 0 ? reduced : DisparityRange{-reduced.max_px, -reduced.min_px};

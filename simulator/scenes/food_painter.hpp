@@ -92,7 +92,7 @@ class FoodPainter {
         const std::size_t node = field_.frame.index(column, row);
         if (field_.inside_mm[node] <= 0.0F) continue;
         const Eigen::Vector2d at = local(field_.frame.node(column, row));
-        const double height_mm = static_cast<double>(field_.height_mm[node]);
+        const auto height_mm = static_cast<double>(field_.height_mm[node]);
         const double moved_mm = height_mm + displacement_mm(at.x(), at.y(), height_mm);
         field_.height_mm[node] = static_cast<float>(std::max(0.0, moved_mm));
       }

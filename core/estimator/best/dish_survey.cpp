@@ -109,7 +109,7 @@ const DishSurvey& DishSurveyor::survey(std::uint64_t seed) {
   survey_.status = !status_.ok() ? status_ : !views_status_.ok() ? views_status_ : StatusCode::ok;
   if (survey_.status.ok() && views_ != 2) survey_.status = StatusCode::frame_missing;
   if (!survey_.status.ok()) return survey_;
-  const ViewPair views = {&memory_.views[0], &memory_.views[1]};
+  const ViewPair views = {memory_.views.data(), &memory_.views[1]};
   survey_.status = find_edge(views, seed);
   if (survey_.status.ok()) survey_.status = measure_profile(views);
   return survey_;

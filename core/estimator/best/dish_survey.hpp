@@ -63,7 +63,7 @@ class DishSurveyor {
 
   // Takes the first, then the second view; pixels and labels stay the caller's until survey() returns. What
   // is labelled as food is taken for something that hides the dish.
-  Status add_view(const ViewInput& view);
+  Status add_view(const ViewInput& input);
 
   // The dish of label 1. too_little_depth: the glaze is too plain or too shiny for a profile; size and edge
   // are given nevertheless. table_not_found: the dish leans, or lies below the table. no_dish_label,
