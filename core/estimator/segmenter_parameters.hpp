@@ -108,7 +108,7 @@ void visit_food_field_parameters(Params& field, Visit&& visit) {
   visit("segmentation.food.field.least_colour", field.least_colour, Range{-10, -0.001});
   visit("segmentation.food.field.neutral_texture", field.neutral_texture, Range{0, 5});
   visit("segmentation.food.field.full_texture", field.full_texture, Range{5.1, 1000});
-  visit("segmentation.food.field.texture_reach", field.texture_reach, Range{0, 100});
+  visit("segmentation.food.field.texture_reach", field.texture_reach, Range{0, kMaxMedianRadius});
   visit("segmentation.food.field.texture_weight", field.texture_weight, Range{0, 100});
   visit("segmentation.food.field.outline", field.outline, Range{0, 100});
   visit("segmentation.food.field.edge_contrast", field.edge_contrast, Range{0.1, 1000});

@@ -7,7 +7,7 @@
 #include "core/base/lanes.hpp"
 #include "core/segmentation/colour_sum.hpp"
 #include "core/segmentation/geodesic.hpp"
-#include "core/segmentation/square_medians.hpp"
+#include "core/stereo/median.hpp"
 
 namespace traygauge {
 namespace {
@@ -41,10 +41,10 @@ class FoodField {
     for (int y = 0; y < field_.height; ++y) {
       for (int x = 0; x < field_.width; ++x) fold(x, y);
     }
-    for_each_square_median(
-        field_.width, field_.height, params_.texture_reach,
-        [&](int x, int y) { return workspace_.bends[field_.at(x, y)]; },
-        [&](int x, int y, std::uint8_t bends) { add_colour(field_.at(x, y), bends); });
+    filter_median({workspace_.bends.data(), field_.width, field_.height}, params_.texture_reach,
+                  {workspace_.median_bends.data(), field_.width, field_.height});
+    const std::size_t count = field_.at(0, field_.height);
+    for (std::size_t at = 0; at < count; ++at) add_colour(at);
     for (int y = 0; y < field_.height; ++y) {
       for (int x = 0; x < field_.width; ++x) limit_flow(x, y);
     }
@@ -123,18 +123,17 @@ class FoodField {
     const int count = fold * fold;
     const std::size_t at = field_.at(x, y);
     workspace_.colours[at] = colours.mean(count);
-    workspace_.bends[at] = static_cast<std::uint8_t>(std::min(255, 2 * bends / count));
+    workspace_.bends[at] = static_cast<std::int16_t>(std::min(255, 2 * bends / count));
     workspace_.evidence[at] = is_outside ? kOutside : static_cast<float>(params_.prior + lift / count);
   }
 
-  // `bends`: the median about the cell, in which lines such as the food's border are outnumbered.
-  void add_colour(std::size_t at, std::uint8_t bends) {
+  void add_colour(std::size_t at) {
     if (!(workspace_.evidence[at] > kOutside)) return;
     const CellColour& colour = workspace_.colours[at];
     const int red = colour.red - glaze_.median.red;
     const int green = colour.green - glaze_.median.green;
     const double off = std::sqrt(static_cast<double>(red * red + green * green)) / glaze_.share_sigma;
-    const double texture = bends / glaze_.texture;
+    const double texture = workspace_.median_bends[at] / glaze_.texture;
     const double told = std::clamp(
         (off - params_.neutral_deviations) / (params_.full_deviations - params_.neutral_deviations),
         params_.least_colour, params_.most_colour);

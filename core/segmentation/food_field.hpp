@@ -51,7 +51,8 @@ struct FoodFieldParams {
 
 struct FoodFieldWorkspace {
   std::span<CellColour> colours;
-  std::span<std::uint8_t> bends;
+  std::span<std::int16_t> bends;
+  std::span<std::int16_t> median_bends;
   std::span<float> evidence;
   std::span<float> share;    // of food, 0 to 1
   std::span<float> leading;  // extrapolated
@@ -64,7 +65,8 @@ struct FoodFieldWorkspace {
   constexpr void allocate(Allocator& arena, int max_cells) {
     const auto cells = static_cast<std::size_t>(max_cells);
     colours = arena.template take<CellColour>(cells);
-    bends = arena.template take<std::uint8_t>(cells);
+    bends = arena.template take<std::int16_t>(cells);
+    median_bends = arena.template take<std::int16_t>(cells);
     for (std::span<float>* span : {&evidence, &share, &leading, &right, &below, &right_limit, &below_limit})
       *span = arena.template take<float>(cells);
   }
