@@ -181,8 +181,8 @@ class JointRefinement {
       const Eigen::Matrix<double, kPlaceParameters, kCameraParameters> spread =
           dish.place_by_cameras.lazyProduct(cameras);
       placed.covariance = gone.covariance + spread.lazyProduct(dish.place_by_cameras.transpose());
-      robust_scale_px(input_.dishes[i].outlines, state_.camera_from_table, input_.focals_px, placed.place,
-                      params_.placement, workspace_.placement, placed.fit);
+      placed.fit = fit_of_outlines(input_.dishes[i].outlines, state_.camera_from_table, input_.focals_px,
+                                   placed.place, params_.placement, workspace_.placement);
       result_.rims.count += placed.fit.points;
       result_.rims.inliers += placed.fit.inliers;
       result_.rims.rms += placed.fit.inliers * placed.fit.rms_px * placed.fit.rms_px;

@@ -161,7 +161,7 @@ class DishPlacement {
     NormalEquations<kPlaceParameters> equations;
     problem.linearise(placed.place, equations);
     invert_information(equations, placed.covariance);
-    robust_scale_px(outlines_, cameras_, focals_px_, placed.place, params_, workspace_, placed.fit);
+    placed.fit = fit_of_outlines(outlines_, cameras_, focals_px_, placed.place, params_, workspace_);
   }
 
   double fit(const PlacePrior& prior, double scale_px, DishPlace& place) const {
@@ -273,8 +273,17 @@ double robust_scale_px(const DishOutlines& outlines, const TableCameras& cameras
     ++fit.inliers;
   }
   fit.rms_px = fit.inliers > 0 ? std::sqrt(squares / fit.inliers) : 0.0;
-  fit.on_wall = count_on_wall(outlines, cameras, focals_px, place, step, scale_px);
   return scale_px;
+}
+
+OutlineFit fit_of_outlines(const DishOutlines& outlines, const TableCameras& cameras,
+                           const FocalsPx& focals_px, const DishPlace& place,
+                           const DishPlacementParams& params, DishPlacementWorkspace& workspace) {
+  OutlineFit fit;
+  const double scale_px = robust_scale_px(outlines, cameras, focals_px, place, params, workspace, fit);
+  const std::size_t step = outline_step(outlines, params.max_view_points);
+  fit.on_wall = count_on_wall(outlines, cameras, focals_px, place, step, scale_px);
+  return fit;
 }
 
 Status place_dish(const DishOutlines& outlines, const TableCameras& cameras, const FocalsPx& focals_px,

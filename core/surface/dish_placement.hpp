@@ -95,6 +95,11 @@ double robust_scale_px(const DishOutlines& outlines, const TableCameras& cameras
                        const DishPlace& place, const DishPlacementParams& params,
                        DishPlacementWorkspace& workspace, OutlineFit& fit);
 
+// The same, and how many of the other points lie on a wall below the edge.
+OutlineFit fit_of_outlines(const DishOutlines& outlines, const TableCameras& cameras,
+                           const FocalsPx& focals_px, const DishPlace& place,
+                           const DishPlacementParams& params, DishPlacementWorkspace& workspace);
+
 // Places the dish at given cameras. rim_not_found: too few points, or they lie on no ellipse;
 // labels_inconsistent: no dish has both outlines; dish_unknown: the dish that has them is none of the
 // candidates (`placed.measured` says what it is).
