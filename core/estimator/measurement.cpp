@@ -41,6 +41,9 @@ constexpr std::array<WarningText, kWarningCount> kWarnings = {{
     {"item_uncertain",
      "An item's volume is less sure than usual, as of steep pieces with gaps; see its sigma, or measure from "
      "another side."},
+    {"items_doubtful",
+     "It is not sure where one food ends and the next begins; give the number of items, or correct the "
+     "outlines that traygauge segment shows."},
 }};
 
 }  // namespace

@@ -52,8 +52,9 @@ enum class Warning : std::uint8_t {
   item_hardly_matched,  // large parts of an item were found in one view only
   dish_not_found,       // labels drawn: one of several dishes; its food is not measured
   item_uncertain,       // an item's sigma is large beside its volume
+  items_doubtful,       // labels drawn: whether two items are one food, or their number is not the one given
 };
-inline constexpr std::size_t kWarningCount = static_cast<std::size_t>(Warning::item_uncertain) + 1;
+inline constexpr std::size_t kWarningCount = static_cast<std::size_t>(Warning::items_doubtful) + 1;
 const char* name(Warning warning);
 const char* sentence(Warning warning);
 

@@ -97,7 +97,10 @@ const Segmentation& Segmenter::segment() {
   if (result_.status.ok()) {
     clock.enter(Stage::volume);
     draw_items(params_.food);
-    if (params_.items > 0) meet_hint();
+    if (params_.items > 0) {
+      meet_hint();
+      result_.is_split_doubtful = result_.items != params_.items;
+    }
     if (result_.items == 0) result_.status = StatusCode::no_food_label;
   }
   if (!result_.status.ok() && result_.is_card_doubtful) result_.status = StatusCode::card_hidden;
@@ -177,6 +180,7 @@ void Segmenter::draw_dishes() const {
 
 void Segmenter::draw_items(const FoodOutlineParams& params) {
   result_.items = 0;
+  result_.is_split_doubtful = false;
   draw_dishes();
   draw_food(params);
 }
@@ -207,13 +211,14 @@ void Segmenter::draw_food(const FoodOutlineParams& params) {
     ImageView<const ReliefSample> relief;
     ImageView<std::uint8_t> cells;
     if (!outline_view(dish, scene, 0, raster, relief, cells)) continue;
-    const int items = label_items(raster, relief, params, memory_.food.outline, first, room, cells);
+    const ItemSplit split = label_items(raster, relief, params, memory_.food.outline, first, room, cells);
     draw_cells(raster, cells, dish.label, views_[0].labels);
     if (!outline_view(dish, scene, 1, raster, relief, cells)) continue;
     carry_labels(raster, dish, cells);
     spread_items(raster, params, memory_.food.outline, cells);
     draw_cells(raster, cells, dish.label, views_[1].labels);
-    dish.items = keep_confirmed(first, items, dish.label);
+    dish.items = keep_confirmed(first, split.items, dish.label);
+    if (dish.items > 1 && split.most_alike > params_.doubtful_likeness) result_.is_split_doubtful = true;
     result_.items += dish.items;
   }
 }

@@ -42,6 +42,8 @@ struct Segmentation {
   std::array<SegmentedDish, kMaxPlacedDishes> dishes;
   std::size_t dish_count = 0;
   int items = 0;  // labels from kFirstItemLabel on
+  // Two items may be one food, or, where a number was asked for, there are more or fewer.
+  bool is_split_doubtful = false;
   double card_ms = 0.0;
   double dish_ms = 0.0;
   double food_ms = 0.0;

@@ -136,6 +136,7 @@ void visit_food_parameters(Params& segmentation, Visit&& visit) {
   visit("segmentation.food.split.mixed_deviation", food.split.mixed_deviation, Range{0.01, 1000});
   visit("segmentation.food.split.min_item_blocks", food.split.min_item_blocks, Range{1, 65536});
   visit("segmentation.food.split.min_core_blocks", food.split.min_core_blocks, Range{1, 65536});
+  visit("segmentation.food.split.min_told_blocks", food.split.min_told_blocks, Range{1, 65536});
   visit("segmentation.food.split.likeness.constant", food.split.likeness.constant, Range{-1000, 1000});
   visit("segmentation.food.split.likeness.spread", food.split.likeness.spread, Range{-1000, 0});
   visit("segmentation.food.split.likeness.texture", food.split.likeness.texture, Range{-1000, 0});
@@ -188,6 +189,7 @@ void visit_segmentation_parameters(Params& segmentation, Visit&& visit) {
   visit("segmentation.food_heights_mm.high", segmentation.food_heights_mm[1], Range{0, 200});
   visit("segmentation.min_confirmed_share", segmentation.min_confirmed_share, Range{0, 1});
   visit("segmentation.max_alignments", segmentation.max_alignments, Range{1, 100});
+  visit("segmentation.doubtful_likeness", segmentation.doubtful_likeness, Range{-100, 0});
   visit("segmentation.sure_card_correlation", segmentation.sure_card_correlation, Range{0, 1});
   visit("segmentation.sure_correlation", segmentation.sure_correlation, Range{0, 1});
 }

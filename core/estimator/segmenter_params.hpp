@@ -25,6 +25,9 @@ struct SegmenterParams {
   // as food.split.likeness has it; more than that is no likeness.
   double likeness_step = 0.5;
   double most_likeness = 6.0;
+  // Two items that are more alike may be one: about even odds, without what food.split.likeness.constant
+  // takes off them.
+  double doubtful_likeness = -1.8;
   // Insets from the outer edge between which a flange counts as such, and the depth below it where the well
   // begins.
   double flange_begin_mm = 2.5;

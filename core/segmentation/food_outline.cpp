@@ -121,30 +121,30 @@ bool outline_food(const DishRaster& raster, ImageView<const ReliefSample> relief
   return true;
 }
 
-int label_items(const DishRaster& raster, ImageView<const ReliefSample> relief,
-                const FoodOutlineParams& params, FoodOutlineWorkspace& workspace, std::uint8_t first,
-                int max_items, ImageView<std::uint8_t> cells) {
+ItemSplit label_items(const DishRaster& raster, ImageView<const ReliefSample> relief,
+                      const FoodOutlineParams& params, FoodOutlineWorkspace& workspace, std::uint8_t first,
+                      int max_items, ImageView<std::uint8_t> cells) {
   // Items are drawn on cells where food has no meaning of its own.
   const int count = raster.width() * raster.height();
   for (int cell = 0; cell < count; ++cell) {
     if (cells.data[cell] == kFoodSeed) cells.data[cell] = kUnlabelled;
   }
-  int items = split_items(raster, relief, kUnlabelled, raster.cell_mm, params.split, workspace.split, first,
-                          max_items, cells);
+  ItemSplit split = split_items(raster, relief, kUnlabelled, raster.cell_mm, params.split, workspace.split,
+                                first, max_items, cells);
   // What has no block of its own is an item as it is.
   Components components(cells, workspace.queue);
   for (int cell = 0; cell < count; ++cell) {
     if (cells.data[cell] != kUnlabelled) continue;
     const auto visited = components.repaint(cell, kVisited);
-    if (items >= max_items || has_labelled_neighbour(cells, visited)) continue;
-    for (const std::int32_t i : visited) cells.data[i] = static_cast<std::uint8_t>(first + items);
-    ++items;
+    if (split.items >= max_items || has_labelled_neighbour(cells, visited)) continue;
+    for (const std::int32_t i : visited) cells.data[i] = static_cast<std::uint8_t>(first + split.items);
+    ++split.items;
   }
   for (int cell = 0; cell < count; ++cell) {
     if (cells.data[cell] == kVisited) cells.data[cell] = kUnlabelled;
   }
   spread_items(raster, params, workspace, cells);
-  return items;
+  return split;
 }
 
 void spread_items(const DishRaster& raster, const FoodOutlineParams& params, FoodOutlineWorkspace& workspace,

@@ -72,10 +72,10 @@ bool outline_food(const DishRaster& raster, ImageView<const ReliefSample> relief
                   ImageView<std::uint8_t> cells);
 
 // Gives the food items labels from `first` on, kDishLabel to the rest of the dish and kBackgroundLabel
-// outside; `cells` as outline_food left them. Returns the number of items, at most `max_items`.
-int label_items(const DishRaster& raster, ImageView<const ReliefSample> relief,
-                const FoodOutlineParams& params, FoodOutlineWorkspace& workspace, std::uint8_t first,
-                int max_items, ImageView<std::uint8_t> cells);
+// outside; `cells` as outline_food left them. There are at most `max_items`.
+ItemSplit label_items(const DishRaster& raster, ImageView<const ReliefSample> relief,
+                      const FoodOutlineParams& params, FoodOutlineWorkspace& workspace, std::uint8_t first,
+                      int max_items, ImageView<std::uint8_t> cells);
 
 // The same with seeds that are known already: cells that carry an item's label, among food that is
 // kUnlabelled. Food that no seed reaches is dish.

@@ -158,9 +158,9 @@ bool sum_block(const DishRaster& raster, ImageView<const ReliefSample> relief,
 
 }  // namespace
 
-int split_items(const DishRaster& raster, ImageView<const ReliefSample> relief, std::uint8_t food,
-                double cell_mm, const ItemSplitParams& params, ItemSplitWorkspace& workspace,
-                std::uint8_t first, int max_items, ImageView<std::uint8_t> owners) {
+ItemSplit split_items(const DishRaster& raster, ImageView<const ReliefSample> relief, std::uint8_t food,
+                      double cell_mm, const ItemSplitParams& params, ItemSplitWorkspace& workspace,
+                      std::uint8_t first, int max_items, ImageView<std::uint8_t> owners) {
   int side = std::max(2, static_cast<int>(std::lround(params.block_mm / cell_mm)));
   while ((raster.width() / side) * (raster.height() / side) > params.max_blocks) ++side;
   const int columns = raster.width() / side;
@@ -177,8 +177,9 @@ int split_items(const DishRaster& raster, ImageView<const ReliefSample> relief, 
   }
   FoodParts parts(blocks, columns, rows, params.luma_weight);
   Merging(parts, workspace.borders, params).run();
-  join_like_parts(raster, side, params.likeness, workspace.joining, parts);
-  return label_parts(parts, params, first, max_items, side, owners);
+  const double most_alike =
+      join_like_parts(raster, side, params.likeness, params.min_told_blocks, workspace.joining, parts);
+  return {label_parts(parts, params, first, max_items, side, owners), most_alike};
 }
 
 }  // namespace traygauge

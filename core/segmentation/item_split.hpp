@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <span>
 
 #include "core/base/arena.hpp"
@@ -26,6 +27,7 @@ struct ItemSplitParams {
   int min_item_blocks = 6;  // smaller is never an item of its own
   // Of an item's blocks with no other part about them: what has fewer is where two items mix.
   int min_core_blocks = 3;
+  int min_told_blocks = 12;  // of an item whose likeness to another one tells anything
   PartLikenessParams likeness;
 };
 
@@ -51,10 +53,16 @@ struct ItemSplitWorkspace {
   }
 };
 
+struct ItemSplit {
+  int items = 0;
+  // Of the two that resemble each other most of those that meet: PartLikenessParams' odds that they are one.
+  double most_alike = -std::numeric_limits<double>::infinity();
+};
+
 // `owners`: every cell that is `food` in a block wholly of food gets a label from `first` on, by item, if all
-// about it are of the same; the other cells stay. Returns how many labels there are, at most `max_items`.
-int split_items(const DishRaster& raster, ImageView<const ReliefSample> relief, std::uint8_t food,
-                double cell_mm, const ItemSplitParams& params, ItemSplitWorkspace& workspace,
-                std::uint8_t first, int max_items, ImageView<std::uint8_t> owners);
+// about it are of the same; the other cells stay. There are at most `max_items` labels.
+ItemSplit split_items(const DishRaster& raster, ImageView<const ReliefSample> relief, std::uint8_t food,
+                      double cell_mm, const ItemSplitParams& params, ItemSplitWorkspace& workspace,
+                      std::uint8_t first, int max_items, ImageView<std::uint8_t> owners);
 
 }  // namespace traygauge

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/segmentation/colour_classes.hpp"
 
@@ -20,19 +21,22 @@ class PartJoining {
               PartJoiningWorkspace& workspace, FoodParts& parts)
       : raster_(raster), side_(side), params_(params), workspace_(workspace), parts_(parts) {}
 
-  void run() {
+  double run(int least_blocks) {
     count_colours();
     for (;;) {
       double most = 0.0;
+      double most_apart = -std::numeric_limits<double>::infinity();
       const PartBorder* best = nullptr;
       for (const PartBorder& border : measure_borders()) {
         if (slot_of(border.first) == kNotCounted || slot_of(border.second) == kNotCounted) continue;
         const double likeness = likeness_of(border);
+        if (std::min(parts_.at(border.first).size, parts_.at(border.second).size) >= least_blocks)
+          most_apart = std::max(most_apart, likeness);
         if (likeness <= most) continue;
         most = likeness;
         best = &border;
       }
-      if (best == nullptr) return;
+      if (best == nullptr) return most_apart;
       PartColours& kept = colours_of(best->first);
       const PartColours& joined = colours_of(best->second);
       for (std::size_t i = 0; i < kept.size(); ++i) kept[i] += joined[i];
@@ -173,9 +177,9 @@ class PartJoining {
 
 }  // namespace
 
-void join_like_parts(const DishRaster& raster, int side, const PartLikenessParams& params,
-                     PartJoiningWorkspace& workspace, FoodParts& parts) {
-  PartJoining(raster, side, params, workspace, parts).run();
+double join_like_parts(const DishRaster& raster, int side, const PartLikenessParams& params, int least_blocks,
+                       PartJoiningWorkspace& workspace, FoodParts& parts) {
+  return PartJoining(raster, side, params, workspace, parts).run(least_blocks);
 }
 
 }  // namespace traygauge

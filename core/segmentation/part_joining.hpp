@@ -71,8 +71,9 @@ struct PartJoiningWorkspace {
 };
 
 // Joins the parts that are rather one item than two, the surest first. Blocks are `side` cells of the raster
-// wide. Parts beyond kMaxCountedParts stay as they are.
-void join_like_parts(const DishRaster& raster, int side, const PartLikenessParams& params,
-                     PartJoiningWorkspace& workspace, FoodParts& parts);
+// wide. Parts beyond kMaxCountedParts stay as they are. Returns how alike the two of `least_blocks` and more
+// are that resemble each other most of those which stay apart, as `params` has it; −infinity where none meet.
+double join_like_parts(const DishRaster& raster, int side, const PartLikenessParams& params, int least_blocks,
+                       PartJoiningWorkspace& workspace, FoodParts& parts);
 
 }  // namespace traygauge

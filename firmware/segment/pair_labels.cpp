@@ -100,6 +100,7 @@ const Measurement& LabelDrawer::measure(Estimator& estimator, std::uint64_t seed
     }
     measurement_ = estimator.estimate(seed, tap);
     measurement_.warn(Warning::dish_not_found, !segmentation.has_all_dishes());
+    measurement_.warn(Warning::items_doubtful, segmentation.is_split_doubtful);
     if (segmentation.is_card_doubtful) {
       measurement_.warn(Warning::card_partly_hidden, true);
       // Outlines that were drawn after a card out of its place contradict each other; nobody else is to

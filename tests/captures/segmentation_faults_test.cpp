@@ -169,7 +169,9 @@ TEST(NumberOfItems, IsMetWhereTheFoodAllowsIt) {
     ASSERT_GE(found, 2);
     for (const int items : {1, found - 1, found, found + 1}) {
       if (items < 1) continue;
-      const int hinted = run_json({"segment", folder, "--items", std::to_string(items)})["items"];
+      const json document = run_json({"segment", folder, "--items", std::to_string(items)});
+      const int hinted = document["items"];
+      EXPECT_EQ(document["items_doubtful"], hinted != items) << items;
       if (items <= found) {
         EXPECT_EQ(hinted, items);
       } else {
@@ -184,6 +186,14 @@ TEST(NumberOfItems, IsMeasuredAsHinted) {
   const json document = run_json({"measure", folder, "--labels", "auto", "--items", "1"});
   EXPECT_EQ(document["status"], "ok") << document["message"];
   EXPECT_EQ(document["items"].size(), 1U);
+}
+
+TEST(NumberOfItems, ThatIsNotMetIsWarnedOf) {
+  const std::string folder = (kDemo / "mash_and_meatballs").string();
+  EXPECT_FALSE(is_warned_of(measure(folder), Warning::items_doubtful));
+  const json document = run_json({"measure", folder, "--labels", "auto", "--items", "40"});
+  EXPECT_LT(document["items"].size(), 40U);
+  EXPECT_TRUE(is_warned_of(document, Warning::items_doubtful));
 }
 
 TEST(NumberOfItems, NeedsLabelsThatAreFound) {

@@ -81,7 +81,7 @@ class Plate {
     lay_relief(raster);
     const ImageView<const ReliefSample> relief{relief_.data(), raster.width(), raster.height()};
     EXPECT_TRUE(outline_food(raster, relief, params_, memory_.workspace, cells));
-    return label_items(raster, relief, params_, memory_.workspace, kFirstItemLabel, 100, cells);
+    return label_items(raster, relief, params_, memory_.workspace, kFirstItemLabel, 100, cells).items;
   }
 
   // Share of the cells whose being food or not is right.

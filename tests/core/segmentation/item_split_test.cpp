@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <limits>
 #include <random>
 #include <vector>
 
@@ -56,7 +57,8 @@ class Food {
       }
     }
   }
-  int split() {
+  int split() { return split_all().items; }
+  ItemSplit split_all() {
     DishRaster raster;
     raster.colours = {colours_.data(), kWide, kWide};
     raster.zones = {zones_.data(), kWide, kWide};
@@ -114,6 +116,31 @@ TEST(ItemSplit, MixedFoodsThatShareAColourAreTwo) {
   food.mix(2, 2, 6, 8, kDark, kPale, half, [](int x) { return 20.0 - 0.4 * std::max(0, x - 20); });
   food.mix(8, 2, 6, 8, kDark, kGreenish, half, [](int x) { return 12.0 + 0.4 * std::min(20, x); });
   EXPECT_EQ(food.split(), 2);
+}
+
+// Of two mixed foods the second has more and more of the first one's colour, until they are one.
+TEST(ItemSplit, ItemsAreTheMoreAlikeTheNearerTheyAreToBeingOne) {
+  const auto half = [](int) { return 0.5; };
+  const auto split = [&](std::uint8_t green) {
+    Food food;
+    food.mix(2, 2, 6, 8, kDark, kPale, half, [](int x) { return 20.0 - 0.4 * std::max(0, x - 20); });
+    food.mix(8, 2, 6, 8, kDark, {90, 80, green}, half, [](int x) { return 12.0 + 0.4 * std::min(20, x); });
+    return food.split_all();
+  };
+  const ItemSplit far = split(160);
+  const ItemSplit near = split(110);
+  ASSERT_EQ(far.items, 2);
+  ASSERT_EQ(near.items, 2);
+  EXPECT_LT(far.most_alike, near.most_alike);
+  EXPECT_LT(near.most_alike, 0.0);
+}
+
+TEST(ItemSplit, OneItemIsLikeNoOther) {
+  Food food;
+  food.add(2, 4, 6, 6, kDark, [](int) { return 34.0; });
+  const ItemSplit split = food.split_all();
+  EXPECT_EQ(split.items, 1);
+  EXPECT_EQ(split.most_alike, -std::numeric_limits<double>::infinity());
 }
 
 // A row of blocks between two foods, half of either, is neither's colour.
