@@ -23,6 +23,7 @@ Status start_view(EstimatorState& state, const ViewInput& input) {
     view.lens = lens;
     view.arm_angle_deg = input.arm_angle_deg;
     view.labels = input.labels;
+    view.are_outlines_found = input.are_outlines_found;
     return prepare_best_view({input.frame, input.gray, input.card}, state.configuration, state.best.pattern,
                              state.best.preparation, state.preparation_clock, view);
   }

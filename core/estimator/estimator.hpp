@@ -30,6 +30,7 @@ struct ViewInput {
   // convert_to_gray gives them, and where the card lies.
   ImageView<const std::uint8_t> gray = {};
   const CardAlignment* card = nullptr;
+  bool are_outlines_found = false;  // not drawn by a person: less sure
 };
 
 // Features from another detector, instead of SURF: pixels of the picture, descriptors of unit length.

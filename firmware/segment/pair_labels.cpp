@@ -81,6 +81,7 @@ Status LabelDrawer::add_view(const ViewInput& view, const Estimator& estimator) 
   views_[index].labels = segmented.labels;
   views_[index].gray = segmented.gray;
   views_[index].card = &segmenter_->card(index);
+  views_[index].are_outlines_found = true;
   if (view_count_ < views_.size()) return status;
   drawn_.segmentation = segmenter_->segment();
   return drawn_.segmentation.status;

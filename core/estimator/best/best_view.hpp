@@ -23,6 +23,7 @@ struct BestView {
   LensModel lens;
   std::optional<double> arm_angle_deg;
   ImageView<const std::uint8_t> labels;  // of the stored picture, the caller's
+  bool are_outlines_found = false;       // not drawn by a person
   LabelRegions regions;
   FrameView frame;  // the caller's
   GrayPyramid gray;

@@ -78,6 +78,7 @@ void visit_volume_parameters(Params& best, Visit&& visit) {
   visit("best.uncertainty.disparity_bias_px", sigma.disparity_bias_px, Range{0, 100});
   visit("best.uncertainty.hidden_share", sigma.hidden_share, Range{0, 100});
   visit("best.uncertainty.outline_px", sigma.outline_px, Range{0, 100});
+  visit("best.uncertainty.found_outline_mm", sigma.found_outline_mm, Range{0, 100});
   visit("best.uncertainty.surface_share", sigma.surface_share, Range{0, 100});
   visit("best.uncertainty.wall_mm", sigma.wall_mm, Range{0, 100});
   visit("best.uncertainty.filled_share", sigma.filled_share, Range{0, 100});

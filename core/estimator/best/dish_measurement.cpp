@@ -149,8 +149,12 @@ void measure_dish(const ViewPair& views, const SceneGeometry& geometry, std::siz
     item.max_height_mm = volume.max_height_mm;
     if (item.status == StatusCode::ok && matched[label] < best.pipeline.min_matched_share)
       measurement.warn(Warning::item_hardly_matched, true);
-    const UncertaintyInput input{volume, matched[label], height_per_px_mm, dense.column_step_mm,
-                                 round.contains(label)};
+    const UncertaintyInput input{volume,
+                                 matched[label],
+                                 height_per_px_mm,
+                                 dense.column_step_mm,
+                                 round.contains(label),
+                                 views[0]->are_outlines_found};
     item.sigma_ml = estimate_sigma_ml(input, geometry.joint.camera_from_table, geometry.joint.covariance,
                                       best.uncertainty);
     if (item.status == StatusCode::ok && item.sigma_ml > best.pipeline.max_sigma_share * item.volume_ml)

@@ -52,8 +52,9 @@ double estimate_sigma_ml(const UncertaintyInput& input, const TableCameras& came
   const double volume_mm3 = kMm3PerMl * item.column_volume_ml;
   const double cameras_mm = height_sigma_mm(item.centre_mm, camera_from_table, covariance);
   const double matching_mm = params.disparity_bias_px * input.height_per_px_mm;
-  const double edge_mm3 =
-      outline_mm(item.area_mm2) * params.outline_px * input.px_mm * 0.5 * item.mean_height_mm;
+  const double edge_mm =
+      std::hypot(params.outline_px * input.px_mm, input.is_outline_found ? params.found_outline_mm : 0.0);
+  const double edge_mm3 = outline_mm(item.area_mm2) * edge_mm * 0.5 * item.mean_height_mm;
   const double wall_mm3 = params.wall_mm * item.wall_mm2;
   const double unmatched_share =
       input.is_round ? params.round_share : params.filled_share * std::pow(1.0 - input.matched_share, 2);
