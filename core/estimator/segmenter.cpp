@@ -313,7 +313,7 @@ int Segmenter::keep_confirmed(std::uint8_t first, int items, std::uint8_t dish) 
   std::array<std::uint8_t, 256> renamed{};
   int kept = 0;
   for (int i = 0; i < items; ++i) {
-    const auto label = static_cast<std::size_t>(first + i);
+    const std::size_t label = first + static_cast<std::size_t>(i);
     const double fewer = std::min(regions[0].pixels[label], regions[1].pixels[label]);
     const double more = std::max(regions[0].pixels[label], regions[1].pixels[label]);
     renamed[label] =

@@ -79,11 +79,10 @@ template <class Bit, std::size_t kFirst, std::size_t... kBits>
 ByteLanes collect_bits(const Rows& rows, std::index_sequence<kBits...>) {
   const auto middle = load_lanes<ByteLanes>(rows[kSymmetricCensusRows]);
   ByteLanes value{};
+  const auto row = [&](int y) { return rows[static_cast<std::size_t>(y)]; };
   const auto add = [&](Offset offset) {
-    const auto a =
-        load_lanes<ByteLanes>(rows[static_cast<std::size_t>(kSymmetricCensusRows + offset.y)] + offset.x);
-    const auto b =
-        load_lanes<ByteLanes>(rows[static_cast<std::size_t>(kSymmetricCensusRows - offset.y)] - offset.x);
+    const auto a = load_lanes<ByteLanes>(row(kSymmetricCensusRows + offset.y) + offset.x);
+    const auto b = load_lanes<ByteLanes>(row(kSymmetricCensusRows - offset.y) - offset.x);
     value = value + value - Bit{}(a, b, middle);
   };
   (add(kOffsets[kFirst + kBits]), ...);
