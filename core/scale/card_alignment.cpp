@@ -72,15 +72,20 @@ class Search {
   }
 
   // The better one after the medium stage: at the coarse blur a card seen from afar fits its mirror pose
-  // nearly as well. Few pixels are enough to compare them.
+  // nearly as well. Few pixels are enough to compare them where one is far behind; sharper ones decide where
+  // neither is.
   Candidate choose(const Finalists& finalists) {
     Candidate best = finalists[0];
     refine(params_.medium_blur_px, CardSampling::quarter, params_.medium_iterations, best);
     if (finalists[1].correlation < finalists[0].correlation - params_.max_mirror_lag) return best;
     Candidate other = finalists[1];
     refine(params_.medium_blur_px, CardSampling::sixteenth, params_.medium_iterations, other);
-    if (other.correlation <= best.correlation) return best;
+    if (other.correlation < best.correlation - params_.max_medium_lag) return best;
     refine(params_.medium_blur_px, CardSampling::quarter, params_.medium_iterations, other);
+    if (other.correlation < best.correlation - params_.max_medium_lag) return best;
+    if (best.correlation < other.correlation - params_.max_medium_lag) return other;
+    refine(params_.finest_blur_px, CardSampling::quarter, params_.fine_iterations, best);
+    refine(params_.finest_blur_px, CardSampling::quarter, params_.fine_iterations, other);
     return other.correlation > best.correlation ? other : best;
   }
 

@@ -39,6 +39,7 @@ void visit_card_parameters(Params& best, Visit&& visit) {
   visit("best.card.fine_iterations", card.fine_iterations, Range{0, 100});
   visit("best.card.max_correlation_lag", card.max_correlation_lag, Range{0, 2});
   visit("best.card.max_mirror_lag", card.max_mirror_lag, Range{0, 2});
+  visit("best.card.max_medium_lag", card.max_medium_lag, Range{0, 2});
   visit("best.card.min_stage_samples", card.min_stage_samples, Range{0, 1e6});
   visit("best.card.max_samples", card.max_samples, Range{100, 1e7});
   visit("best.card.min_correlation", card.min_correlation, Range{0, 1});

@@ -98,6 +98,20 @@ TEST_F(CardAlignmentTest, TheMirrorPoseIsNotTakenForTheCards) {
   }
 }
 
+// There the right pose is behind at some blurs and over some of the pixels.
+TEST_F(CardAlignmentTest, TheMirrorPoseIsNotTakenForTheCardsWhereItIsAheadForAWhile) {
+  for (const std::uint64_t seed : {1057U, 1191U, 2279U}) {
+    cv::RNG random(seed);
+    const double distance_mm = random.uniform(500.0, 800.0);
+    const double tilt_deg = random.uniform(2.0, 25.0);
+    const double azimuth_deg = random.uniform(0.0, 360.0);
+    const double roll_deg = random.uniform(0.0, 360.0);
+    const Vec2 pixel(random.uniform(200.0, 1400.0), random.uniform(150.0, 1050.0));
+    const Pose pose = look_at_card(kCard, distance_mm, tilt_deg, azimuth_deg, roll_deg, pixel);
+    expect_close(noisy(pose, seed, 0.6), pose, 0.1, 0.5, "seed " + std::to_string(seed));
+  }
+}
+
 // 90 px wide: a sixteenth of its pixels would not hold the pose.
 TEST_F(CardAlignmentTest, SmallCardIsFound) {
   for (const std::uint64_t seed : {4U, 20U, 25U, 40U, 55U}) {
