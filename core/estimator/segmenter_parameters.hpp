@@ -105,6 +105,11 @@ void visit_food_field_parameters(Params& field, Visit&& visit) {
   visit("segmentation.food.field.neutral_deviations", field.neutral_deviations, Range{0, 8});
   visit("segmentation.food.field.full_deviations", field.full_deviations, Range{8.5, 1000});
   visit("segmentation.food.field.most_colour", field.most_colour, Range{0, 100});
+  visit("segmentation.food.field.shade_deviations", field.shade_deviations, Range{0, 100});
+  visit("segmentation.food.field.tint_share", field.tint_share, Range{0, 2});
+  visit("segmentation.food.field.standing_lift", field.standing_lift, Range{-10, 10});
+  visit("segmentation.food.field.lit_luma", field.lit_luma, Range{0, 2});
+  visit("segmentation.food.field.penumbra_luma", field.penumbra_luma, Range{0.01, 1});
   visit("segmentation.food.field.least_colour", field.least_colour, Range{-10, -0.001});
   visit("segmentation.food.field.neutral_texture", field.neutral_texture, Range{0, 5});
   visit("segmentation.food.field.full_texture", field.full_texture, Range{5.1, 1000});

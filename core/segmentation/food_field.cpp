@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 
 #include "core/base/lanes.hpp"
 #include "core/segmentation/colour_sum.hpp"
@@ -14,6 +15,8 @@ namespace {
 
 constexpr float kOutside = -1e3F;  // no food beside the dish
 constexpr int kLeastPlainCells = 200;
+constexpr std::size_t kHues = 24;  // on the circle
+constexpr int kLeastHueCells = 20;
 constexpr float kStep = 0.35F;  // of both variables; its square is less than one over the 8 of the gradient
 
 struct Field {
@@ -44,6 +47,7 @@ class FoodField {
     filter_median({workspace_.bends.data(), field_.width, field_.height}, params_.texture_reach,
                   {workspace_.median_bends.data(), field_.width, field_.height});
     const std::size_t count = field_.at(0, field_.height);
+    learn_hues();
     for (std::size_t at = 0; at < count; ++at) add_colour(at);
     for (int y = 0; y < field_.height; ++y) {
       for (int x = 0; x < field_.width; ++x) limit_flow(x, y);
@@ -127,18 +131,67 @@ class FoodField {
     workspace_.evidence[at] = is_outside ? kOutside : static_cast<float>(params_.prior + lift / count);
   }
 
+  // How a cell's colour differs from the glaze's.
+  struct Tint {
+    double red = 0.0;
+    double green = 0.0;
+    double deviations = 0.0;
+
+    std::size_t hue() const {
+      const double turns = std::atan2(green, red) / (2.0 * std::numbers::pi) + 1.0;
+      return static_cast<std::size_t>(turns * kHues) % kHues;
+    }
+  };
+
+  Tint tint_of(std::size_t at) const {
+    const CellColour& colour = workspace_.colours[at];
+    const double red = colour.red - glaze_.median.red;
+    const double green = colour.green - glaze_.median.green;
+    return {red, green, std::sqrt(red * red + green * green) / glaze_.share_sigma};
+  }
+
+  // How strongly food that stands above the dish is coloured: the mean for each hue.
+  void learn_hues() {
+    std::array<int, kHues> counts{};
+    std::array<double, kHues> sums{};
+    const std::size_t count = field_.at(0, field_.height);
+    for (std::size_t at = 0; at < count; ++at) {
+      if (!(workspace_.evidence[at] > params_.standing_lift)) continue;
+      const Tint tint = tint_of(at);
+      if (tint.deviations < params_.neutral_deviations) continue;
+      const std::size_t hue = tint.hue();
+      ++counts[hue];
+      sums[hue] += tint.deviations;
+    }
+    for (std::size_t hue = 0; hue < kHues; ++hue) {
+      food_deviations_[hue] = counts[hue] < kLeastHueCells ? 0.0 : sums[hue] / counts[hue];
+    }
+  }
+
+  // From 0 to 1: whether a cell lies in shade and shows, more weakly, the hue of food that stands there.
+  double second_hand(std::size_t at, const Tint& tint) const {
+    if (workspace_.evidence[at] > params_.standing_lift) return 0.0;
+    const double luma =
+        static_cast<double>(workspace_.colours[at].luma) / std::max<int>(1, glaze_.median.luma);
+    if (luma >= params_.lit_luma) return 0.0;
+    const std::size_t hue = tint.hue();
+    const double strongest = std::max({food_deviations_[(hue + kHues - 1) % kHues], food_deviations_[hue],
+                                       food_deviations_[(hue + 1) % kHues]});
+    return tint.deviations > params_.tint_share * strongest
+               ? 0.0
+               : std::min((params_.lit_luma - luma) / params_.penumbra_luma, 1.0);
+  }
+
   void add_colour(std::size_t at) {
     if (!(workspace_.evidence[at] > kOutside)) return;
-    const CellColour& colour = workspace_.colours[at];
-    const int red = colour.red - glaze_.median.red;
-    const int green = colour.green - glaze_.median.green;
-    const double off = std::sqrt(static_cast<double>(red * red + green * green)) / glaze_.share_sigma;
+    const Tint tint = tint_of(at);
     const double texture = workspace_.median_bends[at] / glaze_.texture;
+    const double rough = std::clamp(
+        (texture - params_.neutral_texture) / (params_.full_texture - params_.neutral_texture), 0.0, 1.0);
+    const double off = tint.deviations - params_.shade_deviations * (1.0 - rough) * second_hand(at, tint);
     const double told = std::clamp(
         (off - params_.neutral_deviations) / (params_.full_deviations - params_.neutral_deviations),
         params_.least_colour, params_.most_colour);
-    const double rough = std::clamp(
-        (texture - params_.neutral_texture) / (params_.full_texture - params_.neutral_texture), 0.0, 1.0);
     if (is_filled_ && told < 0.0) return;
     const double like_glaze = told < 0.0 ? (1.0 - rough) * told / params_.least_colour : 0.0;
     float& evidence = workspace_.evidence[at];
@@ -223,6 +276,7 @@ class FoodField {
   FoodFieldWorkspace& workspace_;
   Field field_;
   bool is_filled_ = false;
+  std::array<double, kHues> food_deviations_{};  // 0: no food of this hue
 };
 
 }  // namespace

@@ -36,6 +36,14 @@ struct FoodFieldParams {
   double neutral_deviations = 7.0;
   double full_deviations = 10.0;
   double most_colour = 3.0;
+  // What food reflects tints the glaze in its shade, where little other light falls: by up to so many
+  // deviations, without texture, and by no more than a share of the food's own.
+  double shade_deviations = 5.0;
+  double tint_share = 0.6;
+  double standing_lift = 0.7;  // evidence by relief from which a cell is food, and no reflection
+  // Shade begins below so much of the glaze's luma and is full by `penumbra_luma` less.
+  double lit_luma = 0.9;
+  double penumbra_luma = 0.1;
   double least_colour = -0.25;  // of the glaze's own colour: white food has it, too
   // Texture over the glaze's: the median of the bends over so many cells of the field to either side. Shades
   // have none, and lines such as food's own border are outnumbered.

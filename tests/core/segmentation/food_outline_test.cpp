@@ -133,6 +133,23 @@ TEST(FoodOutline, GlazeTintedByFoodIsToldByLyingFlat) {
   EXPECT_EQ(blind.outline(labels, raster), 2);
 }
 
+// Of the orange pile's hue at two fifths of its strength.
+TEST(FoodOutline, ShadeTintedByWhatStandsBesideItIsNoFood) {
+  const Disc pile{220, 250, 60, kOrange};
+  const Disc shaded{400, 350, 60, {141, 136, 163}, 0.0};
+  const Disc lit{400, 350, 60, {201, 194, 232}, 0.0};
+  std::vector<std::uint8_t> labels;
+  DishRaster raster;
+  Plate plate({pile, shaded});
+  EXPECT_EQ(plate.outline(labels, raster), 1);
+  Plate bright({pile, lit});
+  EXPECT_EQ(bright.outline(labels, raster), 2);
+  Plate alone({shaded});
+  EXPECT_EQ(alone.outline(labels, raster), 1);
+  Plate beside({{220, 250, 60, kGreen}, shaded});
+  EXPECT_EQ(beside.outline(labels, raster), 2);
+}
+
 TEST(FoodOutline, MixedPiecesAreOneItem) {
   const std::vector<Disc> discs = {{220, 260, 85, kOrange, 20.0, 0, kGreen}, {410, 340, 70, kBrown}};
   std::vector<std::uint8_t> labels;
