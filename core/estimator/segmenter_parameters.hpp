@@ -139,6 +139,8 @@ void visit_food_parameters(Params& segmentation, Visit&& visit) {
   visit("segmentation.food.split.luma_weight", food.split.luma_weight, Range{0, 100});
   visit("segmentation.food.split.max_difference", food.split.max_difference, Range{0, 1000});
   visit("segmentation.food.split.mixed_deviation", food.split.mixed_deviation, Range{0.01, 1000});
+  visit("segmentation.food.split.max_crest_ratio", food.split.max_crest_ratio, Range{1, 1000});
+  visit("segmentation.food.split.min_crest_blocks", food.split.min_crest_blocks, Range{1, 4096});
   visit("segmentation.food.split.min_item_blocks", food.split.min_item_blocks, Range{1, 65536});
   visit("segmentation.food.split.min_core_blocks", food.split.min_core_blocks, Range{1, 65536});
   visit("segmentation.food.split.min_told_blocks", food.split.min_told_blocks, Range{1, 65536});

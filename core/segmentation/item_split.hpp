@@ -24,6 +24,10 @@ struct ItemSplitParams {
   // Deviation of a food's blocks from its mean that doubles what may be merged: mixed vegetables differ from
   // place to place.
   double mixed_deviation = 25.0;
+  // Parts of so many blocks, one more than so many times as high as the other, are not merged by colour: a
+  // food's own differ by up to 1.95 on the sets, and a schnitzel's and a chicken leg's by 2.2 and 3.1.
+  double max_crest_ratio = 2.05;
+  int min_crest_blocks = 25;
   int min_item_blocks = 6;  // smaller is never an item of its own
   // Of an item's blocks with no other part about them: what has fewer is where two items mix.
   int min_core_blocks = 3;

@@ -94,6 +94,20 @@ TEST(ItemSplit, AFlatFoodBesideAHighOneIsItsOwn) {
   EXPECT_EQ(food.split(), 2);
 }
 
+// A schnitzel and a chicken leg: as brown, but for what tells parts of one food as well.
+TEST(ItemSplit, FoodsOfOneColourAreTwoWhereOneIsFarHigher) {
+  constexpr CellColour kNearlyDark = {66, 121, 71};
+  const auto split = [&](double first_mm, double second_mm) {
+    Food food;
+    food.add(2, 4, 6, 6, kDark, [&](int) { return first_mm; });
+    food.add(8, 8, 6, 6, kNearlyDark, [&](int) { return second_mm; });
+    return food.split();
+  };
+  EXPECT_EQ(split(30.0, 12.0), 2);
+  EXPECT_EQ(split(12.0, 30.0), 2);
+  EXPECT_EQ(split(20.0, 12.0), 1);
+}
+
 TEST(ItemSplit, FoodsThatSinkTowardsEachOtherAreTwo) {
   Food food;
   food.add(2, 4, 5, 6, kDark, [](int x) { return 34.0 - 0.8 * std::max(0, x - 7); });
