@@ -165,6 +165,10 @@ void visit_food_parameters(Params& segmentation, Visit&& visit) {
         Range{0, 0.3});
   visit("segmentation.food.split.likeness.full_flank_share", food.split.likeness.full_flank_share,
         Range{0.31, 1});
+  visit("segmentation.food.split.likeness.doubtful_blocks", food.split.likeness.doubtful_blocks,
+        Range{1, 65536});
+  visit("segmentation.food.split.likeness.doubtful_crest_ratio", food.split.likeness.doubtful_crest_ratio,
+        Range{1, 1000});
   visit("segmentation.food.assignment.fold", food.assignment.fold, Range{2, 8});
   visit("segmentation.food.assignment.window_mm", food.assignment.window_mm, Range{0, 50});
   visit("segmentation.food.assignment.nearness", food.assignment.nearness, Range{0, 1000});

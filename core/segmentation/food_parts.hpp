@@ -93,6 +93,12 @@ class FoodParts {
     const float square = part.height_squares / static_cast<float>(part.size);
     return mean + std::sqrt(std::max(0.0F, square - mean * mean));
   }
+  // Of the higher one's crest to the lower one's.
+  static float crest_ratio(const FoodBlock& a, const FoodBlock& b) {
+    const float a_mm = crest_mm(a);
+    const float b_mm = crest_mm(b);
+    return std::max(a_mm, b_mm) / std::max(1.0F, std::min(a_mm, b_mm));
+  }
 
  private:
   std::span<FoodBlock> blocks_;

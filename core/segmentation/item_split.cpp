@@ -65,19 +65,12 @@ class Merging {
     const auto most = static_cast<float>(params_.max_difference);
     const int smaller = std::min(a.size, b.size);
     const bool differs = (smaller >= params_.min_item_blocks && square > most * most * slack_of(a, b)) ||
-                         (smaller >= params_.min_crest_blocks && stands_out(a, b));
+                         (smaller >= params_.min_crest_blocks &&
+                          FoodParts::crest_ratio(a, b) > static_cast<float>(params_.max_crest_ratio));
     if (differs) return std::numeric_limits<float>::infinity();
     const auto na = static_cast<float>(a.size);
     const auto nb = static_cast<float>(b.size);
     return square * na * nb / (na + nb);
-  }
-
-  // Whether one of two parts is so much higher that their colours alone do not make them one.
-  bool stands_out(const FoodBlock& a, const FoodBlock& b) const {
-    const float a_mm = FoodParts::crest_mm(a);
-    const float b_mm = FoodParts::crest_mm(b);
-    return std::max(a_mm, b_mm) >
-           static_cast<float>(params_.max_crest_ratio) * std::max(1.0F, std::min(a_mm, b_mm));
   }
 
   // Of squared differences: what both parts differ from themselves makes them differ less from each other.

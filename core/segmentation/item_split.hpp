@@ -60,6 +60,7 @@ struct ItemSplitWorkspace {
 struct ItemSplit {
   int items = 0;
   // Of the two that resemble each other most of those that meet: PartLikenessParams' odds that they are one.
+  // 0 or more if two were joined in doubt.
   double most_alike = -std::numeric_limits<double>::infinity();
 };
 

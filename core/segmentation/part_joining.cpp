@@ -22,10 +22,12 @@ class PartJoining {
       : raster_(raster), side_(side), params_(params), workspace_(workspace), parts_(parts) {}
 
   double run(int least_blocks) {
+    constexpr double kNone = -std::numeric_limits<double>::infinity();
+    double most_doubtful = kNone;
     count_colours();
     for (;;) {
       double most = 0.0;
-      double most_apart = -std::numeric_limits<double>::infinity();
+      double most_apart = kNone;
       const PartBorder* best = nullptr;
       for (const PartBorder& border : measure_borders()) {
         if (slot_of(border.first) == kNotCounted || slot_of(border.second) == kNotCounted) continue;
@@ -36,7 +38,8 @@ class PartJoining {
         most = likeness;
         best = &border;
       }
-      if (best == nullptr) return most_apart;
+      if (best == nullptr) return std::max(most_apart, most_doubtful);
+      if (is_doubtful(parts_.at(best->first), parts_.at(best->second))) most_doubtful = 0.0;
       PartColours& kept = colours_of(best->first);
       const PartColours& joined = colours_of(best->second);
       for (std::size_t i = 0; i < kept.size(); ++i) kept[i] += joined[i];
@@ -133,6 +136,12 @@ class PartJoining {
                            distance_between(colours_of(border.first), colours_of(border.second));
     return params_.constant + params_.spread * spread + params_.texture * texture + params_.share * share +
            params_.valley * valley + params_.upon * upon + params_.colours * colours + params_.neck * neck;
+  }
+
+  // Whether two parts are rather large to be one food that is so much higher in one place.
+  bool is_doubtful(const FoodBlock& a, const FoodBlock& b) const {
+    return std::min(a.size, b.size) >= params_.doubtful_blocks &&
+           FoodParts::crest_ratio(a, b) > static_cast<float>(params_.doubtful_crest_ratio);
   }
 
   // How sure it is that the lower part is the side of the higher one, 0 to 1: it is highest where both meet,

@@ -42,6 +42,10 @@ struct PartLikenessParams {
   double full_edge = 0.85;
   double least_flank_share = 0.25;
   double full_flank_share = 0.35;
+  // Parts of so many blocks, one more than so many times as high as the other, are in doubt although they are
+  // joined: meatballs in sauce have up to 41, two foods of the sets from 47 on.
+  int doubtful_blocks = 45;
+  double doubtful_crest_ratio = 2.05;
 };
 
 // All that is between two parts.
@@ -72,7 +76,8 @@ struct PartJoiningWorkspace {
 
 // Joins the parts that are rather one item than two, the surest first. Blocks are `side` cells of the raster
 // wide. Parts beyond kMaxCountedParts stay as they are. Returns how alike the two of `least_blocks` and more
-// are that resemble each other most of those which stay apart, as `params` has it; −infinity where none meet.
+// are that resemble each other most of those which stay apart, as `params` has it, or 0 if that is more and a
+// join was doubtful; −infinity where none meet.
 double join_like_parts(const DishRaster& raster, int side, const PartLikenessParams& params, int least_blocks,
                        PartJoiningWorkspace& workspace, FoodParts& parts);
 

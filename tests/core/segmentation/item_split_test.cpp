@@ -149,6 +149,28 @@ TEST(ItemSplit, ItemsAreTheMoreAlikeTheNearerTheyAreToBeingOne) {
   EXPECT_LT(near.most_alike, 0.0);
 }
 
+// As mixed as parts of one food are, but far higher on one side: joined, and in doubt where both are large.
+TEST(ItemSplit, AJoinOfTwoLargePartsIsInDoubtWhereOneIsFarHigher) {
+  const auto split = [](int columns, double second_mm) {
+    Food food;
+    food.mix(
+        2, 2, columns, 8, kDark, kPale, [](int) { return 0.6; }, [](int) { return 30.0; });
+    food.mix(
+        2 + columns, 2, columns, 8, kDark, kPale, [](int) { return 0.4; }, [&](int) { return second_mm; });
+    return food.split_all();
+  };
+  constexpr double kNone = -std::numeric_limits<double>::infinity();
+  const ItemSplit high = split(7, 12.0);
+  EXPECT_EQ(high.items, 1);
+  EXPECT_EQ(high.most_alike, 0.0);
+  const ItemSplit level = split(7, 20.0);
+  EXPECT_EQ(level.items, 1);
+  EXPECT_EQ(level.most_alike, kNone);
+  const ItemSplit small = split(4, 12.0);
+  EXPECT_EQ(small.items, 1);
+  EXPECT_EQ(small.most_alike, kNone);
+}
+
 TEST(ItemSplit, OneItemIsLikeNoOther) {
   Food food;
   food.add(2, 4, 6, 6, kDark, [](int) { return 34.0; });
