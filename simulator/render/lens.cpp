@@ -8,10 +8,10 @@ namespace traygauge {
 namespace {
 
 constexpr int kMaxIterations = 50;
-constexpr double kTolerance = 1e-13;  // of x/z: less than a billionth of a pixel
-constexpr double kMinSlope = 1e-3;    // determinant below which the lens counts as folded
-constexpr int kFoldSteps = 64;        // between the axis and a pixel
-constexpr double kFoldSpacing_px = 16.0;
+constexpr double kTolerance = 1e-13;      // of x/z: less than a billionth of a pixel
+constexpr double kMinSlope = 1e-3;        // determinant below which the lens counts as folded
+constexpr int kFoldSteps = 64;            // between the axis and a pixel
+constexpr double kFoldSpacing_px = 64.0;  // a smooth polynomial folds from its corners
 
 }  // namespace
 

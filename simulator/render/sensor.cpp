@@ -5,8 +5,10 @@
 #include <numbers>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "core/base/random.hpp"
+#include "simulator/render/shared_work.hpp"
 
 namespace traygauge {
 namespace {
@@ -56,28 +58,33 @@ void SensorSettings::check() const {
   expect(read_noise_electrons >= 0.0, "read_noise_electrons must not be negative");
 }
 
-Picture develop(const RenderedView& view, const SensorSettings& settings, std::uint64_t seed) {
+Picture develop(const RenderedView& view, const SensorSettings& settings, std::uint64_t seed, int threads) {
   settings.check();
   Picture picture({view.width, view.height}, PixelFormat::rgb8);
   const Vignetting vignetting(view.width, view.height, settings.corner_loss);
   const double read_variance = settings.read_noise_electrons * settings.read_noise_electrons;
+  // A row draws from its own sequence, whichever thread develops it.
+  std::vector<std::uint64_t> row_seeds(static_cast<std::size_t>(view.height));
   Random random(seed);
-  std::size_t at = 0;
-  for (int y = 0; y < view.height; ++y) {
-    for (int x = 0; x < view.width; ++x) {
-      const Eigen::Vector3f& radiance = view.radiance[at / 3];
+  for (std::uint64_t& row_seed : row_seeds)
+    row_seed = (static_cast<std::uint64_t>(random.next()) << 32U) | random.next();
+  share_work(view.height, threads, {}, [&](int y) {
+    Random noise(row_seeds[static_cast<std::size_t>(y)]);
+    std::size_t pixel = static_cast<std::size_t>(y) * static_cast<std::size_t>(view.width);
+    for (int x = 0; x < view.width; ++x, ++pixel) {
+      const Eigen::Vector3f& radiance = view.radiance[pixel];
       const double gain = settings.exposure * vignetting.at(x, y) * settings.full_well_electrons;
       for (Eigen::Index color = 0; color < 3; ++color) {
         // Poisson's noise and the amplifier's as one Gaussian: the counts that matter are above 20.
         const double mean = std::max(gain * static_cast<double>(radiance[color]), 0.0);
-        const double noisy = mean + std::sqrt(mean + read_variance) * draw_normal(random);
+        const double noisy = mean + std::sqrt(mean + read_variance) * draw_normal(noise);
         const double share =
             std::min(noisy / settings.full_well_electrons, 1.0) * settings.white_balance[color];
-        picture.pixels[at++] =
+        picture.pixels[3 * pixel + static_cast<std::size_t>(color)] =
             static_cast<std::uint8_t>(std::lround(255.0 * tone(std::clamp(share, 0.0, 1.0))));
       }
     }
-  }
+  });
   return picture;
 }
 

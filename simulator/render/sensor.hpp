@@ -22,7 +22,8 @@ struct SensorSettings {
 };
 
 // 8-bit RGB with the tone curve of sRGB. Shot and read noise are drawn from `seed`, for each pixel and colour
-// alone.
-Picture develop(const RenderedView& view, const SensorSettings& settings, std::uint64_t seed);
+// alone; the same for any number of threads (0: as many as there are cores).
+Picture develop(const RenderedView& view, const SensorSettings& settings, std::uint64_t seed,
+                int threads = 0);
 
 }  // namespace traygauge

@@ -1,18 +1,15 @@
 #include "simulator/render/view_renderer.hpp"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
-#include <exception>
-#include <mutex>
 #include <stdexcept>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include "simulator/render/camera_rays.hpp"
 #include "simulator/render/indirect_filter.hpp"
 #include "simulator/render/path_tracer.hpp"
+#include "simulator/render/shared_work.hpp"
 
 namespace traygauge {
 namespace {
@@ -27,54 +24,6 @@ void check_range(const char* name, double value, double least, double most) {
   throw std::invalid_argument(std::string("render settings: ") + name + " is " + std::to_string(value) +
                               ", expected " + std::to_string(least) + " to " + std::to_string(most));
 }
-
-// Hands out numbers from 0 to count - 1 to all threads and reports progress; the first exception ends the
-// work.
-class Work {
- public:
-  Work(int count, const RenderProgress& progress, double from, double to)
-      : count_(count), progress_(progress), from_(from), to_(to) {}
-
-  template <class Task>
-  void run(int threads, const Task& task) {
-    {
-      std::vector<std::jthread> workers;
-      for (int i = 1; i < threads; ++i) workers.emplace_back([&] { take_turns(task); });
-      take_turns(task);
-    }
-    if (failure_) std::rethrow_exception(failure_);
-  }
-
- private:
-  template <class Task>
-  void take_turns(const Task& task) {
-    try {
-      for (int next = next_++; next < count_; next = next_++) {
-        task(next);
-        report();
-      }
-    } catch (...) {
-      const std::lock_guard lock(mutex_);
-      if (!failure_) failure_ = std::current_exception();
-      next_ = count_;
-    }
-  }
-
-  void report() {
-    if (!progress_) return;
-    const std::lock_guard lock(mutex_);
-    ++done_;
-    progress_(from_ + (to_ - from_) * done_ / count_);
-  }
-
-  const int count_;
-  const RenderProgress& progress_;
-  const double from_, to_;
-  std::atomic<int> next_{0};
-  std::mutex mutex_;
-  int done_ = 0;
-  std::exception_ptr failure_;
-};
 
 // All that is known about the pixels before the light is smoothed.
 struct Canvas {
@@ -142,20 +91,21 @@ RenderedView ViewRenderer::render(const ViewCamera& camera, const RenderSettings
   const CameraRays rays(camera);
   const PathTracer tracer(scene_, rays, settings);
   Canvas canvas(camera.width, camera.height);
-  const int threads = settings.threads > 0
-                          ? settings.threads
-                          : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  const int threads = settings.threads;
+  const auto part_of = [&](double from, double to) -> RenderProgress {
+    if (!progress) return {};
+    return [&progress, from, to](double share) { progress(from + (to - from) * share); };
+  };
 
-  Work(camera.height, progress, 0.0, kTruthShare).run(threads, [&](int y) {
-    fill_truth(scene_, rays, y, canvas);
-  });
+  share_work(camera.height, threads, part_of(0.0, kTruthShare),
+             [&](int y) { fill_truth(scene_, rays, y, canvas); });
 
   const bool is_sharp = !rays.has_aperture() && !rays.moves();
   const int edge_reach_px = is_sharp ? 1 : kBlurredEdgeReach_px;
   const int edge_samples = std::max(settings.edge_samples, settings.samples);
   const int columns = (camera.width + kTileSide - 1) / kTileSide;
   const int rows = (camera.height + kTileSide - 1) / kTileSide;
-  Work(columns * rows, progress, kTruthShare, kTraceShare).run(threads, [&](int tile) {
+  share_work(columns * rows, threads, part_of(kTruthShare, kTraceShare), [&](int tile) {
     const int x0 = tile % columns * kTileSide;
     const int y0 = tile / columns * kTileSide;
     for (int y = y0; y < std::min(y0 + kTileSide, camera.height); ++y) {
@@ -166,7 +116,7 @@ RenderedView ViewRenderer::render(const ViewCamera& camera, const RenderSettings
     }
   });
 
-  Work(camera.height, progress, kTraceShare, 1.0).run(threads, [&](int y) {
+  share_work(camera.height, threads, part_of(kTraceShare, 1.0), [&](int y) {
     for (int x = 0; x < camera.width; ++x) {
       const std::size_t at = canvas.map.index(x, y);
       canvas.view.radiance[at] += canvas.albedo[at].cwiseProduct(

@@ -190,7 +190,7 @@ void render_capture(const SceneDescription& scene, const fs::path& folder, const
       write_depth(out / "depth_0.png", view);
     }
     const Picture picture = develop(view, sensor_of(scene, photograph, exposure),
-                                    Draws(scene.seed, numbered("noise", i, "")).seed());
+                                    Draws(scene.seed, numbered("noise", i, "")).seed(), settings.threads);
     write_jpeg(out / numbered("view", i, ".jpg"), picture, scene.photography.jpeg_quality);
     write_labels(out / numbered("labels", i, ".png"), view);
     std::vector<std::size_t>& pixels = visible.emplace_back(256, 0);

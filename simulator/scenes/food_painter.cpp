@@ -9,7 +9,7 @@
 namespace traygauge {
 namespace {
 
-constexpr int kSearchSteps = 16;  // thirds of the span left out, for the least value along a line
+constexpr int kSearchSteps = 28;  // golden section, for the least value along a line: to 1e-6 of its span
 constexpr int kRootSteps = 30;
 constexpr double kSurelyInside = 0.8;  // a gauge below needs no least value
 constexpr double kToleranceMm = 1e-4;
@@ -27,8 +27,9 @@ PieceColumn ellipsoid_column(const Superquadric& piece, const Eigen::Vector3d& a
   return {(-b + std::sqrt(b * b - a * (p.squaredNorm() - 1.0))) / a, inside_mm};
 }
 
-// How much larger the superquadric through a point of its own axes is, 1 on its surface.
-double gauge(const Superquadric& piece, const Eigen::Vector3d& at) {
+// The gauge of a superquadric, how much larger the one through a point of its own axes is (1 on its surface),
+// to the power of its height_exponent: in the same order, and a power less.
+double gauge_power(const Superquadric& piece, const Eigen::Vector3d& at) {
   const Eigen::Vector3d p = at.cwiseQuotient(piece.semi_mm).cwiseAbs();
   const double n = piece.height_exponent;
   const double side =
@@ -36,7 +37,7 @@ double gauge(const Superquadric& piece, const Eigen::Vector3d& at) {
           ? std::pow(p.x(), n) + std::pow(p.y(), n)
           : std::pow(std::pow(p.x(), piece.side_exponent) + std::pow(p.y(), piece.side_exponent),
                      n / piece.side_exponent);
-  return std::pow(side + std::pow(p.z(), n), 1.0 / n);
+  return side + std::pow(p.z(), n);
 }
 
 // The part of a vertical line, from its height above the piece's middle, within a box that is a little
@@ -61,27 +62,43 @@ Span span_in_box(const Superquadric& piece, const Eigen::Vector3d& at, const Eig
   return span;
 }
 
+struct Point {
+  double at;
+  double value;
+};
+
+// Golden section between `low` and `high`, until a value is below `enough`. The function falls and rises
+// again.
+template <class Function>
+Point least_between(double low, double high, double enough, const Function& function) {
+  constexpr double kKept = std::numbers::phi - 1.0;
+  const auto point = [&](double at) { return Point{at, function(at)}; };
+  Point left = point(high - kKept * (high - low));
+  Point right = point(low + kKept * (high - low));
+  for (int i = 0; i < kSearchSteps && std::min(left.value, right.value) >= enough; ++i) {
+    if (left.value < right.value) {
+      high = right.at;
+      right = left;
+      left = point(high - kKept * (high - low));
+    } else {
+      low = left.at;
+      left = right;
+      right = point(low + kKept * (high - low));
+    }
+  }
+  return left.value < right.value ? left : right;
+}
+
 PieceColumn general_column(const Superquadric& piece, const Eigen::Vector3d& at, const Eigen::Vector3d& up) {
-  const auto value = [&](double z) { return gauge(piece, at + z * up); };
+  const auto power = [&](double z) { return gauge_power(piece, at + z * up); };
+  const auto gauge = [&](double of_power) { return std::pow(of_power, 1.0 / piece.height_exponent); };
+  const auto value = [&](double z) { return gauge(power(z)); };
   const auto [bottom, top] = span_in_box(piece, at, up);
   if (bottom > top) return {0.0, -kMarginMm};
   // The body is convex: along the line the gauge falls to a least value and rises again.
-  double deepest = 0.5 * (bottom + top);
-  double least = value(deepest);
-  if (least > kSurelyInside) {
-    double low = bottom;
-    double high = top;
-    for (int i = 0; i < kSearchSteps; ++i) {
-      const double third = (high - low) / 3.0;
-      if (value(low + third) < value(high - third)) {
-        high -= third;
-      } else {
-        low += third;
-      }
-    }
-    deepest = 0.5 * (low + high);
-    least = value(deepest);
-  }
+  const double enough = std::pow(kSurelyInside, piece.height_exponent);
+  const auto [deepest, least_power] = least_between(bottom, top, enough, power);
+  const double least = gauge(least_power);
   const double inside_mm = (1.0 - least) * piece.semi_mm.minCoeff();
   if (least >= 1.0) return {0.0, inside_mm};
   // False position (Illinois) between a point inside and the top of the box.

@@ -144,6 +144,12 @@ TEST(Sensor, SeedDecidesTheNoise) {
   EXPECT_NE(develop(view, {}, 3).pixels, develop(view, {}, 4).pixels);
 }
 
+TEST(Sensor, AnyNumberOfThreadsGivesTheSamePicture) {
+  const RenderedView view = even_view(64, 48, Eigen::Vector3f::Constant(0.4F));
+  EXPECT_EQ(develop(view, {}, 3, 3).pixels, develop(view, {}, 3, 1).pixels);
+  EXPECT_EQ(develop(view, {}, 3).pixels, develop(view, {}, 3, 1).pixels);
+}
+
 TEST(Sensor, RefusesSettingsThatMakeNoSense) {
   const RenderedView view = even_view(16, 16, Eigen::Vector3f::Ones());
   EXPECT_THROW(develop(view, {.exposure = 0.0}, 1), std::invalid_argument);
