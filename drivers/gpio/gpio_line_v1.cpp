@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <ctime>
+#include <utility>
 
 #include "drivers/gpio/gpio_line.hpp"
 
@@ -22,7 +23,7 @@ timespec to_timespec(Nanoseconds duration) {
 
 class GpioLineV1 final : public GpioLine {
  public:
-  explicit GpioLineV1(const GpioLineParams& params) : params_(params) {}
+  explicit GpioLineV1(GpioLineParams params) : params_(std::move(params)) {}
   ~GpioLineV1() override { GpioLineV1::close(); }
 
   DeviceStatus open_input() override {

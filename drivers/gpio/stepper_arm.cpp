@@ -80,7 +80,7 @@ DeviceStatus StepperArm::open_lines() {
   return status;
 }
 
-void StepperArm::close_lines() {
+void StepperArm::close_lines() const {
   if (lines_.enable) {
     lines_.enable->close();
   }

@@ -61,7 +61,7 @@ class StepperArm final : public Arm {
   DeviceStatus do_read_position(double& angle_deg) override;
 
   DeviceStatus open_lines();
-  void close_lines();
+  void close_lines() const;
   // Below, on the worker's thread.
   void work();
   DeviceStatus carry_out(Goal goal, std::int64_t target);

@@ -50,8 +50,8 @@ void unpack_bayer_row(const RawFormat& format, const std::uint8_t* row, int widt
     std::memcpy(to, from, static_cast<std::size_t>(width));
   } else {
     const int shift = format.bits - 8;
-    for (int x = 0; x < width; ++x) {
-      to[x] = static_cast<std::uint8_t>((from[2 * x] | from[2 * x + 1] << 8) >> shift);
+    for (int x = 0; x < width; ++x, from += 2) {
+      to[x] = static_cast<std::uint8_t>((from[0] | from[1] << 8) >> shift);
     }
   }
 }

@@ -83,7 +83,8 @@ std::optional<double> FrameConverter::brightness(std::span<const std::uint8_t> b
     std::uint64_t row_sum = 0;
     for (std::size_t i = 0; i < samples.count; i += step) row_sum += samples.first[i];
     sum += static_cast<double>(row_sum);
-    count += static_cast<double>(samples.count / step);
+    const std::size_t summed = samples.count / step;
+    count += static_cast<double>(summed);
   }
   return sum / count;
 }

@@ -88,7 +88,7 @@ void SerialPort::discard() {
   received_.clear();
 }
 
-DeviceStatus SerialPort::wait(short events, Instant deadline) {
+DeviceStatus SerialPort::wait(std::int16_t events, Instant deadline) {
   while (true) {
     const Nanoseconds left = deadline - clock_.now();
     if (left <= Nanoseconds::zero()) return DeviceCode::timed_out;

@@ -1,6 +1,7 @@
 // A serial line that carries lines of text.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <string_view>
 
@@ -34,7 +35,7 @@ class SerialPort {
   void discard();
 
  private:
-  DeviceStatus wait(short events, Instant deadline);
+  DeviceStatus wait(std::int16_t events, Instant deadline);
 
   SystemClock clock_;
   int descriptor_ = -1;

@@ -3,6 +3,7 @@
 #include <linux/videodev2.h>
 
 #include <algorithm>
+#include <array>
 #include <cstring>
 #include <fstream>
 #include <system_error>
@@ -58,10 +59,10 @@ std::uint32_t node_capabilities(const v4l2_capability& capability) {
 
 bool is_camera_name(const std::string& wanted) {
   if (wanted.starts_with("/")) return true;
-  for (const char* const prefix : {kSerial, kPort, kName}) {
-    if (wanted.starts_with(prefix) && wanted.size() > std::strlen(prefix)) return true;
-  }
-  return false;
+  const std::array prefixes = {kSerial, kPort, kName};
+  return std::ranges::any_of(prefixes, [&wanted](const char* prefix) {
+    return wanted.starts_with(prefix) && wanted.size() > std::strlen(prefix);
+  });
 }
 
 CameraList list_cameras(VideoDevice& device, const CameraFolders& folders) {

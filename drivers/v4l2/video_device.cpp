@@ -28,7 +28,7 @@ class SystemVideoDevice final : public VideoDevice {
     descriptor_ = -1;
   }
 
-  int request(unsigned long code, void* argument) override {
+  int request(IoctlCode code, void* argument) override {
     int result = 0;
     do {
       result = ::ioctl(descriptor_, code, argument);

@@ -11,6 +11,8 @@
 
 namespace traygauge {
 
+using IoctlCode = unsigned long;  // NOLINT(google-runtime-int): the type that ioctl itself takes
+
 // Errors are errno values, 0 where there was none. Interrupted calls are repeated.
 class VideoDevice {
  public:
@@ -23,7 +25,7 @@ class VideoDevice {
   virtual int open(const std::string& path) = 0;
   virtual void close() = 0;
   // An ioctl.
-  virtual int request(unsigned long code, void* argument) = 0;
+  virtual int request(IoctlCode code, void* argument) = 0;
   // A buffer of the kernel; empty when it could not be mapped.
   virtual std::span<std::uint8_t> map(std::size_t length, std::uint32_t offset) = 0;
   virtual void unmap(std::span<std::uint8_t> buffer) = 0;

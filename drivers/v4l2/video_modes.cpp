@@ -44,9 +44,8 @@ constexpr auto kKnownFormats = std::to_array<KnownFormat>({
 });
 
 std::size_t rank(std::uint32_t fourcc) {
-  const auto found = std::find_if(kKnownFormats.begin(), kKnownFormats.end(),
-                                  [fourcc](const KnownFormat& known) { return known.fourcc == fourcc; });
-  return static_cast<std::size_t>(found - kKnownFormats.begin());
+  return static_cast<std::size_t>(std::ranges::find(kKnownFormats, fourcc, &KnownFormat::fourcc) -
+                                  kKnownFormats.begin());
 }
 
 double rate_of(const v4l2_fract& interval) {

@@ -7,8 +7,8 @@ namespace traygauge {
 
 std::string toml_number(double value) {
   std::array<char, 64> digits{};
-  const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr;
-  std::string text(digits.data(), end);
+  const char* end = std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr;
+  std::string text(digits.data(), static_cast<std::size_t>(end - digits.data()));
   if (text.find_first_of(".e") == std::string::npos) text += ".0";
   return text;
 }

@@ -20,7 +20,8 @@ struct Chessboard {
   // Row by row, in fields: how large they are does not matter to the lens.
   Vec2 corner_place(std::size_t index) const {
     const auto width = static_cast<std::size_t>(columns);
-    return {static_cast<double>(index % width), static_cast<double>(index / width)};
+    const std::size_t row = index / width;
+    return {static_cast<double>(index - row * width), static_cast<double>(row)};
   }
 };
 

@@ -65,7 +65,7 @@ GpioBias read_bias(const JsonNode& node) {
   if (bias == "as-is") return GpioBias::as_is;
   if (bias == "pull-up") return GpioBias::pull_up;
   if (bias == "pull-down") return GpioBias::pull_down;
-  node.fail("\"pull-up\", \"pull-down\" or \"as-is\"", "correct the value");
+  node.fail(R"("pull-up", "pull-down" or "as-is")", "correct the value");
 }
 
 ControlWish read_control(const JsonNode& node) {
@@ -73,12 +73,12 @@ ControlWish read_control(const JsonNode& node) {
   const std::string text = node.text();
   if (text == "hold") return {ControlWish::Kind::hold, 0};
   if (text == "leave") return {ControlWish::Kind::leave, 0};
-  node.fail("a whole number, \"hold\" or \"leave\"", "correct the value");
+  node.fail(R"(a whole number, "hold" or "leave")", "correct the value");
 }
 
 // A day, as TOML's dates are written, but in quotes.
 std::string read_day(const JsonNode& node) {
-  const std::string day = node.text();
+  std::string day = node.text();
   bool is_day = day.size() == 10 && day[4] == '-' && day[7] == '-';
   for (std::size_t i = 0; is_day && i < day.size(); ++i)
     is_day = i == 4 || i == 7 || (day[i] >= '0' && day[i] <= '9');
@@ -223,7 +223,7 @@ ArmConfig read_arm(const JsonNode& table) {
     expect(table, {"kind", "second_view_deg", "device", "baud", "settling_ms", "longest_move_s"});
     arm.kind = read_serial(table);
   } else {
-    kind.fail("\"stepper\" or \"serial\"", "leave [arm] out where a hand moves the camera");
+    kind.fail(R"("stepper" or "serial")", "leave [arm] out where a hand moves the camera");
   }
   take(table, "second_view_deg", {-90.0, 90.0}, arm.second_view_deg);
   if (const auto* stepper = std::get_if<StepperConfig>(&arm.kind);

@@ -81,14 +81,14 @@ PairRunner::PairRunner(const PairTask& task, const ProtocolOptions& options)
       pair_truth_(truth_of(truth_, task)),
       dishes_(choose_dishes(capture_, options.config)),
       session_(capture_, task.pair, dishes_, options.parameters, options.labels) {
-  if (!session_.drawn()) return;
+  if (session_.drawn() == nullptr) return;
   require_labels(capture_, task.pair);
   meaning_ = match_items(session_.drawn()->labels, session_.given_labels());
 }
 
 PairRuns PairRunner::start() const {
   PairRuns runs = describe_pair(task_, truth_);
-  if (!session_.drawn()) return runs;
+  if (session_.drawn() == nullptr) return runs;
   const PairLabels& drawn = *session_.drawn();
   PairOutlines& outlines = runs.outlines.emplace();
   outlines.status = name(drawn.segmentation.status.code());
@@ -100,7 +100,7 @@ PairRuns PairRunner::start() const {
 
 Run PairRunner::measure(std::uint64_t seed, StageTap* tap) {
   Run run = record(session_.measure(seed, tap), seed, pair_truth_, dishes_);
-  if (!session_.drawn()) return run;
+  if (session_.drawn() == nullptr) return run;
   for (ItemEstimate& item : run.items) item.label = meaning_[static_cast<std::size_t>(item.label)];
   std::erase_if(run.items, [](const ItemEstimate& item) { return item.label == 0; });
   return run;

@@ -81,7 +81,9 @@ std::optional<double> TrueSurface::distance_mm(const Vec3& eye_mm, const Vec3& d
   const auto behind = [&](double distance) { return behind_mm(eye_mm + distance * direction); };
   double before = about_mm - kSearchBeforeMm;
   if (!(behind(before).value_or(1.0) < 0.0)) return {};
-  for (double after = before + kSearchStepMm; after <= about_mm + kSearchBehindMm; after += kSearchStepMm) {
+  constexpr int kSteps = static_cast<int>((kSearchBeforeMm + kSearchBehindMm) / kSearchStepMm);
+  for (int step = 1; step <= kSteps; ++step) {
+    double after = about_mm - kSearchBeforeMm + step * kSearchStepMm;
     const auto depth = behind(after);
     if (!depth) return {};
     if (*depth < 0.0) {

@@ -28,7 +28,7 @@ MeasureReport compose_report(const MeasureOptions& options, const CaptureSession
   report.measurement = &measurement;
   report.setup_ms = session.estimator().setup_ms();
   report.reserved_bytes = session.estimator().reserved_bytes();
-  if (session.drawn()) {
+  if (session.drawn() != nullptr) {
     report.segmentation_ms = session.drawn()->segmentation.total_ms();
     report.reserved_bytes += session.drawn()->reserved_bytes;
   }

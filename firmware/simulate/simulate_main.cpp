@@ -8,7 +8,7 @@ namespace {
 // What the renderer is compiled for, see simulator/render/CMakeLists.txt.
 bool has_processor_all() {
 #if defined(__x86_64__)
-  return __builtin_cpu_supports("sse4.1") != 0;
+  return static_cast<bool>(__builtin_cpu_supports("sse4.1"));
 #else
   return true;
 #endif

@@ -271,7 +271,7 @@ DeviceStatus Station::capture(Camera& camera, View& view) {
 }
 
 // Exposed after `not_before`, so that nothing moved in it.
-DeviceStatus Station::capture_once(Camera& camera, View& view, Instant not_before) {
+DeviceStatus Station::capture_once(Camera& camera, View& view, Instant not_before) const {
   const DeviceStatus status = camera.capture(view.pixels, params_.capture_timeout, view.frame);
   const bool is_old = status.ok() && view.frame.exposed_at < not_before;
   return is_old ? DeviceStatus(DeviceCode::stale_frame) : status;

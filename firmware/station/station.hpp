@@ -121,7 +121,7 @@ class Station {
   StationState repeat_scan(DeviceStatus returning);
 
   DeviceStatus capture(Camera& camera, View& view);
-  DeviceStatus capture_once(Camera& camera, View& view, Instant not_before);
+  DeviceStatus capture_once(Camera& camera, View& view, Instant not_before) const;
   Camera& second_camera() {
     return devices_.second_camera != nullptr ? *devices_.second_camera : devices_.camera;
   }

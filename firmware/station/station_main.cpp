@@ -18,15 +18,16 @@ constexpr int kOwnPagesFrom_bytes = 128 * 1024;
 
 }  // namespace
 
+// NOLINTNEXTLINE(bugprone-exception-escape): options that contradict each other end the program at once
 int main(int argument_count, char** arguments) {
-  using namespace traygauge;
   mallopt(M_MMAP_THRESHOLD, kOwnPagesFrom_bytes);
   CLI::App app("Waits for the button, measures the tray, reports; again.", "traygauge");
   app.require_subcommand(1);
-  StationCommand command;
-  add_station_command(app, command);
+  traygauge::StationCommand command;
+  traygauge::add_station_command(app, command);
   const auto run = [&] {
-    return run_station(command, open_recorded_captures, stop_on_signals(), std::cout, std::cerr);
+    return traygauge::run_station(command, traygauge::open_recorded_captures, traygauge::stop_on_signals(),
+                                  std::cout, std::cerr);
   };
-  return run_program(app, argument_count, arguments, run, std::cout, std::cerr);
+  return traygauge::run_program(app, argument_count, arguments, run, std::cout, std::cerr);
 }

@@ -8,7 +8,7 @@ namespace {
 constexpr NumberRange kOuterSizeMm{20.0, 1000.0};
 constexpr NumberRange kHeightMm{0.0, 200.0};
 constexpr double kProfileToleranceMm = 1.0;  // between a profile's heights and those of rim and bottom
-const char* const kProfileHint = "list points from the outer edge inward, down to the flat bottom";
+constexpr const char* kProfileHint = "list points from the outer edge inward, down to the flat bottom";
 
 // `dish` has its sizes already.
 std::vector<ProfilePoint> read_profile(const JsonNode& node, const DishDescription& dish) {

@@ -13,15 +13,15 @@ namespace {
 
 // Squares of SampleSequence, one for every decision about a path.
 enum Decision : std::uint32_t {
-  kInPixel,
-  kInAperture,
-  kInExposure,
-  kMirrored,
-  kIndirect,
-  kLight,
-  kMirroredFurther = 16,  // and those after it, three a bounce
-  kIndirectFurther = 48,
-  kPenumbra = 128  // and the number of the light
+  place_in_pixel,
+  place_in_aperture,
+  time_in_exposure,
+  mirrored_way,
+  indirect_way,
+  light_place,
+  mirrored_further = 16,  // and those after it, three a bounce
+  indirect_further = 48,
+  penumbra_place = 128  // and the number of the light
 };
 
 constexpr float kJump_px = 4.0F;  // a surface that jumps by more is more than one
@@ -136,9 +136,9 @@ void PathTracer::aim(Round& round, const CameraRays::Pixel& pixel) const {
   for (std::uint32_t i = 0; i < kRound; ++i) {
     const std::uint32_t index = round.first + i;
     RaySample sample;
-    sample.in_pixel = round.sequence.point(kInPixel, index);
-    if (rays_.has_aperture()) sample.in_aperture = round.sequence.point(kInAperture, index);
-    if (rays_.moves()) sample.in_exposure = round.sequence.point(kInExposure, index).x();
+    sample.in_pixel = round.sequence.point(place_in_pixel, index);
+    if (rays_.has_aperture()) sample.in_aperture = round.sequence.point(place_in_aperture, index);
+    if (rays_.moves()) sample.in_exposure = round.sequence.point(time_in_exposure, index).x();
     round.rays[i] = rays_.ray(pixel, sample);
   }
   scene_.intersect(round.rays, round.hits, RayBundle::coherent);
@@ -157,7 +157,7 @@ void PathTracer::add_lights(Round& round, Sum& sum) const {
   sum.direct += static_cast<float>(missed) * scene_.scene().ambient;
   if (round.responses.empty()) return;
   for (std::size_t i = 0; i < round.responses.size(); ++i) {
-    round.light_places[i] = round.sequence.point(kLight, round.index(i));
+    round.light_places[i] = round.sequence.point(light_place, round.index(i));
   }
   const std::span<const AreaLight> lights = scene_.scene().lights;
   for (std::size_t i = 0; i < lights.size(); ++i) add_light(round, static_cast<std::uint32_t>(i), sum);
@@ -208,7 +208,8 @@ Eigen::Vector3f PathTracer::seen_share(const Round& round, std::uint32_t number)
     const SurfaceHit& hit = round.hit(i);
     const Eigen::Vector3f color = shade_color(round.responses[i]);
     for (std::uint32_t j = 0; j < samples; ++j) {
-      const Eigen::Vector2f place = round.sequence.point(kPenumbra + number, round.index(i) * samples + j);
+      const Eigen::Vector2f place =
+          round.sequence.point(penumbra_place + number, round.index(i) * samples + j);
       const Eigen::Vector3f way_mm = way_to_light(light, hit.point_mm, place);
       const float weight = light_weight(light, hit, way_mm);
       if (!(weight > 0.0F) || !RayScene::is_above(hit, way_mm)) continue;
@@ -237,7 +238,7 @@ void PathTracer::add_mirrored(Round& round, Sum& sum) const {
     const bool is_halved = !response.is_sharp();
     if (is_halved && round.of_hit[i] >= kRound / 2) continue;
     const std::uint32_t index = round.index(i) - (is_halved ? round.first / 2 : 0);
-    auto sample = response.sample_coat(round.sequence.point(kMirrored, index));
+    auto sample = response.sample_coat(round.sequence.point(mirrored_way, index));
     if (!sample || !RayScene::is_above(round.hit(i), sample->to_light)) continue;
     if (is_halved) sample->weight *= 2.0F;
     rays[count] = {RayScene::leave(round.hit(i), sample->to_light), sample->to_light};
@@ -249,7 +250,7 @@ void PathTracer::add_mirrored(Round& round, Sum& sum) const {
   scene_.intersect({rays.data(), count}, {hits.data(), count}, RayBundle::coherent);
   for (std::size_t k = 0; k < count; ++k) {
     Eigen::Vector3f arriving =
-        gather(hits[k], round.sequence, indices[k], settings_.bounces - 1, kMirroredFurther);
+        gather(hits[k], round.sequence, indices[k], settings_.bounces - 1, mirrored_further);
     for (const AreaLight& light : is_sharp[k] ? lights : lights.first(0)) {
       const auto met = meet_light(light, rays[k].origin_mm, rays[k].direction);
       if (!met || (hits[k].object != nullptr && hits[k].distance < met->distance_mm)) continue;
@@ -276,7 +277,7 @@ void PathTracer::add_indirect(Round& round, Sum& sum) const {
     sum.weights += weight;
     indices[count] = round.first + static_cast<std::uint32_t>(i);
     const Eigen::Vector3f direction =
-        cosine_direction(round.hit(i).normal, round.sequence.point(kIndirect, indices[count]));
+        cosine_direction(round.hit(i).normal, round.sequence.point(indirect_way, indices[count]));
     if (!RayScene::is_above(round.hit(i), direction)) continue;
     rays[count] = {RayScene::leave(round.hit(i), direction), direction};
     weights[count++] = weight * response.base_entry(direction);
@@ -285,7 +286,7 @@ void PathTracer::add_indirect(Round& round, Sum& sum) const {
   scene_.intersect({rays.data(), count}, {hits.data(), count}, RayBundle::scattered);
   for (std::size_t k = 0; k < count; ++k) {
     sum.indirect += weights[k].cwiseProduct(
-        gather(hits[k], round.sequence, indices[k], settings_.bounces - 1, kIndirectFurther));
+        gather(hits[k], round.sequence, indices[k], settings_.bounces - 1, indirect_further));
   }
 }
 

@@ -44,7 +44,9 @@ RTCGeometry make_geometry(RTCDevice device, const TriangleMesh& mesh) {
   void* triangles = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
                                             3 * sizeof(std::uint32_t), mesh.triangles.size());
   if (vertices != nullptr && triangles != nullptr) {
-    std::memcpy(vertices, mesh.vertices.data(), mesh.vertices.size() * sizeof(Eigen::Vector3f));
+    auto* coordinates = static_cast<float*>(vertices);
+    for (const Eigen::Vector3f& vertex : mesh.vertices)
+      coordinates = std::copy_n(vertex.data(), 3, coordinates);
     std::memcpy(triangles, mesh.triangles.data(), mesh.triangles.size() * 3 * sizeof(std::uint32_t));
   }
   rtcCommitGeometry(geometry);

@@ -181,7 +181,7 @@ void render_capture(const SceneDescription& scene, const fs::path& folder, const
     RenderSettings view_settings = settings;
     view_settings.seed = scene.seed;
     view_settings.view = static_cast<int>(i);
-    const double done = static_cast<double>(i);
+    const auto done = static_cast<double>(i);
     const auto count = static_cast<double>(scene.views.size());
     const RenderedView view = renderer->render(view_camera(scene, photograph), view_settings,
                                                [&](double share) { progress((done + share) / count); });

@@ -99,9 +99,9 @@ TriangleMesh DishShell::mesh() const {
     std::vector<Eigen::Vector3f>& loop = loops.emplace_back();
     for (int i = 0; i < kSegments; ++i) {
       const double angle = 2.0 * std::numbers::pi * i / kSegments;
-      loop.push_back(Eigen::Vector3d((semi_x_mm_ - inset) * std::cos(angle),
-                                     (semi_y_mm_ - inset) * std::sin(angle), height)
-                         .cast<float>());
+      loop.emplace_back(Eigen::Vector3d((semi_x_mm_ - inset) * std::cos(angle),
+                                        (semi_y_mm_ - inset) * std::sin(angle), height)
+                            .cast<float>());
     }
   }
   TriangleMesh mesh = skin_of_loops(loops);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "simulator/scenes/noise.hpp"
 
@@ -126,7 +127,7 @@ PieceColumn general_column(const Superquadric& piece, const Eigen::Vector3d& at,
 }  // namespace
 
 BlobOutline::BlobOutline(Draws& draws, double length_mm, double width_mm, double irregularity)
-    : semi_x_mm_(0.5 * length_mm), semi_y_mm_(0.5 * width_mm), reach_mm_(0.0) {
+    : semi_x_mm_(0.5 * length_mm), semi_y_mm_(0.5 * width_mm) {
   double sum = 0.0;
   for (std::size_t i = 0; i < kWaves; ++i) {
     const auto wave = static_cast<double>(i + 2);
@@ -154,8 +155,8 @@ double BlobOutline::inside_mm(double x_mm, double y_mm) const {
   return radius_mm(std::atan2(y_mm, x_mm)) - std::hypot(x_mm, y_mm);
 }
 
-FoodPainter::FoodPainter(HeightField& field, const Eigen::Vector2d& centre_mm, double rotation_deg)
-    : field_(field), centre_mm_(centre_mm) {
+FoodPainter::FoodPainter(HeightField& field, Eigen::Vector2d centre_mm, double rotation_deg)
+    : field_(field), centre_mm_(std::move(centre_mm)) {
   turn_ = Eigen::Rotation2Dd(rotation_deg * std::numbers::pi / 180.0).toRotationMatrix();
 }
 

@@ -58,7 +58,7 @@ class BlobOutline {
 
   double semi_x_mm_;
   double semi_y_mm_;
-  double reach_mm_;
+  double reach_mm_ = 0.0;
   std::array<double, kWaves> size_{};
   std::array<double, kWaves> phase_rad_{};
 };
@@ -67,7 +67,7 @@ class BlobOutline {
 // on.
 class FoodPainter {
  public:
-  FoodPainter(HeightField& field, const Eigen::Vector2d& centre_mm, double rotation_deg);
+  FoodPainter(HeightField& field, Eigen::Vector2d centre_mm, double rotation_deg);
 
   void superquadric(const Superquadric& piece, std::uint16_t part);
   void rod(const Rod& rod, std::uint16_t part);

@@ -21,7 +21,7 @@ double slab_height(double height_mm, double inside_mm, double rounding_mm, doubl
 double polygon_inside(const std::vector<Eigen::Vector2d>& corners, double x_mm, double y_mm) {
   double inside_mm = std::numeric_limits<double>::max();
   for (std::size_t i = 0; i < corners.size(); ++i) {
-    const Eigen::Vector2d from = corners[i];
+    const Eigen::Vector2d& from = corners[i];
     const Eigen::Vector2d along = (corners[(i + 1) % corners.size()] - from).normalized();
     inside_mm = std::min(inside_mm, along.x() * (y_mm - from.y()) - along.y() * (x_mm - from.x()));
   }

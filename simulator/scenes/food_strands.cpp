@@ -28,7 +28,8 @@ void paint_strand(FoodPainter& painter, Draws& draws, const BlobOutline& outline
     return Eigen::Vector3d(at.x(), at.y(), std::max(surface_mm, strand.radius_mm));
   };
   Eigen::Vector3d from = on_heap(start);
-  for (double done_mm = 0.0; done_mm < strand.length_mm; done_mm += strand.step_mm) {
+  double done_mm = 0.0;
+  while (done_mm < strand.length_mm) {
     const Eigen::Vector2d at =
         from.head<2>() + strand.step_mm * Eigen::Vector2d(std::cos(direction), std::sin(direction));
     const Eigen::Vector3d to = on_heap(at);
@@ -37,6 +38,7 @@ void paint_strand(FoodPainter& painter, Draws& draws, const BlobOutline& outline
     bend = std::clamp(bend + draws.between(-0.5, 0.5) * strand.bend_rad, -strand.bend_rad, strand.bend_rad);
     if (outline.share(at.x(), at.y()) > 0.97) return;
     direction += bend;
+    done_mm += strand.step_mm;
   }
 }
 

@@ -81,7 +81,7 @@ class SurfaceMesher {
   void emit(const Triangle& triangle) { triangles_.push_back(triangle); }
 
   void add(const Triangle& nodes) {
-    const int count = is_inside(nodes[0]) + is_inside(nodes[1]) + is_inside(nodes[2]);
+    const auto count = std::ranges::count_if(nodes, [this](std::uint32_t node) { return is_inside(node); });
     if (count == 0) return;
     if (count == 3) return emit({vertex_at(nodes[0]), vertex_at(nodes[1]), vertex_at(nodes[2])});
     // Turned so that the odd one out comes first.
@@ -119,7 +119,7 @@ class SurfaceMesher {
 
   void finish() {
     TriangleMesh& mesh = solid_.mesh;
-    for (const Eigen::Vector3d& vertex : top_) mesh.vertices.push_back(vertex.cast<float>());
+    for (const Eigen::Vector3d& vertex : top_) mesh.vertices.emplace_back(vertex.cast<float>());
     mesh.triangles = triangles_;
     add_top_normals();
     const auto count = static_cast<std::uint32_t>(top_.size());
@@ -156,7 +156,7 @@ class SurfaceMesher {
       const Eigen::Vector3f out = Eigen::Vector3f(along.y(), -along.x(), 0.0F).normalized();
       const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
       for (const std::uint32_t vertex : {from, to, from + count, to + count}) {
-        mesh.vertices.push_back(Eigen::Vector3f(mesh.vertices[vertex]));
+        mesh.vertices.emplace_back(Eigen::Vector3f(mesh.vertices[vertex]));
         mesh.normals.push_back(out);
       }
       mesh.triangles.push_back({first, first + 2, first + 3});

@@ -22,7 +22,7 @@ Eigen::Isometry3d moved(const Eigen::Isometry3d& pose, double x, double y, doubl
 
 }  // namespace
 
-LaidScene::LaidScene(const SceneDescription& description) : description_(description) {
+LaidScene::LaidScene(SceneDescription description) : description_(std::move(description)) {
   for (const LaidDish& dish : description_.dishes) shells_.emplace_back(dish.dish);
   add_dishes();
   add_card();

@@ -17,7 +17,7 @@ using FoodTruth = ServedFood;
 class LaidScene {
  public:
   // Throws InputError for a mesh that cannot be read, std::invalid_argument for foods that cannot be.
-  explicit LaidScene(const SceneDescription& description);
+  explicit LaidScene(SceneDescription description);
 
   const SceneDescription& description() const { return description_; }
   // In the order of their labels; their meshes are in the scene.

@@ -76,7 +76,7 @@ void add_vertex(TriangleMesh& mesh, const InputFile& file, const std::array<doub
   for (const double coordinate : place) {
     if (!std::isfinite(coordinate)) fail(file, "finite coordinates", "a vertex without");
   }
-  mesh.vertices.push_back(Eigen::Vector3d(place[0], place[1], place[2]).cast<float>());
+  mesh.vertices.emplace_back(Eigen::Vector3d(place[0], place[1], place[2]).cast<float>());
 }
 
 void add_polygon(TriangleMesh& mesh, const InputFile& file, const std::vector<std::uint32_t>& corners) {

@@ -78,7 +78,7 @@ TriangleMesh box_mesh(const Eigen::Vector3d& corner_mm, const Eigen::Vector3d& s
   TriangleMesh mesh;
   for (int i = 0; i < 8; ++i) {
     const Eigen::Vector3d share(i & 1, (i >> 1) & 1, i >> 2);
-    mesh.vertices.push_back((corner_mm + share.cwiseProduct(size_mm)).cast<float>());
+    mesh.vertices.emplace_back((corner_mm + share.cwiseProduct(size_mm)).cast<float>());
   }
   mesh.triangles = {{0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}, {0, 1, 5}, {0, 5, 4},
                     {2, 6, 7}, {2, 7, 3}, {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}};

@@ -10,6 +10,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "simulator/capture/dish_toml.hpp"
 #include "simulator/capture/toml_file.hpp"
@@ -29,7 +30,7 @@ constexpr std::array<std::string_view, 4> kUtensilNames = {"fork", "knife", "spo
 // A table of the file, its keys checked.
 class SceneTable {
  public:
-  SceneTable(const JsonNode& node, std::initializer_list<std::string_view> keys) : node_(node) {
+  SceneTable(JsonNode node, std::initializer_list<std::string_view> keys) : node_(std::move(node)) {
     expect_keys(node_, std::span<const std::string_view>(keys.begin(), keys.size()));
   }
 
@@ -117,7 +118,7 @@ LaidDish read_laid_dish(const JsonNode& node, const std::filesystem::path& folde
   table.read("seed", laid.seed);
   table.read_colour("colour", laid.glaze.srgb);
   table.read_colour("decoration", laid.glaze.decoration_srgb);
-  double roughness = static_cast<double>(laid.glaze.roughness);
+  auto roughness = static_cast<double>(laid.glaze.roughness);
   table.read("roughness", roughness, {0.02, 1.0});
   laid.glaze.roughness = static_cast<float>(roughness);
   table.read("specks", laid.glaze.speck_share, {0.0, 1.0});

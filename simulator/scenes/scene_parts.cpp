@@ -176,8 +176,9 @@ void draw_lamps(SceneDescription& scene, Draws& draws) {
     case 0:  // panels of 595 mm, made for ceilings in a grid of 600 mm
       for (int i = 0; i < 4; ++i) {
         const double pitch = 1800.0;
-        scene.lamps.push_back(ceiling_lamp(x + pitch * (i % 2 - 0.5), y + pitch * (i / 2 - 0.5), height,
-                                           595.0, 595.0, 10.0 * colour));
+        const int row = i / 2;
+        scene.lamps.push_back(ceiling_lamp(x + pitch * (i % 2 - 0.5), y + pitch * (row - 0.5), height, 595.0,
+                                           595.0, 10.0 * colour));
       }
       break;
     case 1:  // two rows of tubes, T8 of 58 W: 1500 mm

@@ -107,7 +107,9 @@ std::vector<SceneDescription> make_each(std::size_t count, const char* letter, c
   std::vector<SceneDescription> scenes;
   for (std::size_t i = 0; i < count; ++i) {
     const std::string name = numbered(letter, i + 1);
-    Draws draws(seed, set + " " + name);
+    std::string stream = set;
+    stream.append(" ").append(name);
+    Draws draws(seed, stream);
     SceneDescription scene = lay(i, name, draws);
     finish(scene, draws);
     scenes.push_back(std::move(scene));

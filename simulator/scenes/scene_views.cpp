@@ -88,7 +88,7 @@ bool is_card_hidden(const SceneDescription& scene, const Photograph& view) {
       const std::array<Eigen::Vector2d, 4> sides = {Eigen::Vector2d(along, 0.0), Eigen::Vector2d(1.0, along),
                                                     Eigen::Vector2d(1.0 - along, 1.0),
                                                     Eigen::Vector2d(0.0, 1.0 - along)};
-      const Eigen::Vector2d share = sides[static_cast<std::size_t>(i / kSteps)];
+      const Eigen::Vector2d& share = sides[static_cast<std::size_t>(i / kSteps)];
       const Eigen::Vector3d at = world_of_card * Eigen::Vector3d(share.x() * scene.card.width_mm,
                                                                  share.y() * scene.card.height_mm, 0.0);
       for (const double height_mm : {0.5 * dish.dish.rim_height_mm, dish.dish.rim_height_mm}) {

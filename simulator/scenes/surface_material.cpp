@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "simulator/scenes/colour.hpp"
 #include "simulator/scenes/draws.hpp"
@@ -16,7 +17,7 @@ constexpr std::array<std::string_view, 8> kNames = {"wood",  "laminate", "cloth"
 
 class Plain : public Material {
  public:
-  explicit Plain(const Reflectance& reflectance) : reflectance_(reflectance) {}
+  explicit Plain(Reflectance reflectance) : reflectance_(std::move(reflectance)) {}
   Reflectance at(const Eigen::Vector3f&, const Eigen::Vector3f&) const override { return reflectance_; }
 
  private:
@@ -219,13 +220,13 @@ class PatternedSurface : public Material {
 
 class GlazeMaterial : public Material {
  public:
-  GlazeMaterial(const Glaze& glaze, const DishShell& shell, std::uint64_t seed,
+  GlazeMaterial(Glaze glaze, const DishShell& shell, std::uint64_t seed,
                 const Eigen::Isometry3d& dish_from_world)
-      : glaze_(glaze),
+      : glaze_(std::move(glaze)),
         shell_(shell),
         dish_from_world_(dish_from_world.cast<float>()),
-        base_(linear_colour(glaze.srgb)),
-        decoration_(linear_colour(glaze.decoration_srgb)) {
+        base_(linear_colour(glaze_.srgb)),
+        decoration_(linear_colour(glaze_.decoration_srgb)) {
     seed_ = Draws(seed, "glaze").seed();
   }
 

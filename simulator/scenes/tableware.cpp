@@ -135,6 +135,7 @@ TriangleMesh tray_mesh(const Tray& tray) {
                                                      {0.6, 9.0},
                                                      {14.0, -kTrayFloorMm}});
   std::vector<Loop> loops;
+  loops.reserve(kSteps.size());
   for (const Step& step : kSteps) {
     loops.push_back(rounded_rectangle(0.5 * tray.size_mm[0] - step.inset_mm,
                                       0.5 * tray.size_mm[1] - step.inset_mm, kRadiusMm - step.inset_mm,

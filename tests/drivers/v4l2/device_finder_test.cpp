@@ -38,7 +38,7 @@ class NamedNodes final : public VideoDevice {
     if (opened_ != nullptr) --open_now;
     opened_ = nullptr;
   }
-  int request(unsigned long code, void* argument) override {
+  int request(IoctlCode code, void* argument) override {
     if (code != VIDIOC_QUERYCAP) return ENOTTY;
     auto& capability = *static_cast<v4l2_capability*>(argument);
     std::copy(opened_->name.begin(), opened_->name.end(), capability.card);

@@ -30,7 +30,7 @@ class FakeVideoDevice final : public VideoDevice {
 
   int open(const std::string& path) override;
   void close() override;
-  int request(unsigned long code, void* argument) override;
+  int request(IoctlCode code, void* argument) override;
   std::span<std::uint8_t> map(std::size_t length, std::uint32_t offset) override;
   void unmap(std::span<std::uint8_t> buffer) override;
   int wait(Nanoseconds timeout, bool& has_news) override;
@@ -87,7 +87,7 @@ void FakeVideoDevice::close() {
   filled_.clear();
 }
 
-int FakeVideoDevice::request(unsigned long code, void* argument) {
+int FakeVideoDevice::request(IoctlCode code, void* argument) {
   EXPECT_TRUE(is_open_);
   if (camera_.is_gone) return ENODEV;
   if (const auto error = camera_.errors.find(code); error != camera_.errors.end()) {

@@ -80,8 +80,8 @@ TEST_F(V4l2, SaysThatTheLinksBehindANodeHaveToBeSet) {
 }
 
 TEST_F(V4l2, EveryRequestMayFailOnceAndNothingStaysBehind) {
-  for (const unsigned long code : {VIDIOC_QUERYCAP, VIDIOC_ENUM_FMT, VIDIOC_S_FMT, VIDIOC_REQBUFS,
-                                   VIDIOC_QUERYBUF, VIDIOC_QBUF, VIDIOC_STREAMON, VIDIOC_DQBUF}) {
+  for (const IoctlCode code : {VIDIOC_QUERYCAP, VIDIOC_ENUM_FMT, VIDIOC_S_FMT, VIDIOC_REQBUFS,
+                               VIDIOC_QUERYBUF, VIDIOC_QBUF, VIDIOC_STREAMON, VIDIOC_DQBUF}) {
     for (const int error : {EIO, ENODEV, EBUSY}) {
       kernel_.errors[code] = error;
       EXPECT_NE(start(), DeviceCode::ok) << code;
