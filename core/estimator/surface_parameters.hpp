@@ -46,6 +46,7 @@ void visit_two_view_surface(Params& surface, Visit&& visit) {
   visit("rectification.max_samples", grid.max_samples, Range{4096, 1 << 20});
   visit("rectification.max_rows", grid.max_rows, Range{16, 4096});
   visit("rectification.aspect", grid.aspect, Range{0.1, 10});
+  visit("rectification.least_step_px", grid.least_step_px, Range{0, 100});
   visit("rectification.margin_samples", grid.margin_samples, Range{0, 64});
   visit("rectification.max_fan", grid.max_fan, Range{1, 1000});
   visit("rectification.max_samples_per_axis", grid.max_samples_per_axis, Range{1, kMaxSamplesPerAxis});

@@ -11,9 +11,9 @@ constexpr double kFarthestMeetingMm = 1e7;  // rows that meet farther away are p
 constexpr double kLeastBaselineMm = 1.0;
 constexpr double kLeastCameraHeightMm = 50.0;  // above the plane
 
-// The dish's outline on the plane, picture row by picture row.
+// The outline on the plane of what has one of `measured`, picture row by picture row.
 template <class Visit>
-void visit_outline(const StoredView& view, const LabelTable& kept, double plane_height_mm, int step_px,
+void visit_outline(const StoredView& view, const LabelTable& measured, double plane_height_mm, int step_px,
                    Visit&& visit) {
   const Pose table_from_camera = view.camera_from_table.inverse();
   const Vec3& camera_mm = table_from_camera.translation;
@@ -28,10 +28,10 @@ void visit_outline(const StoredView& view, const LabelTable& kept, double plane_
   for (int y = view.dish.top; y < view.dish.bottom; y += step_px) {
     const std::uint8_t* labels = view.labels.row(y);
     int left = view.dish.left;
-    while (left < view.dish.right && kept[labels[left]] == 0) ++left;
+    while (left < view.dish.right && measured[labels[left]] == 0) ++left;
     if (left == view.dish.right) continue;
     int right = view.dish.right - 1;
-    while (kept[labels[right]] == 0) --right;
+    while (measured[labels[right]] == 0) --right;
     visit_pixel(left, y);
     visit_pixel(right, y);
   }
@@ -41,18 +41,49 @@ Vec2 normal_of(const Vec2& direction) {
   return {-direction.y(), direction.x()};
 }
 
+bool shows(const StoredView& view, const LabelTable& wanted, int step_px) {
+  for (int y = view.dish.top; y < view.dish.bottom; y += step_px) {
+    const std::uint8_t* labels = view.labels.row(y);
+    const auto is_wanted = [&wanted](std::uint8_t label) { return wanted[label] != 0; };
+    if (std::any_of(labels + view.dish.left, labels + view.dish.right, is_wanted)) return true;
+  }
+  return false;
+}
+
+// The food of a dish; all of a bare dish, or of one that is itself to be measured.
+LabelTable measured_labels(const std::array<StoredView, 2>& views, const LabelTable& kept,
+                           const PlaneRectificationParams& params) {
+  LabelTable food{};
+  if (params.whole_dish) return kept;
+  std::copy(kept.begin() + kFirstItemLabel, kept.begin() + kLastItemLabel + 1,
+            food.begin() + kFirstItemLabel);
+  const bool is_bare =
+      !shows(views[0], food, params.outline_step_px) && !shows(views[1], food, params.outline_step_px);
+  return is_bare ? kept : food;
+}
+
+// Of the plane, along a level direction, in the view that shows more of it.
+double finest_px_mm(const std::array<StoredView, 2>& views, const Vec2& at_mm, double plane_height_mm) {
+  double finest_mm = std::numeric_limits<double>::infinity();
+  for (const StoredView& view : views) {
+    const Vec3 seen = view.camera_from_table * Vec3(at_mm.x(), at_mm.y(), plane_height_mm);
+    finest_mm = std::min(finest_mm, seen.z() / view.lens.pinhole.mean_focal_px());
+  }
+  return finest_mm;
+}
+
 // Where the rows meet: the baseline's point on the plane, or far away on it.
-Vec2 meeting_point(const std::array<Vec3, 2>& camera_mm, double plane_height_mm, const Vec2& dish_mm) {
+Vec2 meeting_point(const std::array<Vec3, 2>& camera_mm, double plane_height_mm, const Vec2& measured_mm) {
   const Vec3 baseline = camera_mm[1] - camera_mm[0];
   const double height = camera_mm[0].z() - plane_height_mm;
   const Vec2 across = baseline.head<2>();
   const Vec2 first = camera_mm[0].head<2>();
   const double drop = -baseline.z();
   if (across.norm() * height < std::abs(drop) * kFarthestMeetingMm) return first + across * (height / drop);
-  return dish_mm + across.normalized() * kFarthestMeetingMm;
+  return measured_mm + across.normalized() * kFarthestMeetingMm;
 }
 
-// Of the dish on the plane, seen from where the rows meet.
+// Of what is measured, on the plane, seen from where the rows meet.
 struct FanExtent {
   double min_mm = std::numeric_limits<double>::infinity();  // distance
   double max_mm = 0.0;
@@ -85,34 +116,33 @@ Status PlaneRectification::build(const std::array<StoredView, 2>& views, const L
   plane_height_mm_ = plane_height_mm;
   max_samples_per_axis_ = std::clamp(params.max_samples_per_axis, 1, kMaxSamplesPerAxis);
   for (std::size_t v = 0; v < 2; ++v) {
-    if (!is_usable(views[v])) return StatusCode::rectification_failed;
+    if (!is_usable(views[v]) || !shows(views[v], kept, params.outline_step_px))
+      return StatusCode::rectification_failed;
     camera_mm_[v] = camera_centre_mm(views[v].camera_from_table);
     if (!(camera_mm_[v].z() - plane_height_mm > kLeastCameraHeightMm))
       return StatusCode::rectification_failed;
   }
   if (!((camera_mm_[1] - camera_mm_[0]).norm() > kLeastBaselineMm)) return StatusCode::rectification_failed;
 
+  const LabelTable measured = measured_labels(views, kept, params);
   Vec2 low = Vec2::Constant(std::numeric_limits<double>::infinity());
   Vec2 high = -low;
   for (const StoredView& view : views) {
-    int seen = 0;
-    visit_outline(view, kept, plane_height_mm, params.outline_step_px, [&](const Vec2& point) {
+    visit_outline(view, measured, plane_height_mm, params.outline_step_px, [&](const Vec2& point) {
       low = low.cwiseMin(point);
       high = high.cwiseMax(point);
-      ++seen;
     });
-    if (seen == 0) return StatusCode::rectification_failed;
   }
   if (!(high.x() > low.x() && high.y() > low.y())) return StatusCode::rectification_failed;
-  const Vec2 dish_mm = 0.5 * (low + high);
-  const Vec2 meeting_mm = meeting_point(camera_mm_, plane_height_mm, dish_mm);
-  const double dish_distance_mm = (dish_mm - meeting_mm).norm();
-  if (!(dish_distance_mm > 0.0)) return StatusCode::rectification_failed;
-  const Vec2 axis = (dish_mm - meeting_mm) / dish_distance_mm;
+  const Vec2 middle_mm = 0.5 * (low + high);
+  const Vec2 meeting_mm = meeting_point(camera_mm_, plane_height_mm, middle_mm);
+  const double distance_mm = (middle_mm - meeting_mm).norm();
+  if (!(distance_mm > 0.0)) return StatusCode::rectification_failed;
+  const Vec2 axis = (middle_mm - meeting_mm) / distance_mm;
 
   FanExtent extent;
   for (const StoredView& view : views) {
-    visit_outline(view, kept, plane_height_mm, params.outline_step_px, [&](const Vec2& point) {
+    visit_outline(view, measured, plane_height_mm, params.outline_step_px, [&](const Vec2& point) {
       const Vec2 arm = point - meeting_mm;
       const double along = arm.dot(axis);
       extent.in_front = extent.in_front && along > 0.0;
@@ -128,7 +158,7 @@ Status PlaneRectification::build(const std::array<StoredView, 2>& views, const L
   }
 
   const double length_mm = extent.max_mm - extent.min_mm;
-  const double width_mm = (extent.max_tangent - extent.min_tangent) * dish_distance_mm;
+  const double width_mm = (extent.max_tangent - extent.min_tangent) * distance_mm;
   const double margin = 2.0 * params.margin_samples + 1.0;
   // columns · rows = max_samples with columns = length / step + margin, rows = width / (step · aspect) +
   // margin.
@@ -136,7 +166,8 @@ Status PlaneRectification::build(const std::array<StoredView, 2>& views, const L
   const double b = margin * (length_mm + width_mm / params.aspect);
   const double c = margin * margin - params.max_samples;
   if (!(c < 0.0)) return StatusCode::rectification_failed;
-  column_step_mm_ = (b + std::sqrt(b * b - 4.0 * a * c)) / (-2.0 * c);
+  column_step_mm_ = std::max((b + std::sqrt(b * b - 4.0 * a * c)) / (-2.0 * c),
+                             params.least_step_px * finest_px_mm(views, middle_mm, plane_height_mm));
   row_step_mm_ = column_step_mm_ * params.aspect;
   columns_ = static_cast<int>(length_mm / column_step_mm_ + margin);
   const int row_count = static_cast<int>(width_mm / row_step_mm_ + margin);
@@ -150,7 +181,7 @@ Status PlaneRectification::build(const std::array<StoredView, 2>& views, const L
       (meeting_mm - camera_mm_[0].head<2>()).norm() > (meeting_mm - camera_mm_[1].head<2>()).norm();
   const double slack_mm = 0.5 * (columns_ - 1) * column_step_mm_ - 0.5 * length_mm;
   const double first_mm = outward ? extent.min_mm - slack_mm : extent.max_mm + slack_mm;
-  const double tangent_step = row_step_mm_ / dish_distance_mm;
+  const double tangent_step = row_step_mm_ / distance_mm;
   const double first_tangent =
       0.5 * (extent.min_tangent + extent.max_tangent) - 0.5 * (row_count - 1) * tangent_step;
   rows_ = rows.first(static_cast<std::size_t>(row_count));

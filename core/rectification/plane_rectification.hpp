@@ -25,15 +25,17 @@ namespace traygauge {
 inline constexpr int kMaxSamplesPerAxis = 4;
 
 struct PlaneRectificationParams {
-  int max_samples = 131072;  // of the grid around the dish (paper III-B-2: "resized to a fixed dish size");
-                             // time grows with them
-  int max_rows = 768;        // that tables are kept for
-  double aspect = 1.0;       // row spacing over column spacing
-  int margin_samples = 8;    // around the dish: a census window, so that rims match
-  double max_fan = 4.0;      // farthest over nearest sample, from the meeting point of the rows; beyond, the
-                             // views are one behind the other and show no parallax
+  int max_samples = 131072;    // of the grid around the food (paper III-B-2 resizes the dish to a fixed size,
+                               // most of which is bare); time grows with them
+  double least_step_px = 1.0;  // of the finer picture, between samples: finer ones would show nothing more
+  bool whole_dish = false;     // around the dish although food lies on it
+  int max_rows = 768;          // that tables are kept for
+  double aspect = 1.0;         // row spacing over column spacing
+  int margin_samples = 8;      // around the food: a census window, so that its outline matches
+  double max_fan = 4.0;  // farthest over nearest sample, from the meeting point of the rows; beyond, the
+                         // views are one behind the other and show no parallax
   int max_samples_per_axis = 3;  // of a picture, averaged for one sample of the grid; to kMaxSamplesPerAxis
-  int outline_step_px = 4;       // picture rows between those whose dish pixels set the grid's extent
+  int outline_step_px = 4;       // picture rows between those whose food sets the grid's extent
 };
 
 // One view as stored. `dish` holds every pixel whose label is kept.
@@ -60,6 +62,7 @@ struct PlaneRow {
 
 class PlaneRectification {
  public:
+  // Around what has an item's label among `kept`, or around the whole dish where it is bare or wanted.
   // rectification_failed when the cameras coincide, do not look down on the plane, see no dish, or the rows
   // fan out by more than max_fan. `rows` is memory for max_rows.
   Status build(const std::array<StoredView, 2>& views, const LabelTable& kept, double plane_height_mm,
@@ -68,7 +71,7 @@ class PlaneRectification {
   int rows() const { return static_cast<int>(rows_.size()); }
   int columns() const { return columns_; }
   double column_step_mm() const { return column_step_mm_; }
-  double row_step_mm() const { return row_step_mm_; }  // in the middle of the dish
+  double row_step_mm() const { return row_step_mm_; }  // in the middle of the grid
   const PlaneRow& row(int r) const { return rows_[static_cast<std::size_t>(r)]; }
   double camera_height_mm(int view) const { return camera_mm_[index(view)].z() - plane_height_mm_; }
   const Vec3& camera_mm(int view) const { return camera_mm_[index(view)]; }

@@ -20,7 +20,7 @@ struct ConsistencyParams {
   // over them. Items differ; so far to either side the outline counts as partly both.
   double flank_run = 0.2;
   double flank_run_spread = 0.1;
-  double same_surface_px = 3.0;  // ends of a gap that differ by less are one surface seen through it; by
+  double same_surface_px = 5.0;  // ends of a gap that differ by less are one surface seen through it; by
                                  // more, the gap is what the nearer one hides from the other view
   // The straight line across such a gap is the other view's line of sight past the nearer surface: what it
   // hides lies below, between the line (1) and the lower surface going on (0).

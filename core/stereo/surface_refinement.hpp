@@ -24,7 +24,7 @@ struct SurfaceRefinementParams {
   int relaxations = 4;          // of the membrane, per iteration
   double max_jump_px = 5.0;     // neighbours that differ by more are not tied
   double dish_weight = 0.0;     // of the dish's samples in windows: food beside it is not mixed with it
-  int outline_px = 2;       // samples of food this near to another label weigh as little: their gradient is
+  int outline_px = 4;       // samples of food this near to another label weigh as little: their gradient is
                             // their outline's
   double border_tie = 0.1;  // between samples of different labels
 };

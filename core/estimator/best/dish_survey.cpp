@@ -161,7 +161,8 @@ Status DishSurveyor::match(const ViewPair& views, double bottom_mm, std::array<S
   const DishOnTray& dish = geometry.dishes[0];
   TwoViewSurfaceReport dense;
   TwoViewSurfaceParams params = configuration_.best.surface;
-  params.refinement.dish_weight = 1.0;  // here the dish is what is measured
+  params.rectification.whole_dish = true;  // here the dish is what is measured
+  params.refinement.dish_weight = 1.0;
   const Status status = reconstruct_surface(
       matte_views(views, geometry.joint.camera_from_table, dish.labels), labels_on_dish(dish.labels),
       bottom_mm, survey_.place.edge_height_mm + params_.above_edge_mm, params, memory_.surface, grids, dense);

@@ -114,6 +114,61 @@ TEST(PlaneRectification, HoldsTheDishOfBothViews) {
   }
 }
 
+// Most of a dish is bare: samples are spent on its food, in both views and with room for a window about it.
+TEST(PlaneRectification, SpendsItsSamplesOnTheFood) {
+  constexpr std::uint8_t kFood = 7;
+  Scene scene({-60.0, -250.0, 480.0}, {80.0, -230.0, 430.0});
+  PlaneRectificationParams params;
+  params.max_samples = 20'000;
+  PlaneRectification bare;
+  ASSERT_TRUE(scene.build(bare, params).ok());
+  const double bare_step_mm = bare.column_step_mm();
+  for (std::size_t v = 0; v < 2; ++v) {
+    for (int i = 0; i < 4; ++i) {
+      const Vec3 at(40.0 + 8.0 * (i % 2), -10.0 + 8.0 * (i / 2), kPlaneMm);
+      cv::circle(scene.labels[v], project(scene.views[v].lens, scene.views[v].camera_from_table, at), 24,
+                 kFood, cv::FILLED);
+    }
+  }
+  PlaneRectification grid;
+  ASSERT_TRUE(scene.build(grid, params).ok());
+  EXPECT_LT(grid.column_step_mm(), 0.5 * bare_step_mm);
+  EXPECT_LE(grid.rows() * grid.columns(), params.max_samples);
+  for (const StoredView& view : scene.views) {
+    cv::Mat1b labels(grid.rows(), grid.columns());
+    grid.sample_labels(view, labels_on_dish(labels_of_single_dish()),
+                       {labels.data, labels.cols, labels.rows});
+    cv::Mat food;
+    cv::compare(labels, kFood, food, cv::CMP_EQ);
+    EXPECT_GT(cv::countNonZero(food), 3000);
+    const cv::Rect inside(4, 4, labels.cols - 8, labels.rows - 8);
+    EXPECT_EQ(cv::countNonZero(food(inside)), cv::countNonZero(food));
+  }
+}
+
+TEST(PlaneRectification, SamplesNoFinerThanThePictures) {
+  Scene scene({-60.0, -250.0, 480.0}, {80.0, -230.0, 430.0});
+  PlaneRectificationParams params;
+  params.max_samples = 1'000'000;
+  params.least_step_px = 2.5;
+  PlaneRectification grid;
+  ASSERT_TRUE(scene.build(grid, params).ok());
+  double finest_px = 1e9;
+  double coarsest_px = 0.0;
+  for (const StoredView& view : scene.views) {
+    const double row = 0.5 * grid.rows();
+    const double column = 0.5 * grid.columns();
+    const cv::Point2d at = project(view.lens, view.camera_from_table, grid.plane_point(row, column));
+    const double step_px = std::max(
+        cv::norm(project(view.lens, view.camera_from_table, grid.plane_point(row, column + 1.0)) - at),
+        cv::norm(project(view.lens, view.camera_from_table, grid.plane_point(row + 1.0, column)) - at));
+    finest_px = std::min(finest_px, step_px);
+    coarsest_px = std::max(coarsest_px, step_px);
+  }
+  EXPECT_NEAR(coarsest_px, params.least_step_px, 0.2);
+  EXPECT_GT(finest_px, 0.8 * params.least_step_px);
+}
+
 TEST(PlaneRectification, SamplesThroughTheLens) {
   Scene scene({-60.0, -250.0, 480.0}, {80.0, -230.0, 430.0});
   const auto wave = [](double x, double y) { return 128.0 + 60.0 * std::sin(0.05 * x) * std::cos(0.04 * y); };
