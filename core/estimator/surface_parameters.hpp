@@ -44,6 +44,7 @@ void visit_two_view_surface(Params& surface, Visit&& visit) {
   auto& refinement = surface.refinement;
   using Range = ParameterRange;
   visit("rectification.max_samples", grid.max_samples, Range{4096, 1 << 20});
+  visit("rectification.whole_dish", grid.whole_dish);
   visit("rectification.max_rows", grid.max_rows, Range{16, 4096});
   visit("rectification.aspect", grid.aspect, Range{0.1, 10});
   visit("rectification.least_step_px", grid.least_step_px, Range{0, 100});
