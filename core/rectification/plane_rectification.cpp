@@ -53,8 +53,8 @@ bool shows(const StoredView& view, const LabelTable& wanted, int step_px) {
 // The food of a dish; all of a bare dish, or of one that is itself to be measured.
 LabelTable measured_labels(const std::array<StoredView, 2>& views, const LabelTable& kept,
                            const PlaneRectificationParams& params) {
-  LabelTable food{};
   if (params.whole_dish) return kept;
+  LabelTable food{};
   std::copy(kept.begin() + kFirstItemLabel, kept.begin() + kLastItemLabel + 1,
             food.begin() + kFirstItemLabel);
   const bool is_bare =

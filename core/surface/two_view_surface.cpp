@@ -29,27 +29,28 @@ DisparityRange height_range(const PlaneRectification& grid, double low_mm, doubl
   return {static_cast<int>(std::floor(least)), static_cast<int>(std::ceil(most))};
 }
 
-// The coarsest level searches all heights within one band.
-int most_disparities(int levels) {
-  return (kMaxBandLanes - 3) << (levels - 1);
+// The coarsest level searches all heights within one band, which range_at widens by up to three disparities.
+int most_disparities(const TwoViewSurfaceParams& params) {
+  return (kMaxBandLanes - 3) << (SurfaceLevels(params).count - 1);
 }
 
 // Coarser where views far apart would displace the highest food by more samples than can be searched.
 Status build_grid(const std::array<StoredView, 2>& views, const LabelTable& kept, double bottom_height_mm,
-                  double highest_mm, int levels, const TwoViewSurfaceParams& params, std::span<PlaneRow> rows,
+                  double highest_mm, const TwoViewSurfaceParams& params, std::span<PlaneRow> rows,
                   PlaneRectification& grid, DisparityRange& range) {
   PlaneRectificationParams rectification = params.rectification;
+  const int most = most_disparities(params);
   const auto build = [&]() -> Status {
     const Status built = grid.build(views, kept, bottom_height_mm, rectification, rows);
     if (!built.ok()) return built;
     if (grid.columns() > params.max_columns) return StatusCode::rectification_failed;
     range = height_range(grid, params.min_height_mm, highest_mm);
-    return range.count() < most_disparities(levels) ? StatusCode::ok : StatusCode::disparity_range_too_large;
+    return range.count() < most ? StatusCode::ok : StatusCode::disparity_range_too_large;
   };
   const Status status = build();
   if (status.code() != StatusCode::disparity_range_too_large) return status;
   constexpr double kSlack = 0.95;  // the margin around the food takes its share of the samples
-  const double coarser = kSlack * most_disparities(levels) / range.count();
+  const double coarser = kSlack * most / range.count();
   rectification.max_samples = static_cast<int>(coarser * coarser * grid.rows() * grid.columns());
   return build();
 }
@@ -293,14 +294,14 @@ Status reconstruct_surface(const std::array<StoredView, 2>& views, const LabelTa
                            double bottom_height_mm, double top_height_mm, const TwoViewSurfaceParams& params,
                            TwoViewSurfaceWorkspace& workspace, std::array<SurfaceGrid, 2>& grids,
                            TwoViewSurfaceReport& report) {
-  const auto [levels, finest] = SurfaceLevels(params);
   const double highest_mm = std::clamp(top_height_mm - bottom_height_mm, 5.0, params.highest_mm);
   PlaneRectification grid;
   DisparityRange range;
   const Status built =
-      build_grid(views, kept, bottom_height_mm, highest_mm, levels, params, workspace.rows, grid, range);
+      build_grid(views, kept, bottom_height_mm, highest_mm, params, workspace.rows, grid, range);
   if (!built.ok()) return built;
   report = {grid.rows(), grid.columns(), grid.column_step_mm(), range, {}};
+  const auto [levels, finest] = SurfaceLevels(params);
 
   for (std::size_t v = 0; v < 2; ++v) sample_view(grid, views[v], kept, levels, workspace.views[v]);
   for (int level = levels - 1; level >= finest; --level) {

@@ -234,6 +234,20 @@ TEST_F(CapturedSurface, SameBitsWhateverWasMeasuredBefore) {
   }
 }
 
+// Heights that move a point by more samples than one band holds are matched on a coarser grid.
+TEST_F(CapturedSurface, AGridTooFineForTheHeightsIsMadeCoarser) {
+  const CapturePair pair("angles/a01", 0, 7);
+  Stage fine;
+  ASSERT_TRUE(pair.run(fine).ok());
+  TwoViewSurfaceParams params;
+  params.levels = 1;
+  Stage coarse(params);
+  ASSERT_TRUE(pair.run(coarse).ok());
+  EXPECT_LT(coarse.report.disparity_range.count(), kMaxBandLanes);
+  EXPECT_GT(fine.report.disparity_range.count(), kMaxBandLanes);
+  EXPECT_GT(coarse.report.column_step_mm, fine.report.column_step_mm);
+}
+
 TEST_F(CapturedSurface, RefusesOrStaysFinite) {
   CapturePair pair("plates/c1_soup", 0, 1);
   Stage stage;
