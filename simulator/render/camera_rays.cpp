@@ -8,8 +8,8 @@ namespace traygauge {
 namespace {
 
 // The inverse of the tent's cumulative share: from [0, 1) to (-1, 1).
-double tent(double share) {
-  return share < 0.5 ? std::sqrt(2.0 * share) - 1.0 : 1.0 - std::sqrt(2.0 * (1.0 - share));
+float tent(float share) {
+  return share < 0.5F ? std::sqrt(2.0F * share) - 1.0F : 1.0F - std::sqrt(2.0F * (1.0F - share));
 }
 
 }  // namespace
@@ -32,7 +32,9 @@ CameraRays::CameraRays(const ViewCamera& camera)
       aperture_radius_mm_(0.5 * camera.aperture_mm),
       focus_mm_(camera.focus_mm),
       moves_(camera.moves),
-      middle_(pose_in_exposure(camera, 0.5).inverse()) {
+      middle_(pose_in_exposure(camera, 0.5).inverse()),
+      center_mm_(middle_.translation().cast<float>()),
+      pupil_by_mm_(middle_.linear().leftCols<2>().cast<float>()) {
   if (!(camera.aperture_mm >= 0.0)) throw std::invalid_argument("camera: the aperture must not be negative");
   if (!(camera.focus_mm > 0.0)) throw std::invalid_argument("camera: the focus must be before the camera");
   const Eigen::Isometry3d start = camera.camera_from_world.inverse();
@@ -56,25 +58,40 @@ CameraRays::Pixel CameraRays::pixel(int x, int y) const {
   Pixel pixel;
   pixel.direction = lens_.direction_of({x, y});
   pixel.direction_by_pixel = lens_.direction_by_pixel(pixel.direction);
+  pixel.focus_mm = (focus_mm_ * (middle_.linear() * pixel.direction.homogeneous())).cast<float>();
+  pixel.focus_by_pixel_mm =
+      (focus_mm_ * (middle_.linear().leftCols<2>() * pixel.direction_by_pixel)).cast<float>();
   return pixel;
 }
 
-// Within a pixel the lens is linear to about 1e-3 px, evenly about the centre.
+// Within a pixel the lens is linear to about 1e-3 px, evenly about the centre. Thin lens: every ray through
+// the pupil meets the central one in the plane of focus.
 Ray CameraRays::ray(const Pixel& pixel, const RaySample& sample) const {
-  const Eigen::Vector2d offset_px(tent(sample.in_pixel.x()), tent(sample.in_pixel.y()));
-  const Eigen::Vector3d direction = (pixel.direction + pixel.direction_by_pixel * offset_px).homogeneous();
-  // Thin lens: every ray through the pupil meets the central one in the plane of focus.
-  Eigen::Vector3d origin = Eigen::Vector3d::Zero();
+  const Eigen::Vector2f offset_px(tent(sample.in_pixel.x()), tent(sample.in_pixel.y()));
+  Eigen::Vector2f in_pupil_mm = Eigen::Vector2f::Zero();
   if (aperture_radius_mm_ > 0.0) {
-    const double radius = aperture_radius_mm_ * std::sqrt(static_cast<double>(sample.in_aperture.x()));
-    const double angle = 2.0 * std::numbers::pi * sample.in_aperture.y();
-    origin = {radius * std::cos(angle), radius * std::sin(angle), 0.0};
+    const float radius_mm = static_cast<float>(aperture_radius_mm_) * std::sqrt(sample.in_aperture.x());
+    const float angle = 2.0F * std::numbers::pi_v<float> * sample.in_aperture.y();
+    in_pupil_mm = {radius_mm * std::cos(angle), radius_mm * std::sin(angle)};
   }
-  const Eigen::Vector3d along = focus_mm_ * direction - origin;
-  const Eigen::Isometry3d pose = world_from_camera(sample.in_exposure);
+  if (moves_) return moving_ray(pixel, sample, offset_px, in_pupil_mm);
+  const Eigen::Vector3f off_center_mm = pupil_by_mm_ * in_pupil_mm;
+  Ray ray;
+  ray.origin_mm = center_mm_ + off_center_mm;
+  ray.direction = (pixel.focus_mm + pixel.focus_by_pixel_mm * offset_px - off_center_mm).normalized();
+  return ray;
+}
+
+Ray CameraRays::moving_ray(const Pixel& pixel, const RaySample& sample, const Eigen::Vector2f& offset_px,
+                           const Eigen::Vector2f& in_pupil_mm) const {
+  const Eigen::Vector3d direction =
+      (pixel.direction + pixel.direction_by_pixel * offset_px.cast<double>()).homogeneous();
+  const Eigen::Vector3d origin(static_cast<double>(in_pupil_mm.x()), static_cast<double>(in_pupil_mm.y()),
+                               0.0);
+  const Eigen::Isometry3d pose = world_from_camera(static_cast<double>(sample.in_exposure));
   Ray ray;
   ray.origin_mm = (pose * origin).cast<float>();
-  ray.direction = (pose.linear() * along).normalized().cast<float>();
+  ray.direction = (pose.linear() * (focus_mm_ * direction - origin)).normalized().cast<float>();
   return ray;
 }
 

@@ -19,12 +19,13 @@ class LightQuadrature {
   std::optional<float> irradiance(const Eigen::Vector3f& point_mm, const Eigen::Vector3f& normal) const;
 
  private:
-  static constexpr std::size_t kNodes = 9;
-  static constexpr std::size_t kCorners = 4;
+  static constexpr int kNodes = 12;  // the last three weigh nothing: whole vectors of four
+  using Nodes = Eigen::Array<float, kNodes, 1>;
 
-  std::array<Eigen::Vector3f, kNodes> nodes_mm_;
-  std::array<float, kNodes> weights_{};
-  std::array<Eigen::Vector3f, kCorners> corners_mm_;
+  std::array<Nodes, 3> nodes_mm_;  // x, y, z
+  Nodes weights_ = Nodes::Zero();
+  std::array<Eigen::Array4f, 3> corners_mm_;  // x, y, z
+  Eigen::Vector3f corner_mm_;
   Eigen::Vector3f cross_;  // normal times area
 };
 

@@ -2,10 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+#include <optional>
 #include <span>
 
+#include "simulator/render/block_sequence.hpp"
 #include "simulator/render/light.hpp"
+#include "simulator/render/lit_surface.hpp"
+#include "simulator/render/ray_spread.hpp"
 #include "simulator/render/shadow_batch.hpp"
 
 namespace traygauge {
@@ -24,39 +27,14 @@ enum Decision : std::uint32_t {
   penumbra_place = 128  // and the number of the light
 };
 
-constexpr float kJump_px = 4.0F;  // a surface that jumps by more is more than one
+constexpr float kSmoothed_px = 3.0F;  // radius of a filter from which on neighbours count for a pixel
+constexpr float kBusySpreads = 3.0F;  // of calm_spread: pixels above get the most rays
+constexpr float kJump_px = 4.0F;      // a surface that jumps by more is more than one
 
 // Where a light's edge would hide first: just within its corners.
 const std::array<Eigen::Vector2f, 4> kCorners = {Eigen::Vector2f(0.02F, 0.02F), Eigen::Vector2f(0.98F, 0.02F),
                                                  Eigen::Vector2f(0.02F, 0.98F),
                                                  Eigen::Vector2f(0.98F, 0.98F)};
-
-// What a light adds, before shadows: to the base from the whole light where it is in full view, to the coat
-// by a point of it.
-Eigen::Vector3f lit(const SurfaceResponse& response, const SurfaceHit& hit, const LightSample& light,
-                    const LightQuadrature& whole) {
-  Eigen::Vector3f factor = Eigen::Vector3f::Zero();
-  if (response.has_base()) {
-    const auto irradiance = whole.irradiance(hit.point_mm, hit.normal);
-    if (irradiance) {
-      const float entering = response.base_entry(light.direction) * *irradiance;
-      factor = response.base_albedo() * (entering * std::numbers::inv_pi_v<float>);
-    } else {
-      factor = response.base_factor(light.direction) / light.density;
-    }
-  }
-  if (response.has_coat()) {
-    const SurfaceResponse::CoatFactor coat = response.coat_factor(light.direction);
-    factor += coat.factor / (light.density + (response.is_sharp() ? coat.density : 0.0F));
-  }
-  return factor.cwiseProduct(light.radiance);
-}
-
-// How strongly a point of a light shines on a surface, in any unit that the light's points share.
-float light_weight(const AreaLight& light, const SurfaceHit& hit, const Eigen::Vector3f& way_mm) {
-  const float square = way_mm.squaredNorm();
-  return -light.edge_u_mm.cross(light.edge_v_mm).dot(way_mm) * hit.normal.dot(way_mm) / (square * square);
-}
 
 // How much a surface counts in a mean over a pixel's: as it shows. Black and metal a little, so that they
 // have a mean.
@@ -68,12 +46,15 @@ Eigen::Vector3f shade_color(const SurfaceResponse& response) {
 
 struct PathTracer::Round {
   SampleSequence sequence{0};
-  std::uint32_t first = 0;  // index of its first ray
+  BlockSequence indirect;
+  std::uint32_t first = 0;      // index of its first ray
+  std::uint32_t size = kRound;  // 4 or 8
   std::array<Ray, kRound> rays;
   std::array<SurfaceHit, kRound> hits;
   std::vector<SurfaceResponse> responses;            // of those that hit
   std::array<std::size_t, kRound> of_hit;            // whose response it is
   std::array<Eigen::Vector2f, kRound> light_places;  // on all lights, by response
+  std::array<Eigen::Vector3f, kRound> shades;        // direct and mirrored light, by response
 
   const SurfaceHit& hit(std::size_t response) const { return hits[of_hit[response]]; }
   std::uint32_t index(std::size_t response) const {
@@ -88,52 +69,88 @@ struct PathTracer::Sum {
   Eigen::Vector3f weights = Eigen::Vector3f::Zero();
   SurfaceHit first;
   bool is_one_surface = true;
+  bool is_in_penumbra = false;
+  bool has_metal = false;  // few rays agree by chance on what it mirrors
+  RaySpread spread;
 };
 
 PathTracer::PathTracer(const RayScene& scene, const CameraRays& rays, const RenderSettings& settings)
     : scene_(scene),
       rays_(rays),
       settings_(settings),
+      few_(static_cast<std::uint32_t>(settings.samples + 7) / 8 * 4),
+      usual_(2 * few_),
+      most_(std::max(usual_,
+                     (static_cast<std::uint32_t>(settings.edge_samples) + kRound - 1) / kRound * kRound)),
+      gatherer_(scene, settings.bounces - 1),
       quadratures_(scene.scene().lights.begin(), scene.scene().lights.end()),
       seed_(hash_of(hash_of(settings.seed), static_cast<std::uint32_t>(settings.view))) {}
 
-PixelLight PathTracer::trace(int x, int y, int samples) const {
+PixelLight PathTracer::trace(int x, int y, PixelKind expected) const {
   Sum sum;
   Round round;
   round.responses.reserve(kRound);
   round.sequence =
       SampleSequence(hash_of(hash_of(seed_, static_cast<std::uint32_t>(y)), static_cast<std::uint32_t>(x)));
+  round.indirect = BlockSequence(hash_of(seed_ + 1U), x, y);
   const CameraRays::Pixel pixel = rays_.pixel(x, y);
-  const std::uint32_t rounds = (static_cast<std::uint32_t>(samples) + kRound - 1) / kRound;
-  for (std::uint32_t i = 0; i < rounds; ++i) {
-    round.first = i * kRound;
-    aim(round, pixel);
-    look_for_steps(round, sum);
-    add_lights(round, sum);
-    add_mirrored(round, sum);
-    add_indirect(round, sum);
+  const std::uint32_t wanted = expected == PixelKind::calm    ? few_
+                               : expected == PixelKind::usual ? usual_
+                                                              : most_;
+  std::uint32_t count = 0;
+  while (count < wanted) {
+    round.first = count;
+    round.size = std::min(kRound, wanted - count);
+    trace_round(round, pixel, sum);
+    count += round.size;
   }
-  const auto count = static_cast<float>(rounds * kRound);
   PixelLight light;
-  light.direct = sum.direct / count;
-  light.albedo = sum.albedo / count;
+  light.direct = sum.direct / static_cast<float>(count);
+  light.albedo = sum.albedo / static_cast<float>(count);
   if (sum.weights.minCoeff() > 0.0F) light.indirect = sum.indirect.cwiseQuotient(sum.weights);
   light.is_one_surface = sum.is_one_surface;
+  light.kind = kind_of(sum);
   return light;
+}
+
+void PathTracer::trace_round(Round& round, const CameraRays::Pixel& pixel, Sum& sum) const {
+  aim(round, pixel);
+  look_for_steps(round, sum);
+  add_lights(round, sum);
+  add_mirrored(round, sum);
+  add_indirect(round, sum);
+  look_for_change(round, sum);
+}
+
+// Shade is as bright as it is under the room's light.
+void PathTracer::look_for_change(const Round& round, Sum& sum) const {
+  const Eigen::Vector3f& room = scene_.scene().ambient;
+  sum.spread.add(room.sum(), static_cast<float>(round.size - round.responses.size()));
+  for (std::size_t i = 0; i < round.responses.size(); ++i) {
+    sum.spread.add(round.shades[i].sum() + round.responses[i].base_albedo().dot(room));
+    sum.has_metal |= round.responses[i].is_metal();
+  }
+}
+
+PixelKind PathTracer::kind_of(const Sum& sum) const {
+  const float spread = sum.spread.share();
+  if (!(spread <= kBusySpreads * settings_.calm_spread)) return PixelKind::busy;
+  const bool is_simple = sum.is_one_surface && !sum.is_in_penumbra && !sum.has_metal;
+  return is_simple && spread < settings_.calm_spread ? PixelKind::calm : PixelKind::usual;
 }
 
 // All rays must meet the plane of the first one's surface, within a few pixels' widths.
 void PathTracer::look_for_steps(const Round& round, Sum& sum) const {
   if (round.first == 0) sum.first = round.hits[0];
   const float most_mm = kJump_px * rays_.pixel_width() * sum.first.distance;
-  for (const SurfaceHit& hit : round.hits) {
+  for (const SurfaceHit& hit : std::span(round.hits).first(round.size)) {
     const float off_mm = std::abs(sum.first.normal.dot(hit.point_mm - sum.first.point_mm));
     if (hit.object != sum.first.object || off_mm > most_mm) sum.is_one_surface = false;
   }
 }
 
 void PathTracer::aim(Round& round, const CameraRays::Pixel& pixel) const {
-  for (std::uint32_t i = 0; i < kRound; ++i) {
+  for (std::uint32_t i = 0; i < round.size; ++i) {
     const std::uint32_t index = round.first + i;
     RaySample sample;
     sample.in_pixel = round.sequence.point(place_in_pixel, index);
@@ -141,9 +158,9 @@ void PathTracer::aim(Round& round, const CameraRays::Pixel& pixel) const {
     if (rays_.moves()) sample.in_exposure = round.sequence.point(time_in_exposure, index).x();
     round.rays[i] = rays_.ray(pixel, sample);
   }
-  scene_.intersect(round.rays, round.hits, RayBundle::coherent);
+  scene_.intersect(std::span(round.rays).first(round.size), round.hits, RayBundle::coherent);
   round.responses.clear();
-  for (std::size_t i = 0; i < kRound; ++i) {
+  for (std::size_t i = 0; i < round.size; ++i) {
     const SurfaceHit& hit = round.hits[i];
     if (hit.object == nullptr) continue;
     round.of_hit[round.responses.size()] = i;
@@ -153,43 +170,56 @@ void PathTracer::aim(Round& round, const CameraRays::Pixel& pixel) const {
 }
 
 void PathTracer::add_lights(Round& round, Sum& sum) const {
-  const std::size_t missed = kRound - round.responses.size();
+  const std::size_t missed = round.size - round.responses.size();
   sum.direct += static_cast<float>(missed) * scene_.scene().ambient;
   if (round.responses.empty()) return;
   for (std::size_t i = 0; i < round.responses.size(); ++i) {
     round.light_places[i] = round.sequence.point(light_place, round.index(i));
+    round.shades[i].setZero();
   }
   const std::span<const AreaLight> lights = scene_.scene().lights;
   for (std::size_t i = 0; i < lights.size(); ++i) add_light(round, static_cast<std::uint32_t>(i), sum);
 }
 
-// A shadow ray for each ray of the round, and some to the light's corners. Where these disagree, many more
-// tell how much of the light is seen.
+// A shadow ray for each surface that the round's rays meet: for four of them to a point of the light, for
+// four to its corners. Where these disagree, many more tell how much of the light is seen.
 void PathTracer::add_light(Round& round, std::uint32_t number, Sum& sum) const {
   const AreaLight& light = scene_.scene().lights[number];
+  const std::size_t count = round.responses.size();
+  const bool has_penumbra = settings_.penumbra_samples > 0;
+  std::array<std::optional<LightSample>, kRound> samples;
+  std::array<std::uint8_t, kRound> own{};
   ShadowBatch batch;
-  std::array<Eigen::Vector3f, kRound> additions;
-  for (std::size_t i = 0; i < round.responses.size(); ++i) {
+  for (std::size_t i = 0; i < count; ++i) {
     const SurfaceHit& hit = round.hit(i);
-    const auto sample = sample_light(light, hit.point_mm, round.light_places[i]);
-    if (!sample || !RayScene::is_above(hit, sample->direction)) continue;
-    additions[batch.count] = lit(round.responses[i], hit, *sample, quadratures_[number]);
-    batch.add(hit, sample->direction * sample->distance_mm);
+    samples[i] = sample_light(light, hit.point_mm, round.light_places[i]);
+    if (samples[i] && !RayScene::is_above(hit, samples[i]->direction)) samples[i].reset();
+    if (!samples[i] || (has_penumbra && count > kCorners.size() && i % 2 != 0)) continue;
+    own[i] = static_cast<std::uint8_t>(batch.count);
+    batch.add(hit, samples[i]->direction * samples[i]->distance_mm);
   }
-  const std::size_t own = batch.count;
-  for (std::size_t i = 0; i < kCorners.size(); ++i) {
-    const SurfaceHit& hit = round.hit(i * round.responses.size() / kCorners.size());
-    const Eigen::Vector3f way_mm = way_to_light(light, hit.point_mm, kCorners[i]);
+  for (std::size_t k = 0; k < kCorners.size() && has_penumbra; ++k) {
+    const SurfaceHit& hit = round.hit((2 * k + 1) * count / (2 * kCorners.size()));
+    const Eigen::Vector3f way_mm = way_to_light(light, hit.point_mm, kCorners[k]);
     if (RayScene::is_above(hit, way_mm)) batch.add(hit, way_mm);
   }
   batch.trace(scene_);
-  const bool is_penumbra = !batch.is_all_alike() && settings_.penumbra_samples > 0;
-  Eigen::Vector3f total = Eigen::Vector3f::Zero();
-  for (std::size_t i = 0; i < own; ++i) {
-    if (is_penumbra || batch.is_occluded[i] == 0) total += additions[i];
+  Eigen::Vector3f seen = Eigen::Vector3f::Ones();
+  if (has_penumbra) {
+    const bool is_penumbra = batch.count == 0 || !batch.is_all_alike();
+    if (!is_penumbra && batch.is_occluded[0] != 0) return;
+    if (is_penumbra) {
+      seen = seen_share(round, number);
+      sum.is_in_penumbra = true;
+    }
   }
-  if (is_penumbra) total = total.cwiseProduct(seen_share(round, number));
-  sum.direct += total;
+  for (std::size_t i = 0; i < count; ++i) {
+    if (!samples[i] || (!has_penumbra && batch.is_occluded[own[i]] != 0)) continue;
+    const Eigen::Vector3f addition =
+        lit(round.responses[i], round.hit(i), *samples[i], quadratures_[number]).cwiseProduct(seen);
+    sum.direct += addition;
+    round.shades[i] += addition;
+  }
 }
 
 // Of a light, as the round's surfaces see it together.
@@ -229,6 +259,7 @@ void PathTracer::add_mirrored(Round& round, Sum& sum) const {
   std::array<SurfaceResponse::CoatSample, kRound> samples;
   std::array<bool, kRound> is_sharp{};
   std::array<std::uint32_t, kRound> indices{};
+  std::array<std::size_t, kRound> of_response{};
   std::size_t count = 0;
   for (std::size_t i = 0; i < round.responses.size(); ++i) {
     const SurfaceResponse& response = round.responses[i];
@@ -236,7 +267,7 @@ void PathTracer::add_mirrored(Round& round, Sum& sum) const {
     // A rough coat mirrors lights as add_light sees them, and its surroundings so evenly that half of the
     // rays will do.
     const bool is_halved = !response.is_sharp();
-    if (is_halved && round.of_hit[i] >= kRound / 2) continue;
+    if (is_halved && round.of_hit[i] >= round.size / 2) continue;
     const std::uint32_t index = round.index(i) - (is_halved ? round.first / 2 : 0);
     auto sample = response.sample_coat(round.sequence.point(mirrored_way, index));
     if (!sample || !RayScene::is_above(round.hit(i), sample->to_light)) continue;
@@ -244,30 +275,43 @@ void PathTracer::add_mirrored(Round& round, Sum& sum) const {
     rays[count] = {RayScene::leave(round.hit(i), sample->to_light), sample->to_light};
     samples[count] = *sample;
     is_sharp[count] = response.is_sharp();
+    of_response[count] = i;
     indices[count++] = index;
   }
   std::array<SurfaceHit, kRound> hits;
   scene_.intersect({rays.data(), count}, {hits.data(), count}, RayBundle::coherent);
+  std::array<LightGatherer::Path, kRound> paths;
+  for (std::size_t k = 0; k < count; ++k) paths[k] = {hits[k], indices[k], samples[k].weight.maxCoeff()};
+  gatherer_.gather({paths.data(), count}, round.sequence, mirrored_further);
   for (std::size_t k = 0; k < count; ++k) {
-    Eigen::Vector3f arriving =
-        gather(hits[k], round.sequence, indices[k], settings_.bounces - 1, mirrored_further);
+    Eigen::Vector3f arriving = paths[k].arriving;
     for (const AreaLight& light : is_sharp[k] ? lights : lights.first(0)) {
       const auto met = meet_light(light, rays[k].origin_mm, rays[k].direction);
       if (!met || (hits[k].object != nullptr && hits[k].distance < met->distance_mm)) continue;
       arriving += met->radiance * (samples[k].density / (samples[k].density + met->density));
     }
-    sum.direct += samples[k].weight.cwiseProduct(arriving);
+    const Eigen::Vector3f addition = samples[k].weight.cwiseProduct(arriving);
+    sum.direct += addition;
+    // Of the others, only what is sharp makes a pixel uneasy: rough coats mirror about the same for all.
+    if (is_sharp[k]) round.shades[of_response[k]] += addition;
   }
+}
+
+// Where a surface goes on, its neighbours' rays are as good as the pixel's own.
+std::size_t PathTracer::indirect_rays(const Round& round, const Sum& sum) const {
+  const std::size_t wanted = static_cast<std::size_t>(settings_.indirect_samples) * round.size / kRound;
+  const bool is_smoothed = sum.is_one_surface && settings_.indirect_filter_px >= kSmoothed_px;
+  // The further rays of a pixel at an edge are for what is sharp.
+  const bool is_further = round.first >= static_cast<std::uint32_t>(settings_.samples);
+  if (is_further) return (wanted + 3) / 4;
+  return std::max<std::size_t>(is_smoothed && round.size < kRound ? (wanted + 1) / 2 : wanted, 1);
 }
 
 void PathTracer::add_indirect(Round& round, Sum& sum) const {
   std::array<Ray, kRound> rays;
   std::array<Eigen::Vector3f, kRound> weights;
   std::array<std::uint32_t, kRound> indices{};
-  // The further rays of a pixel at an edge are for what is sharp.
-  const bool is_further = round.first >= static_cast<std::uint32_t>(settings_.samples);
-  const auto wanted = static_cast<std::size_t>(is_further ? (settings_.indirect_samples + 3) / 4
-                                                          : settings_.indirect_samples);
+  const std::size_t wanted = indirect_rays(round, sum);
   std::size_t count = 0;
   for (std::size_t i = 0; i < round.responses.size(); ++i) {
     const SurfaceResponse& response = round.responses[i];
@@ -275,54 +319,19 @@ void PathTracer::add_indirect(Round& round, Sum& sum) const {
     if (i >= wanted || response.is_metal()) continue;
     const Eigen::Vector3f weight = shade_color(response);
     sum.weights += weight;
-    indices[count] = round.first + static_cast<std::uint32_t>(i);
+    indices[count] = round.indirect.index(round.first + static_cast<std::uint32_t>(i));
     const Eigen::Vector3f direction =
-        cosine_direction(round.hit(i).normal, round.sequence.point(indirect_way, indices[count]));
+        cosine_direction(round.hit(i).normal, round.indirect.sequence().point(indirect_way, indices[count]));
     if (!RayScene::is_above(round.hit(i), direction)) continue;
     rays[count] = {RayScene::leave(round.hit(i), direction), direction};
     weights[count++] = weight * response.base_entry(direction);
   }
   std::array<SurfaceHit, kRound> hits;
   scene_.intersect({rays.data(), count}, {hits.data(), count}, RayBundle::scattered);
-  for (std::size_t k = 0; k < count; ++k) {
-    sum.indirect += weights[k].cwiseProduct(
-        gather(hits[k], round.sequence, indices[k], settings_.bounces - 1, indirect_further));
-  }
-}
-
-Eigen::Vector3f PathTracer::gather(const SurfaceHit& hit, const SampleSequence& sequence, std::uint32_t index,
-                                   int bounces, std::uint32_t decision) const {
-  if (hit.object == nullptr) return scene_.scene().ambient;
-  const Reflectance reflectance = hit.object->material->at(hit.point_mm, hit.normal);
-  Eigen::Vector3f arriving = one_light(hit, sequence, index, decision);
-  if (bounces > 0) {
-    const Eigen::Vector3f direction = cosine_direction(hit.normal, sequence.point(decision + 2, index));
-    if (RayScene::is_above(hit, direction)) {
-      const Ray next{RayScene::leave(hit, direction), direction};
-      SurfaceHit next_hit;
-      scene_.intersect({&next, 1}, {&next_hit, 1}, RayBundle::scattered);
-      arriving += gather(next_hit, sequence, index, bounces - 1, decision + 3);
-    }
-  }
-  return reflectance.base.cwiseProduct(arriving);
-}
-
-// The mean radiance that a diffuse surface gets from the lights, by one point of one of them.
-Eigen::Vector3f PathTracer::one_light(const SurfaceHit& hit, const SampleSequence& sequence,
-                                      std::uint32_t index, std::uint32_t decision) const {
-  const std::span<const AreaLight> lights = scene_.scene().lights;
-  if (lights.empty()) return Eigen::Vector3f::Zero();
-  const auto count = static_cast<float>(lights.size());
-  const auto drawn = static_cast<std::size_t>(sequence.point(decision, index).x() * count);
-  const AreaLight& light = lights[std::min(drawn, lights.size() - 1)];
-  const auto sample = sample_light(light, hit.point_mm, sequence.point(decision + 1, index));
-  if (!sample || !RayScene::is_above(hit, sample->direction)) return Eigen::Vector3f::Zero();
-  ShadowBatch batch;
-  batch.add(hit, sample->direction * sample->distance_mm);
-  batch.trace(scene_);
-  if (batch.is_occluded[0] != 0) return Eigen::Vector3f::Zero();
-  const float cosine = hit.normal.dot(sample->direction);
-  return sample->radiance * (count * cosine / (std::numbers::pi_v<float> * sample->density));
+  std::array<LightGatherer::Path, kRound> paths;
+  for (std::size_t k = 0; k < count; ++k) paths[k] = {hits[k], indices[k]};
+  gatherer_.gather({paths.data(), count}, round.indirect.sequence(), indirect_further);
+  for (std::size_t k = 0; k < count; ++k) sum.indirect += weights[k].cwiseProduct(paths[k].arriving);
 }
 
 }  // namespace traygauge

@@ -14,7 +14,8 @@ namespace traygauge {
 namespace {
 
 constexpr std::size_t kHitPacket = 8;
-constexpr std::size_t kShadowPacket = 16;
+constexpr std::size_t kShadowPacket = 8;
+constexpr std::size_t kWideShadowPacket = 16;
 
 // A point on a triangle is off by a few units in the last place of its largest coordinate; this is 16.
 constexpr float kLeaveShare = 16.0F * 0x1p-23F;
@@ -99,6 +100,19 @@ void put_ray(Packet& packet, std::size_t i, const Ray& ray) {
   packet.mask[i] = ~0U;
   packet.id[i] = 0U;
   packet.flags[i] = 0U;
+}
+
+// Up to kLanes rays; the others of the packet are not looked at.
+template <std::size_t kLanes, class Packet, class Trace>
+void occlude_packet(std::span<const Ray> rays, std::span<std::uint8_t> is_occluded, const Trace& trace) {
+  alignas(64) std::array<int, kLanes> valid{};
+  Packet packet;
+  for (std::size_t i = 0; i < kLanes; ++i) {
+    valid[i] = i < rays.size() ? -1 : 0;
+    put_ray(packet, i, rays[std::min(i, rays.size() - 1)]);
+  }
+  trace(valid.data(), packet);
+  for (std::size_t i = 0; i < rays.size(); ++i) is_occluded[i] = packet.tfar[i] < 0.0F ? 1 : 0;
 }
 
 }  // namespace
@@ -199,17 +213,20 @@ void RayScene::intersect(std::span<const Ray> rays, std::span<SurfaceHit> hits, 
 void RayScene::occlude(std::span<const Ray> rays, std::span<std::uint8_t> is_occluded,
                        RayBundle bundle) const {
   RTCIntersectContext context = context_for(bundle);
-  for (std::size_t first = 0; first < rays.size(); first += kShadowPacket) {
-    const std::size_t count = std::min(kShadowPacket, rays.size() - first);
-    alignas(64) std::array<int, kShadowPacket> valid{};
-    RTCRay16 packet;
-    for (std::size_t i = 0; i < kShadowPacket; ++i) {
-      valid[i] = i < count ? -1 : 0;
-      put_ray(packet, i, rays[first + std::min(i, count - 1)]);
-    }
-    rtcOccluded16(valid.data(), handles_->scene, &context, &packet);
-    for (std::size_t i = 0; i < count; ++i) is_occluded[first + i] = packet.tfar[i] < 0.0F ? 1 : 0;
+  while (rays.size() > kShadowPacket) {
+    const std::size_t count = std::min(kWideShadowPacket, rays.size());
+    const auto trace = [&](const int* valid, RTCRay16& packet) {
+      rtcOccluded16(valid, handles_->scene, &context, &packet);
+    };
+    occlude_packet<kWideShadowPacket, RTCRay16>(rays.first(count), is_occluded, trace);
+    rays = rays.subspan(count);
+    is_occluded = is_occluded.subspan(count);
   }
+  if (rays.empty()) return;
+  const auto trace = [&](const int* valid, RTCRay8& packet) {
+    rtcOccluded8(valid, handles_->scene, &context, &packet);
+  };
+  occlude_packet<kShadowPacket, RTCRay8>(rays, is_occluded, trace);
 }
 
 bool RayScene::is_above(const SurfaceHit& hit, const Eigen::Vector3f& direction) {

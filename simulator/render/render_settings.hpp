@@ -9,11 +9,14 @@ struct RenderSettings {
   // Rays through a pixel's surroundings, 8 to 4096, rounded up to a multiple of 8. Fewer: noisy fine texture;
   // time grows with it.
   int samples = 8;
-  // Likewise at edges, if it is more. Fewer: jagged edges.
+  // Likewise at edges where neighbouring pixels' rays differ much, if it is more. Fewer: jagged edges.
   int edge_samples = 16;
+  // Half of the rays will do for a pixel, no edge, whose neighbours' rays differ by less than this share
+  // (standard deviation), 0 to 1; three times that is much. More: noisy fine texture; 0: never half.
+  float calm_spread = 0.03F;
   // Of each 8 rays, 1 to 8 gather light from other surfaces and the room. Fewer: noisier shade, smoothed by
   // the filter.
-  int indirect_samples = 4;
+  int indirect_samples = 6;
   // Where some of a light is hidden, this many further shadow rays for each of the rays.
   int penumbra_samples = 4;
   // Light that was scattered up to this many times before it reaches what is seen, 1 to 8.

@@ -34,7 +34,7 @@ class SampleSequence {
     const std::uint32_t seed = hash_of(seed_, decision);
     const std::uint32_t shuffled = reversed(permuted(reversed(index), seed));
     const std::uint32_t x = reversed(permuted(shuffled, hash_of(seed + 1U)));
-    const std::uint32_t y = reversed(permuted(reversed(second_dimension(shuffled)), hash_of(seed + 2U)));
+    const std::uint32_t y = reversed(permuted(second_dimension_reversed(shuffled), hash_of(seed + 2U)));
     return {unit(x), unit(y)};
   }
 
@@ -56,12 +56,15 @@ class SampleSequence {
     return x;
   }
 
-  static constexpr std::uint32_t second_dimension(std::uint32_t index) {
-    std::uint32_t result = 0;
-    for (std::uint32_t column = 1U << 31U; index != 0; index >>= 1U, column ^= column >> 1U) {
-      if ((index & 1U) != 0) result ^= column;
-    }
-    return result;
+  // Bit j of the result is the parity of those bits k of the index for which the binomial (k over j) is odd:
+  // of all k that have the bits of j (Lucas).
+  static constexpr std::uint32_t second_dimension_reversed(std::uint32_t index) {
+    index ^= (index >> 1U) & 0x55555555U;
+    index ^= (index >> 2U) & 0x33333333U;
+    index ^= (index >> 4U) & 0x0f0f0f0fU;
+    index ^= (index >> 8U) & 0x00ff00ffU;
+    index ^= index >> 16U;
+    return index;
   }
 
   static constexpr float unit(std::uint32_t x) { return static_cast<float>(x >> 8U) * 0x1p-24F; }

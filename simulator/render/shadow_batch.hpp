@@ -26,8 +26,8 @@ struct ShadowBatch {
     rays[count++] = {RayScene::leave(hit, way_mm), way_mm, kShadowEnd};
   }
 
-  void trace(const RayScene& scene) {
-    scene.occlude({rays.data(), count}, {is_occluded.data(), count}, RayBundle::coherent);
+  void trace(const RayScene& scene, RayBundle bundle = RayBundle::coherent) {
+    scene.occlude({rays.data(), count}, {is_occluded.data(), count}, bundle);
   }
 
   bool is_all_alike() const {

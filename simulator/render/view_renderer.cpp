@@ -1,6 +1,7 @@
 #include "simulator/render/view_renderer.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <stdexcept>
 #include <string>
@@ -64,13 +65,21 @@ void fill_truth(const RayScene& scene, const CameraRays& camera_rays, int y, Can
   }
 }
 
-void trace_pixel(const PathTracer& tracer, int x, int y, int samples, Canvas& canvas) {
-  const PixelLight light = tracer.trace(x, y, samples);
+PixelKind trace_pixel(const PathTracer& tracer, int x, int y, PixelKind expected, Canvas& canvas) {
+  const PixelLight light = tracer.trace(x, y, expected);
   const std::size_t at = canvas.map.index(x, y);
   canvas.view.radiance[at] = light.direct;
   canvas.indirect[at] = light.indirect;
   canvas.albedo[at] = light.albedo;
   canvas.map.is_mixed[at] = light.is_one_surface ? 0 : 1;
+  return light.kind;
+}
+
+// By the pixels to the left and above, and by whether several surfaces are near.
+PixelKind expected_kind(PixelKind left, PixelKind above, bool is_edge) {
+  if (is_edge)
+    return left == PixelKind::busy || above == PixelKind::busy ? PixelKind::busy : PixelKind::usual;
+  return left == PixelKind::calm && above == PixelKind::calm ? PixelKind::calm : PixelKind::usual;
 }
 
 }  // namespace
@@ -78,6 +87,7 @@ void trace_pixel(const PathTracer& tracer, int x, int y, int samples, Canvas& ca
 void RenderSettings::check() const {
   check_range("samples", samples, 8, 4096);
   check_range("edge_samples", edge_samples, 0, 4096);
+  check_range("calm_spread", static_cast<double>(calm_spread), 0, 1);
   check_range("indirect_samples", indirect_samples, 1, 8);
   check_range("penumbra_samples", penumbra_samples, 0, 1024);
   check_range("bounces", bounces, 1, 8);
@@ -102,16 +112,21 @@ RenderedView ViewRenderer::render(const ViewCamera& camera, const RenderSettings
 
   const bool is_sharp = !rays.has_aperture() && !rays.moves();
   const int edge_reach_px = is_sharp ? 1 : kBlurredEdgeReach_px;
-  const int edge_samples = std::max(settings.edge_samples, settings.samples);
   const int columns = (camera.width + kTileSide - 1) / kTileSide;
   const int rows = (camera.height + kTileSide - 1) / kTileSide;
   share_work(columns * rows, threads, part_of(kTruthShare, kTraceShare), [&](int tile) {
     const int x0 = tile % columns * kTileSide;
     const int y0 = tile / columns * kTileSide;
+    // Of the row above, then of this one.
+    std::array<PixelKind, kTileSide> kinds;
+    kinds.fill(PixelKind::usual);
     for (int y = y0; y < std::min(y0 + kTileSide, camera.height); ++y) {
+      PixelKind left = PixelKind::usual;
       for (int x = x0; x < std::min(x0 + kTileSide, camera.width); ++x) {
+        PixelKind& kind = kinds[static_cast<std::size_t>(x - x0)];
         const bool is_edge = is_near_edge(canvas.map, edge_reach_px, x, y);
-        trace_pixel(tracer, x, y, is_edge ? edge_samples : settings.samples, canvas);
+        kind = trace_pixel(tracer, x, y, expected_kind(left, kind, is_edge), canvas);
+        left = kind;
       }
     }
   });

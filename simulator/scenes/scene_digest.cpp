@@ -11,7 +11,7 @@ namespace traygauge {
 namespace {
 
 // Raised when the same description comes to give other pictures or another truth.
-constexpr int kGeneratorVersion = 2;
+constexpr int kGeneratorVersion = 3;
 
 // One description as text. Each structure is taken apart whole, so that a new member does not compile until
 // it is written here.
@@ -136,9 +136,10 @@ std::string digest_of(const SceneDescription& scene, const RenderSettings& setti
   const auto& [name, origin, seed, dishes, foods, card, table, tray, utensils, lamps, ambient, photography,
                views, pairs] = scene;
   digest.add(seed, dishes, foods, card, table, tray, utensils, lamps, ambient, photography, views, pairs);
-  const auto& [samples, edge_samples, indirect_samples, penumbra_samples, bounces, indirect_filter_px,
-               threads, settings_seed, view] = settings;
-  digest.add(samples, edge_samples, indirect_samples, penumbra_samples, bounces, indirect_filter_px);
+  const auto& [samples, edge_samples, calm_spread, indirect_samples, penumbra_samples, bounces,
+               indirect_filter_px, threads, settings_seed, view] = settings;
+  digest.add(samples, edge_samples, calm_spread, indirect_samples, penumbra_samples, bounces,
+             indirect_filter_px);
   return "generator " + std::to_string(kGeneratorVersion) + ", description " + digest.hash();
 }
 
