@@ -7,8 +7,8 @@ namespace {
 
 // What the renderer is compiled for, see simulator/render/CMakeLists.txt.
 bool has_processor_all() {
-#if defined(__x86_64__)
-  return static_cast<bool>(__builtin_cpu_supports("sse4.1"));
+#ifdef TRAYGAUGE_NEEDS_AVX2
+  return static_cast<bool>(__builtin_cpu_supports("avx2"));
 #else
   return true;
 #endif
@@ -18,8 +18,8 @@ bool has_processor_all() {
 
 int main(int argument_count, char** arguments) {
   if (!has_processor_all()) {
-    std::cerr << "traygauge-simulate: this processor lacks SSE 4.1, which the renderer needs; run it on one "
-                 "from 2008 or later\n";
+    std::cerr << "traygauge-simulate: this processor lacks AVX2, which the renderer was built for; run it on "
+                 "one from 2015 or later, or build it with -DTRAYGAUGE_AVX2=OFF\n";
     return traygauge::kExitWrongUse;
   }
   return traygauge::run_simulate(argument_count, arguments, std::cout, std::cerr);
