@@ -10,6 +10,7 @@ namespace traygauge {
 namespace {
 
 constexpr double kNoise = 3.0;  // grey values
+constexpr double kFaintContrast = 0.1;
 const CardModelSize kCard{85.60, 53.98, 0.8};
 const double kFocalPx = render_lens().pinhole.mean_focal_px();
 
@@ -110,6 +111,20 @@ TEST_F(CardAlignmentTest, TheMirrorPoseIsNotTakenForTheCardsWhereItIsAheadForAWh
     const Pose pose = look_at_card(kCard, distance_mm, tilt_deg, azimuth_deg, roll_deg, pixel);
     expect_close(noisy(pose, seed, 0.6), pose, 0.1, 0.5, "seed " + std::to_string(seed));
   }
+}
+
+// A print of little contrast to the grey of its ground, in noise of twice that.
+TEST_F(CardAlignmentTest, AFaintPrintIsFound) {
+  const Pose pose = usual_pose();
+  CardRender render = render_card(pose, kCard, print(), 0.5);
+  cv::Mat1b faint;
+  render.gray.convertTo(faint, CV_8U, kFaintContrast, 128.0 * (1.0 - kFaintContrast));
+  faint.copyTo(render.gray, render.labels == kCardLabel);
+  add_noise(render.gray, 8.0, 3);
+  CardAlignment alignment;
+  ASSERT_TRUE(aligner_.align(render, alignment).ok()) << "correlation " << alignment.correlation;
+  EXPECT_LT(alignment.correlation, 0.5);
+  expect_close(render, pose, 0.3, 0.6);
 }
 
 // 90 px wide: a sixteenth of its pixels would not hold the pose.
