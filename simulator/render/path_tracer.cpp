@@ -78,13 +78,16 @@ PathTracer::PathTracer(const RayScene& scene, const CameraRays& rays, const Rend
     : scene_(scene),
       rays_(rays),
       settings_(settings),
-      few_(static_cast<std::uint32_t>(settings.samples + 7) / 8 * 4),
-      usual_(2 * few_),
-      most_(std::max(usual_,
-                     (static_cast<std::uint32_t>(settings.edge_samples) + kRound - 1) / kRound * kRound)),
+      few_(in_rounds(settings.samples) / 2),
+      usual_(in_rounds(settings.samples)),
+      most_(std::max(usual_, in_rounds(settings.edge_samples))),
       gatherer_(scene, settings.bounces - 1),
       quadratures_(scene.scene().lights.begin(), scene.scene().lights.end()),
       seed_(hash_of(hash_of(settings.seed), static_cast<std::uint32_t>(settings.view))) {}
+
+std::uint32_t PathTracer::in_rounds(int rays) {
+  return (static_cast<std::uint32_t>(rays) + kRound - 1) / kRound * kRound;
+}
 
 PixelLight PathTracer::trace(int x, int y, PixelKind expected) const {
   Sum sum;

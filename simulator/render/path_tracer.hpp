@@ -47,6 +47,7 @@ class PathTracer {
 
   struct Sum;
 
+  static std::uint32_t in_rounds(int rays);  // rounded up to whole rounds
   void trace_round(Round& round, const CameraRays::Pixel& pixel, Sum& sum) const;
   void aim(Round& round, const CameraRays::Pixel& pixel) const;
   void look_for_steps(const Round& round, Sum& sum) const;
