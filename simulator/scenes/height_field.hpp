@@ -30,6 +30,7 @@ struct GridFrame {
 GridFrame frame_around(double reach_mm, double step_mm);
 
 struct HeightField {
+  HeightField() = default;  // without nodes
   explicit HeightField(const GridFrame& frame_)
       : frame(frame_),
         height_mm(frame_.size(), 0.0F),

@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "simulator/render/shared_work.hpp"
 #include "simulator/scenes/food_material.hpp"
 #include "simulator/scenes/height_mesh.hpp"
 #include "simulator/scenes/mesh_columns.hpp"
@@ -82,14 +83,28 @@ HeightField paint(const Order& order, const DishShell& shell, double step_mm) {
   return field;
 }
 
-std::vector<HeightField> paint_all(const std::vector<Order>& orders, const DishShell& shell, double step_mm) {
-  std::vector<HeightField> fields;
-  for (const Order& order : orders) {
-    HeightField field = paint(order, shell, step_mm);
-    for (const HeightField& earlier : fields) cut_away(field, earlier);
-    fields.push_back(std::move(field));
+// Each food on both grids, that which is meshed and that which is summed; each gives way to earlier ones.
+struct PaintedFoods {
+  std::vector<HeightField> meshed;
+  std::vector<HeightField> summed;
+};
+
+PaintedFoods paint_all(const std::vector<Order>& orders, const DishShell& shell) {
+  PaintedFoods painted;
+  painted.meshed.resize(orders.size());
+  painted.summed.resize(orders.size());
+  share_work(2 * static_cast<int>(orders.size()), 0, {}, [&](int number) {
+    const auto i = static_cast<std::size_t>(number / 2);
+    if (number % 2 == 0)
+      painted.summed[i] = paint(orders[i], shell, kCheckStepMm);  // the longer work first
+    else
+      painted.meshed[i] = paint(orders[i], shell, kStepMm);
+  });
+  for (std::vector<HeightField>* fields : {&painted.meshed, &painted.summed}) {
+    for (std::size_t i = 1; i < fields->size(); ++i)
+      for (std::size_t k = 0; k < i; ++k) cut_away((*fields)[i], (*fields)[k]);
   }
-  return fields;
+  return painted;
 }
 
 // Volume above the dish by summing columns of a grid that nothing else uses.
@@ -216,15 +231,17 @@ std::vector<ServedFood> serve_foods(const SceneDescription& scene, int dish, con
     served.push_back(std::move(scan));
     served.back().name = food.name;
   }
-  std::vector<HeightField> fields = paint_all(orders, shell, kStepMm);
-  std::vector<HeightField> checks = paint_all(orders, shell, kCheckStepMm);
-  for (std::size_t i = 0; i < orders.size(); ++i) {
-    ServedFood food = serve(orders[i], std::move(fields[i]), scene, shell);
-    food.check_volume_ml = kMlPerMm3 * summed_volume_mm3(orders[i], std::move(checks[i]), shell);
+  PaintedFoods painted = paint_all(orders, shell);
+  const std::size_t scans = served.size();
+  served.resize(scans + orders.size());
+  share_work(static_cast<int>(orders.size()), 0, {}, [&](int number) {
+    const auto i = static_cast<std::size_t>(number);
+    ServedFood& food = served[scans + i];
+    food = serve(orders[i], std::move(painted.meshed[i]), scene, shell);
+    food.check_volume_ml = kMlPerMm3 * summed_volume_mm3(orders[i], std::move(painted.summed[i]), shell);
     food.object.label = static_cast<std::uint8_t>(labels[i]);
     food.name = orders[i].food->name;
-    served.push_back(std::move(food));
-  }
+  });
   for (ServedFood& food : served) {
     food.dish = dish;
     require_agreement(food);
