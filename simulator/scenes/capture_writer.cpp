@@ -163,7 +163,7 @@ void update_description(const fs::path& folder, const SceneDescription& scene) {
 void render_capture(const SceneDescription& scene, const fs::path& folder, const RenderSettings& settings,
                     const std::function<void(double share)>& progress) {
   const std::string digest = digest_of(scene, settings);
-  LaidScene laid(scene);
+  LaidScene laid(scene, settings.threads);
   UnfinishedFolder unfinished(folder);
   const fs::path& out = unfinished.path();
   write_png(out / "card.png", to_gray(laid.card_print()).frame());

@@ -89,11 +89,11 @@ struct PaintedFoods {
   std::vector<HeightField> summed;
 };
 
-PaintedFoods paint_all(const std::vector<Order>& orders, const DishShell& shell) {
+PaintedFoods paint_all(const std::vector<Order>& orders, const DishShell& shell, int threads) {
   PaintedFoods painted;
   painted.meshed.resize(orders.size());
   painted.summed.resize(orders.size());
-  share_work(2 * static_cast<int>(orders.size()), 0, {}, [&](int number) {
+  share_work(2 * static_cast<int>(orders.size()), threads, {}, [&](int number) {
     const auto i = static_cast<std::size_t>(number / 2);
     if (number % 2 == 0)
       painted.summed[i] = paint(orders[i], shell, kCheckStepMm);  // the longer work first
@@ -213,7 +213,7 @@ void require_agreement(const ServedFood& food) {
 }
 
 std::vector<ServedFood> serve_foods(const SceneDescription& scene, int dish, const DishShell& shell,
-                                    int first_label) {
+                                    int first_label, int threads) {
   std::vector<Order> orders;
   std::vector<int> labels;
   std::vector<ServedFood> served;
@@ -231,10 +231,10 @@ std::vector<ServedFood> serve_foods(const SceneDescription& scene, int dish, con
     served.push_back(std::move(scan));
     served.back().name = food.name;
   }
-  PaintedFoods painted = paint_all(orders, shell);
+  PaintedFoods painted = paint_all(orders, shell, threads);
   const std::size_t scans = served.size();
   served.resize(scans + orders.size());
-  share_work(static_cast<int>(orders.size()), 0, {}, [&](int number) {
+  share_work(static_cast<int>(orders.size()), threads, {}, [&](int number) {
     const auto i = static_cast<std::size_t>(number);
     ServedFood& food = served[scans + i];
     food = serve(orders[i], std::move(painted.meshed[i]), scene, shell);

@@ -35,8 +35,8 @@ void require_agreement(const ServedFood& food);
 // All foods of one dish, in their order; where two want one place the earlier stands there. `first_label`: of
 // the food that comes first in scene.foods. Throws InputError for a mesh that cannot be read,
 // std::invalid_argument for a kind or a level that does not exist, a scanned food that reaches into another
-// food, and volumes that contradict each other.
+// food, and volumes that contradict each other. `threads`, 0 for one a core, change nothing but the time.
 std::vector<ServedFood> serve_foods(const SceneDescription& scene, int dish, const DishShell& shell,
-                                    int first_label);
+                                    int first_label, int threads = 0);
 
 }  // namespace traygauge

@@ -22,9 +22,9 @@ Eigen::Isometry3d moved(const Eigen::Isometry3d& pose, double x, double y, doubl
 
 }  // namespace
 
-LaidScene::LaidScene(SceneDescription description) : description_(std::move(description)) {
+LaidScene::LaidScene(SceneDescription description, int threads) : description_(std::move(description)) {
   for (const LaidDish& dish : description_.dishes) shells_.emplace_back(dish.dish);
-  add_dishes();
+  add_dishes(threads);
   add_card();
   add_tray();
   add_utensils();
@@ -32,7 +32,7 @@ LaidScene::LaidScene(SceneDescription description) : description_(std::move(desc
   scene_.ambient = description_.ambient.cast<float>();
 }
 
-void LaidScene::add_dishes() {
+void LaidScene::add_dishes(int threads) {
   for (std::size_t i = 0; i < description_.dishes.size(); ++i) {
     const LaidDish& dish = description_.dishes[i];
     const Eigen::Isometry3d pose = world_from_dish(dish);
@@ -40,7 +40,8 @@ void LaidScene::add_dishes() {
                        static_cast<std::uint8_t>(dish.dish.label)};
     transform(object.mesh, moved(pose, 0.0, 0.0, kClearanceMm));
     scene_.objects.push_back(std::move(object));
-    for (ServedFood& food : serve_foods(description_, static_cast<int>(i), shells_[i], kFirstFoodLabel)) {
+    for (ServedFood& food :
+         serve_foods(description_, static_cast<int>(i), shells_[i], kFirstFoodLabel, threads)) {
       transform(food.object.mesh, moved(Eigen::Isometry3d::Identity(), 0.0, 0.0, kClearanceMm));
       scene_.objects.push_back(std::move(food.object));
       food.object = SceneObject{{}, nullptr, scene_.objects.back().label};

@@ -17,7 +17,8 @@ using FoodTruth = ServedFood;
 class LaidScene {
  public:
   // Throws InputError for a mesh that cannot be read, std::invalid_argument for foods that cannot be.
-  explicit LaidScene(SceneDescription description);
+  // `threads`, 0 for one a core, change nothing but the time.
+  explicit LaidScene(SceneDescription description, int threads = 0);
 
   const SceneDescription& description() const { return description_; }
   // In the order of their labels; their meshes are in the scene.
@@ -29,7 +30,7 @@ class LaidScene {
   const Scene& scene_of(const Photograph& view);
 
  private:
-  void add_dishes();
+  void add_dishes(int threads);
   void add_card();
   void add_tray();
   void add_utensils();

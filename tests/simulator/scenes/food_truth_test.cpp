@@ -72,6 +72,26 @@ TEST(FoodTruth, FoodsThatMeetShareNoVolume) {
   EXPECT_NEAR(foods[1].check_volume_ml / foods[1].volume_ml, 1.0, kAgreement);
 }
 
+TEST(FoodTruth, IsTheSameForAnyNumberOfThreads) {
+  SceneDescription scene = one_food(DishStyle::dinner, *find_food_kind("fries"), 8);
+  for (const double shift_mm : {20.0, 40.0}) {
+    scene.foods.push_back(scene.foods.front());
+    scene.foods.back().seed += scene.foods.size();
+    scene.foods.back().centre_mm.x() += shift_mm;
+  }
+  const DishShell shell(scene.dishes.front().dish);
+  const auto alone = serve_foods(scene, 0, shell, 2, 1);
+  const auto together = serve_foods(scene, 0, shell, 2, 3);
+  ASSERT_EQ(alone.size(), 3U);
+  ASSERT_EQ(together.size(), alone.size());
+  for (std::size_t i = 0; i < alone.size(); ++i) {
+    EXPECT_EQ(together[i].object.label, alone[i].object.label);
+    EXPECT_EQ(together[i].volume_ml, alone[i].volume_ml);
+    EXPECT_EQ(together[i].check_volume_ml, alone[i].check_volume_ml);
+    EXPECT_EQ(together[i].object.mesh.vertices, alone[i].object.mesh.vertices);
+  }
+}
+
 TEST(FoodTruth, VolumesThatContradictEachOtherAreRefused) {
   ServedFood food;
   food.name = "peas";
