@@ -16,7 +16,7 @@ struct RenderSettings {
   float calm_spread = 0.03F;
   // Of each 8 rays, 1 to 8 gather light from other surfaces and the room. Fewer: noisier shade, smoothed by
   // the filter.
-  int indirect_samples = 6;
+  int indirect_samples = 4;
   // Where some of a light is hidden, this many further shadow rays for each of the rays.
   int penumbra_samples = 4;
   // Light that was scattered up to this many times before it reaches what is seen, 1 to 8.

@@ -16,6 +16,7 @@ namespace traygauge {
 namespace {
 
 constexpr int kTileSide = 16;
+constexpr int kStripRows = 32;  // smoothed at a time
 constexpr int kBlurredEdgeReach_px = 3;
 constexpr double kTruthShare = 0.03;  // of the time
 constexpr double kTraceShare = 0.95;  // until then; the rest is smoothing
@@ -79,7 +80,8 @@ PixelKind trace_pixel(const PathTracer& tracer, int x, int y, PixelKind expected
 PixelKind expected_kind(PixelKind left, PixelKind above, bool is_edge) {
   if (is_edge)
     return left == PixelKind::busy || above == PixelKind::busy ? PixelKind::busy : PixelKind::usual;
-  return left == PixelKind::calm && above == PixelKind::calm ? PixelKind::calm : PixelKind::usual;
+  const bool is_calm = left == PixelKind::calm || above == PixelKind::calm;
+  return is_calm && left != PixelKind::busy && above != PixelKind::busy ? PixelKind::calm : PixelKind::usual;
 }
 
 }  // namespace
@@ -131,11 +133,16 @@ RenderedView ViewRenderer::render(const ViewCamera& camera, const RenderSettings
     }
   });
 
-  share_work(camera.height, threads, part_of(kTraceShare, 1.0), [&](int y) {
-    for (int x = 0; x < camera.width; ++x) {
-      const std::size_t at = canvas.map.index(x, y);
-      canvas.view.radiance[at] += canvas.albedo[at].cwiseProduct(
-          smooth_at(canvas.map, canvas.indirect, settings.indirect_filter_px, x, y));
+  const int strips = (camera.height + kStripRows - 1) / kStripRows;
+  share_work(strips, threads, part_of(kTraceShare, 1.0), [&](int strip) {
+    const int first = strip * kStripRows;
+    const int end = std::min(first + kStripRows, camera.height);
+    const LightSmoother smoother(canvas.map, canvas.indirect, settings.indirect_filter_px, first, end);
+    for (int y = first; y < end; ++y) {
+      for (int x = 0; x < camera.width; ++x) {
+        const std::size_t at = canvas.map.index(x, y);
+        canvas.view.radiance[at] += canvas.albedo[at].cwiseProduct(smoother.at(x, y));
+      }
     }
   });
   return std::move(canvas.view);

@@ -31,6 +31,10 @@ class PatternedSurface : public Material {
       : local_from_world_(local_from_world.cast<float>()), kind_(kind) {
     Draws draws(seed, "surface");
     seed_ = draws.seed();
+    for (std::size_t i = 0; i < scratch_ways_.size(); ++i) {
+      const float angle = 6.28318F * hash_share(hash_cell(static_cast<int>(i), 3, 3, seed_));
+      scratch_ways_[i] = {std::cos(angle), std::sin(angle)};
+    }
     const auto choose = [&](std::span<const std::array<std::uint32_t, 3>> choices) {
       const auto& colours = draws.pick(choices);
       for (std::size_t i = 0; i < 3; ++i) colours_[i] = linear_colour(colours[i]);
@@ -175,10 +179,10 @@ class PatternedSurface : public Material {
     Eigen::Vector3f base =
         blend(colours_[0], colours_[1], smooth_step(-0.7F, 0.7F, fractal_noise(at / 45.0F, seed_, 4)));
     base *= 1.0F + 0.10F * fractal_noise(at / 1.2F, seed_ + 2U, 2);
-    for (std::uint32_t i = 0; i < 3; ++i) {
-      const float angle = 6.28318F * hash_share(hash_cell(static_cast<int>(i), 3, 3, seed_));
-      const float along = at.x() * std::cos(angle) + at.y() * std::sin(angle);
-      const float across = at.y() * std::cos(angle) - at.x() * std::sin(angle);
+    for (std::size_t i = 0; i < scratch_ways_.size(); ++i) {
+      const Eigen::Vector2f& way = scratch_ways_[i];
+      const float along = at.x() * way.x() + at.y() * way.y();
+      const float across = at.y() * way.x() - at.x() * way.y();
       const float scratch = gradient_noise({along / 38.0F, across / 1.0F, static_cast<float>(i)}, seed_ + 9U);
       base = blend(base, colours_[2] * 1.3F, 0.6F * smooth_step(0.5F, 0.62F, scratch));
     }
@@ -212,6 +216,7 @@ class PatternedSurface : public Material {
     return coated(base, 0.0F, 0.9F);
   }
 
+  std::array<Eigen::Vector2f, 3> scratch_ways_;
   Eigen::Isometry3f local_from_world_;
   SurfaceKind kind_;
   std::uint32_t seed_ = 0;
@@ -220,10 +225,9 @@ class PatternedSurface : public Material {
 
 class GlazeMaterial : public Material {
  public:
-  GlazeMaterial(Glaze glaze, const DishShell& shell, std::uint64_t seed,
-                const Eigen::Isometry3d& dish_from_world)
+  GlazeMaterial(Glaze glaze, DishShell shell, std::uint64_t seed, const Eigen::Isometry3d& dish_from_world)
       : glaze_(std::move(glaze)),
-        shell_(shell),
+        shell_(std::move(shell)),
         dish_from_world_(dish_from_world.cast<float>()),
         base_(linear_colour(glaze_.srgb)),
         decoration_(linear_colour(glaze_.decoration_srgb)) {

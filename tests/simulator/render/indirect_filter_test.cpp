@@ -37,10 +37,13 @@ struct Table {
 
   bool keeps_sides_apart() const {
     for (int x = 0; x < kSide; ++x) {
-      if (std::abs(smooth_at(map, light, 6.0F, x, 20).x() - (is_right(x) ? 1.0F : 3.0F)) > 1e-5F)
-        return false;
+      if (std::abs(smooth_at(6.0F, x, 20).x() - (is_right(x) ? 1.0F : 3.0F)) > 1e-5F) return false;
     }
     return true;
+  }
+
+  Eigen::Vector3f smooth_at(float radius_px, int x, int y) const {
+    return LightSmoother(map, light, radius_px, y, y + 1).at(x, y);
   }
 
   SurfaceMap map{kSide, kSide};
@@ -66,7 +69,7 @@ TEST(IndirectFilter, LeavesMixedPixelsAndNoiseWithoutRadiusAsTheyAre) {
   table.change_right([&](std::size_t i) { table.map.is_mixed[i] = 1; });
   EXPECT_TRUE(table.keeps_sides_apart());
   const Table plain;
-  EXPECT_EQ(smooth_at(plain.map, plain.light, 0.0F, 19, 20), plain.light[plain.map.index(19, 20)]);
+  EXPECT_EQ(plain.smooth_at(0.0F, 19, 20), plain.light[plain.map.index(19, 20)]);
 }
 
 TEST(IndirectFilter, KnowsEdges) {
@@ -101,7 +104,7 @@ TEST(IndirectFilter, NoiseFallsWithTheWindow) {
   for (int trial = 0; trial < 200; ++trial) {
     for (Eigen::Vector3f& value : table.light) value.setConstant(noise(random));
     for (const int place : {10, 30}) {
-      const auto off = static_cast<double>(smooth_at(table.map, table.light, 6.0F, place, place).x()) - 2.0;
+      const auto off = static_cast<double>(table.smooth_at(6.0F, place, place).x()) - 2.0;
       square += off * off;
       ++count;
     }
