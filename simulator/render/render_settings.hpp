@@ -13,12 +13,12 @@ struct RenderSettings {
   int edge_samples = 16;
   // Half of the rays will do for a pixel, no edge, whose neighbours' rays differ by less than this share
   // (standard deviation), 0 to 1; three times that is much. More: noisy fine texture; 0: never half.
-  float calm_spread = 0.03F;
+  float calm_spread = 0.05F;
   // Of each 8 rays, 1 to 8 gather light from other surfaces and the room. Fewer: noisier shade, smoothed by
   // the filter.
   int indirect_samples = 4;
   // Where some of a light is hidden, this many further shadow rays for each of the rays.
-  int penumbra_samples = 4;
+  int penumbra_samples = 3;
   // Light that was scattered up to this many times before it reaches what is seen, 1 to 8.
   int bounces = 2;
   // Light from other surfaces is smoothed over like surface within this many pixels; 0: not.

@@ -25,6 +25,9 @@ class SurfaceResponse {
   bool is_metal() const { return is_metal_; }
   // Whether lights show in it by their shape.
   bool is_sharp() const { return is_metal_ || alpha_ < kSharpAlpha; }
+  // Of the rays that meet it, the share that is followed on into the mirror: half where the mirror is little
+  // of what the viewer sees. Its brightest, the lights, are drawn by their own places as well.
+  float mirrored_share() const { return is_metal_ || to_viewer_share_ < kMostlyBase ? 1.0F : 0.5F; }
 
   // Share of evenly arriving light that the base returns.
   Eigen::Vector3f base_albedo() const { return to_viewer_share_ * base_; }
@@ -51,6 +54,7 @@ class SurfaceResponse {
 
  private:
   static constexpr float kSharpAlpha = 0.3F;
+  static constexpr float kMostlyBase = 0.9F;
 
   Eigen::Vector3f fresnel(float cosine) const;
   float density_of(float half_cosine) const;

@@ -71,19 +71,35 @@ float fractal_noise(const Eigen::Vector3f& point, std::uint32_t seed, int octave
 }
 
 NearestCell nearest_cell(const Eigen::Vector3f& point, std::uint32_t seed) {
+  // A layer's nine cells, and its middle again up to whole lanes.
+  constexpr std::size_t kCells = 9;
+  constexpr std::size_t kLanes = 16;
+  constexpr std::array<int, kLanes> kStepX = {0, -1, 1, 0, -1, 1, 0, -1, 1};
+  constexpr std::array<int, kLanes> kStepY = {0, 0, 0, -1, -1, -1, 1, 1, 1};
   const Eigen::Vector3f floor = point.array().floor().matrix();
   const Eigen::Vector3i cell = floor.cast<int>();
+  const float up = point.z() - floor.z();
   NearestCell nearest{std::numeric_limits<float>::max(), 0};
-  for (int dz = -1; dz <= 1; ++dz) {
-    for (int dy = -1; dy <= 1; ++dy) {
-      for (int dx = -1; dx <= 1; ++dx) {
-        const Eigen::Vector3i at = cell + Eigen::Vector3i(dx, dy, dz);
-        const std::uint32_t id = hash_cell(at.x(), at.y(), at.z(), seed);
-        const Eigen::Vector3f offset(hash_share(id), hash_share(id * 0x9E3779B9U),
-                                     hash_share(id * 0x85EBCA6BU));
-        const float squared = (at.cast<float>() + offset - point).squaredNorm();
-        if (squared < nearest.distance) nearest = {squared, id};
-      }
+  for (const int dz : {0, -1, 1}) {
+    const float apart = dz == 0 ? 0.0F : dz < 0 ? up : 1.0F - up;
+    if (apart * apart >= nearest.distance) continue;
+    std::array<std::uint32_t, kLanes> ids{};
+    std::array<float, kLanes> squared{};
+    for (std::size_t i = 0; i < kLanes; ++i) {
+      const int x = cell.x() + kStepX[i];
+      const int y = cell.y() + kStepY[i];
+      const int z = cell.z() + dz;
+      const std::uint32_t id = hash_cell(x, y, z, seed);
+      const float off_x = static_cast<float>(x) + hash_share(id) - point.x();
+      const float off_y = static_cast<float>(y) + hash_share(id * 0x9E3779B9U) - point.y();
+      const float off_z = static_cast<float>(z) + hash_share(id * 0x85EBCA6BU) - point.z();
+      ids[i] = id;
+      squared[i] = off_x * off_x + off_y * off_y + off_z * off_z;
+    }
+    for (std::size_t i = 0; i < kCells; ++i) {
+      const bool is_nearer = squared[i] < nearest.distance;
+      nearest.distance = is_nearer ? squared[i] : nearest.distance;
+      nearest.id = is_nearer ? ids[i] : nearest.id;
     }
   }
   nearest.distance = std::sqrt(nearest.distance);

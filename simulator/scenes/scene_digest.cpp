@@ -11,7 +11,7 @@ namespace traygauge {
 namespace {
 
 // Raised when the same description comes to give other pictures or another truth.
-constexpr int kGeneratorVersion = 4;
+constexpr int kGeneratorVersion = 5;
 
 // One description as text. Each structure is taken apart whole, so that a new member does not compile until
 // it is written here.
