@@ -16,7 +16,7 @@ struct UncertaintyParams {
   double found_outline_mm = 0.55;
   // Of the volume: matching errors that follow the food, shine and roughness. And of the place of walls
   // within an item, all of which are matched too far in or out together. Both from the spread of the errors
-  // of rendered captures, tests/evaluation/README.md.
+  // of rendered captures, tests/evaluation/experiments.md.
   double surface_share = 0.006;
   double wall_mm = 0.32;
   // Of the volume, times the squared share that was filled instead of matched: the wider a gap, the less its
