@@ -76,14 +76,13 @@ void visit_volume_parameters(Params& best, Visit&& visit) {
   visit("best.agreement.min_share", best.agreement.min_share, Range{0, 1});
   visit("best.agreement.step", best.agreement.step, Range{1, 64});
   visit("best.uncertainty.disparity_bias_px", sigma.disparity_bias_px, Range{0, 100});
+  visit("best.uncertainty.height_mm", sigma.height_mm, Range{0, 100});
   visit("best.uncertainty.hidden_share", sigma.hidden_share, Range{0, 100});
   visit("best.uncertainty.outline_px", sigma.outline_px, Range{0, 100});
   visit("best.uncertainty.found_outline_mm", sigma.found_outline_mm, Range{0, 100});
-  visit("best.uncertainty.surface_share", sigma.surface_share, Range{0, 100});
   visit("best.uncertainty.wall_mm", sigma.wall_mm, Range{0, 100});
   visit("best.uncertainty.filled_share", sigma.filled_share, Range{0, 100});
   visit("best.uncertainty.round_share", sigma.round_share, Range{0, 100});
-  visit("best.uncertainty.dish_height_mm", sigma.dish_height_mm, Range{0, 100});
   visit("best.pipeline.summit_margin_mm", pipeline.summit_margin_mm, Range{0, 400});
   visit("best.pipeline.min_top_mm", pipeline.min_top_mm, Range{0, 400});
   visit("best.pipeline.min_rim_inlier_share", pipeline.min_rim_inlier_share, Range{0, 1});

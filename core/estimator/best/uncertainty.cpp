@@ -58,13 +58,11 @@ double estimate_sigma_ml(const UncertaintyInput& input, const TableCameras& came
   const double wall_mm3 = params.wall_mm * item.wall_mm2;
   const double unmatched_share =
       input.is_round ? params.round_share : params.filled_share * std::pow(1.0 - input.matched_share, 2);
-  const double variance_mm6 = item.area_mm2 * item.area_mm2 *
-                                  (cameras_mm * cameras_mm + matching_mm * matching_mm +
-                                   params.dish_height_mm * params.dish_height_mm) +
-                              std::pow(params.hidden_share * kMm3PerMl * item.hidden_volume_ml, 2) +
-                              edge_mm3 * edge_mm3 + wall_mm3 * wall_mm3 +
-                              std::pow(params.surface_share * volume_mm3, 2) +
-                              std::pow(unmatched_share * volume_mm3, 2);
+  const double variance_mm6 =
+      item.area_mm2 * item.area_mm2 *
+          (cameras_mm * cameras_mm + matching_mm * matching_mm + params.height_mm * params.height_mm) +
+      std::pow(params.hidden_share * kMm3PerMl * item.hidden_volume_ml, 2) + edge_mm3 * edge_mm3 +
+      wall_mm3 * wall_mm3 + std::pow(unmatched_share * volume_mm3, 2);
   return std::sqrt(variance_mm6) / kMm3PerMl;
 }
 

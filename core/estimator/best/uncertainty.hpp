@@ -6,26 +6,24 @@
 
 namespace traygauge {
 
-// Standard deviations of what the covariance of the cameras does not know.
+// Standard deviations of what the covariance of the cameras does not know. What they weigh together is fitted
+// to the errors of rendered captures, tests/evaluation/experiments.md.
 struct UncertaintyParams {
   double disparity_bias_px = 0.03;  // of an item's mean disparity: smooth skin, gloss, slanted windows
-  double hidden_share = 0.2;        // of the volume that no view sees
-  double outline_px = 0.95;         // of an item's outline, all along it: about a sample of the grid
+  // Of an item's whole surface over the dish: how the dish was fired and glazed, and what follows the food.
+  double height_mm = 0.145;
+  double hidden_share = 0.18;  // of the volume that no view sees
+  double outline_px = 0.78;    // of an item's outline, all along it: about a sample of the grid
   // The same where a segmentation found it, beside that: what it moves the volumes of rendered meals by, 68
   // of 100 by less.
   double found_outline_mm = 0.55;
-  // Of the volume: matching errors that follow the food, shine and roughness. And of the place of walls
-  // within an item, all of which are matched too far in or out together. Both from the spread of the errors
-  // of rendered captures, tests/evaluation/experiments.md.
-  double surface_share = 0.006;
-  double wall_mm = 0.32;
+  double wall_mm = 0.23;  // of walls within an item, which are matched too far in or out together
   // Of the volume, times the squared share that was filled instead of matched: the wider a gap, the less its
   // rims say about it.
-  double filled_share = 0.2;
+  double filled_share = 0.35;
   // Of the volume of a round body, instead: its height and width are those of its outlines. From fruit
   // rendered for this, and from how closed and column volume of scanned fruit differ.
   double round_share = 0.05;
-  double dish_height_mm = 0.10;  // of the dish's inner surface: firing, glaze, feet
 };
 
 // What an item's uncertainty follows from.
