@@ -31,8 +31,8 @@ struct BestPipelineParams {
   // Of an item's samples; fewer: its volume is doubtful. Food with texture reaches 0.65 and more between
   // 10 and 30 degrees, a banana 0.6.
   double min_matched_share = 0.62;
-  // Of an item's sigma in its volume; above, its volume is doubtful. One volume in seventy of rendered meals.
-  double max_sigma_share = 0.055;
+  // Of an item's sigma in its volume; above, its volume is doubtful. One volume in thirty of rendered meals.
+  double max_sigma_share = 0.063;
   std::size_t max_outline_points = 1024;   // of one dish in one view: a contour of 8 sides a point
   std::size_t max_contour_sides = 8192;    // of one dish in one view, twice what a round one of 1600 px has
   std::size_t max_height_cells = 180'000;  // of a dish's height map: 360 × 360 mm at 0.85 mm
