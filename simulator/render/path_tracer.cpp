@@ -267,13 +267,14 @@ void PathTracer::add_mirrored(Round& round, Sum& sum) const {
   for (std::size_t i = 0; i < round.responses.size(); ++i) {
     const SurfaceResponse& response = round.responses[i];
     if (!response.has_coat()) continue;
-    const bool is_halved = response.mirrored_share() < 1.0F;
+    const float share = response.mirrored_share();
+    const bool is_halved = share < 1.0F;
     if (is_halved && round.of_hit[i] >= round.size / 2) continue;
     const std::uint32_t index = round.index(i) - (is_halved ? round.first / 2 : 0);
     auto sample = response.sample_coat(round.sequence.point(mirrored_way, index));
     if (!sample || !RayScene::is_above(round.hit(i), sample->to_light)) continue;
-    sample->weight /= response.mirrored_share();
-    sample->density *= response.mirrored_share();
+    sample->weight /= share;
+    sample->density *= share;
     rays[count] = {RayScene::leave(round.hit(i), sample->to_light), sample->to_light};
     samples[count] = *sample;
     is_sharp[count] = response.is_sharp();
