@@ -13,6 +13,12 @@ inline constexpr Disparity kNoDisparity = std::numeric_limits<Disparity>::min();
 inline constexpr int kMaxDisparityPx =
     std::numeric_limits<Disparity>::max() / kDisparityScale - 1;  // either sign
 
+// To the nearest pixel.
+constexpr int whole_px(int disparity) {
+  return (disparity + kDisparityScale / 2) >> 4;
+}
+static_assert(kDisparityScale == 16);
+
 // Inclusive, in whole pixels.
 struct DisparityRange {
   int min_px = 0;

@@ -5,6 +5,7 @@
 
 #include "core/stereo/median.hpp"
 #include "core/stereo/symmetric_census.hpp"
+#include "core/surface/outline_lean.hpp"
 
 namespace traygauge {
 namespace {
@@ -193,10 +194,25 @@ void filter_level(TwoViewSurfaceWorkspace& workspace, std::size_t level, int rad
 }
 
 // Where view `v`'s camera stands over a row of a level.
-RowSight sight_of(const PlaneRectification& grid, std::size_t v, std::size_t level, int row) {
+CameraOverRow camera_over(const PlaneRectification& grid, std::size_t v, std::size_t level, int row) {
   const double per_mm = 1.0 / (grid.column_step_mm() * static_cast<double>(1 << level));
   const int full_row = std::min(row << level, grid.rows() - 1);
   return {grid.row(full_row).foot_mm[v] * per_mm, grid.camera_height_mm(static_cast<int>(v)) * per_mm};
+}
+
+void fill_view(const std::array<View, 2>& views, const PlaneRectification& grid, std::size_t v,
+               std::size_t level, const GapParams& params, ImageView<Disparity> disparity) {
+  const ImageView<const std::uint8_t> labels = views[v].labels[level];
+  const auto width = static_cast<std::size_t>(disparity.width);
+  for (int y = 0; y < disparity.height; ++y) {
+    const RowOfViews row{{labels.row(y), width},
+                         {views[1 - v].labels[level].row(y), width},
+                         v == 0 ? 1 : -1,
+                         camera_over(grid, v, level, y),
+                         camera_over(grid, 1 - v, level, y)};
+    const RectifiedOutlineLean outline(grid, labels, static_cast<int>(level), static_cast<int>(v), y);
+    fill_gaps(row, outline, params, {disparity.row(y), width});
+  }
 }
 
 // Disparities that both views agree on, gaps filled, as real numbers for the refinement.
@@ -218,11 +234,7 @@ void prepare_surfaces(TwoViewSurfaceWorkspace& workspace, const PlaneRectificati
         trusted.at(x, y) = filtered.at(x >> level, y >> level) == kNoDisparity ? 0 : 1;
       }
     }
-    for (int y = 0; y < filtered.height; ++y) {
-      const auto width = static_cast<std::size_t>(filtered.width);
-      fill_gaps({views[v].labels[level].row(y), width}, sight_of(grid, v, level, y), params.consistency,
-                {filtered.row(y), width});
-    }
+    fill_view(views, grid, v, level, params.gaps, filtered);
     extend_known(filtered);
     const ImageView<float> surface = as_picture(views[v].surface, full);
     const double scale = static_cast<double>(1 << level) / kDisparityScale;

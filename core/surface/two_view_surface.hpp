@@ -12,6 +12,7 @@
 #include "core/image/pyramid.hpp"
 #include "core/rectification/plane_rectification.hpp"
 #include "core/stereo/consistency.hpp"
+#include "core/stereo/gap_filling.hpp"
 #include "core/stereo/semi_global.hpp"
 #include "core/stereo/surface_refinement.hpp"
 #include "core/surface/surface_grid.hpp"
@@ -32,6 +33,7 @@ struct TwoViewSurfaceParams {
   double confirmed_px = 1.0;  // both views' refined disparities agree within
   SemiGlobalParams semi_global;
   ConsistencyParams consistency;
+  GapParams gaps;
   SurfaceRefinementParams refinement;
 };
 

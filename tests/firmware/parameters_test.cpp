@@ -163,6 +163,7 @@ TEST(Parameters, EveryFieldOfProfileBestHasAName) {
   EXPECT_EQ(count("best.surface.rectification."), field_count<PlaneRectificationParams>());
   EXPECT_EQ(count("best.surface.semi_global."), field_count<SemiGlobalParams>());
   EXPECT_EQ(count("best.surface.consistency."), field_count<ConsistencyParams>());
+  EXPECT_EQ(count("best.surface.gaps."), field_count<GapParams>());
   EXPECT_EQ(count("best.surface.refinement."), field_count<SurfaceRefinementParams>());
   EXPECT_EQ(count("best.height_map."), field_count<HeightMapParams>());
   EXPECT_EQ(count("best.round_body."), field_count<RoundBodyParams>());

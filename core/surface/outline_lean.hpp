@@ -1,0 +1,34 @@
+// How a view's lines of sight lean out over the outlines of a rectified row.
+#pragma once
+
+#include <cstdint>
+
+#include "core/base/geometry.hpp"
+#include "core/image_view/image_view.hpp"
+#include "core/rectification/plane_rectification.hpp"
+#include "core/stereo/gap_filling.hpp"
+
+namespace traygauge {
+
+class RectifiedOutlineLean final : public OutlineLean {
+ public:
+  // `labels` as view `view` of the grid shows them at `level` of the pyramid; both must outlive this.
+  RectifiedOutlineLean(const PlaneRectification& grid, ImageView<const std::uint8_t> labels, int level,
+                       int view, int row)
+      : grid_(grid), labels_(labels), scale_(1 << level), view_(view), row_(row) {}
+
+  // The normal is that of a line through the outline in the rows around.
+  double at(int column, int side) const override;
+
+ private:
+  Vec2 plane_mm(int row, int column) const;
+  Vec2 normal(int column, int side) const;
+
+  const PlaneRectification& grid_;
+  ImageView<const std::uint8_t> labels_;
+  int scale_;
+  int view_;
+  int row_;
+};
+
+}  // namespace traygauge
