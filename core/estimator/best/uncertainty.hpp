@@ -9,18 +9,18 @@ namespace traygauge {
 // Standard deviations of what the covariance of the cameras does not know. What they weigh together is fitted
 // to the errors of rendered captures, tests/evaluation/experiments.md.
 struct UncertaintyParams {
-  double disparity_bias_px = 0.03;  // of an item's mean disparity: smooth skin, gloss, slanted windows
+  double disparity_bias_px = 0.028;  // of an item's mean disparity: smooth skin, gloss, slanted windows
   // Of an item's whole surface over the dish: how the dish was fired and glazed, and what follows the food.
-  double height_mm = 0.145;
-  double hidden_share = 0.18;  // of the volume that no view sees
-  double outline_px = 0.78;    // of an item's outline, all along it: about a sample of the grid
+  double height_mm = 0.135;
+  double hidden_share = 0.167;  // of the volume that no view sees
+  double outline_px = 0.725;    // of an item's outline, all along it: about a sample of the grid
   // The same where a segmentation found it, beside that: what it moves the volumes of rendered meals by, 68
   // of 100 by less.
   double found_outline_mm = 0.55;
-  double wall_mm = 0.23;  // of walls within an item, which are matched too far in or out together
+  double wall_mm = 0.214;  // of walls within an item, which are matched too far in or out together
   // Of the volume, times the squared share that was filled instead of matched: the wider a gap, the less its
   // rims say about it.
-  double filled_share = 0.35;
+  double filled_share = 0.326;
   // Of the volume of a round body, instead: its height and width are those of its outlines. From fruit
   // rendered for this, and from how closed and column volume of scanned fruit differ.
   double round_share = 0.05;
