@@ -43,7 +43,7 @@ Vec2 RectifiedOutlineLean::normal(int column, int side) const {
     points[count] = plane_mm(y, *at);
     mean += points[count++];
   }
-  const Vec2 outwards = side * grid_.row(std::min(scale_ * row_, grid_.rows() - 1)).direction;
+  Vec2 outwards = side * grid_.row(std::min(scale_ * row_, grid_.rows() - 1)).direction;
   if (count < kLeastPoints) return outwards;
   mean /= static_cast<double>(count);
   Eigen::Matrix2d scatter = Eigen::Matrix2d::Zero();
