@@ -166,8 +166,8 @@ TEST(FillGaps, FlanksEndOnTheDishWhereTheViewSeesTheirFoot) {
     EXPECT_EQ(last_of(4.0 - foot_column, false), px(20)) << "mirrored";
   }
   EXPECT_EQ(last_of(-16.0, true), px(12.5)) << "half of both";
-  for (double foot_column = -30.0; foot_column < 10.0; foot_column += 1.0) {
-    EXPECT_GE(last_of(foot_column, true), last_of(foot_column + 1.0, true)) << foot_column;
+  for (int foot_column = -30; foot_column < 10; ++foot_column) {
+    EXPECT_GE(last_of(foot_column, true), last_of(foot_column + 1, true)) << foot_column;
   }
 }
 
@@ -227,9 +227,9 @@ TEST(FillGaps, AnOutlineIsNoHigherThanTheOtherViewsOutlineAllows) {
 TEST(FillGaps, AWallSeenFromOutsideReachesFurtherDown) {
   const GapParams params;
   int above = px(20) + 1;
-  for (double lean = 0.2; lean >= -0.3; lean -= 0.01) {
-    const GapRow filled = fill_within_hull(1, 35, lean);
-    EXPECT_LE(filled[19], above) << lean;
+  for (int percent = 20; percent >= -30; --percent) {
+    const GapRow filled = fill_within_hull(1, 35, 0.01 * percent);
+    EXPECT_LE(filled[19], above) << percent;
     above = filled[19];
   }
   EXPECT_EQ(fill_within_hull(1, 35, 1.0)[19], static_cast<int>(16.0 * params.limb_hull_share * 16.0));
@@ -256,7 +256,7 @@ TEST(FillGaps, RandomRowsStayWithinWhatIsKnown) {
   std::mt19937 random(kSeed);
   const auto below = [&](unsigned end) { return static_cast<int>(random() % end); };
   for (int round = 0; round < 2000; ++round) {
-    const auto width = static_cast<std::size_t>(1 + below(60));
+    const std::size_t width = 1U + random() % 60U;
     Labels labels(width);
     Sight sight;
     sight.other_labels.resize(width);
