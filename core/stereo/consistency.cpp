@@ -1,7 +1,6 @@
 #include "core/stereo/consistency.hpp"
 
 #include <cmath>
-#include <cstdlib>
 
 namespace traygauge {
 
