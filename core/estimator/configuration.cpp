@@ -2,15 +2,12 @@
 
 #include <algorithm>
 
+#include "core/base/is_within.hpp"
 #include "core/estimator/feature_preparation.hpp"
 #include "core/estimator/parameters.hpp"
 
 namespace traygauge {
 namespace {
-
-bool is_within(double value, double low, double high) {
-  return value >= low && value <= high;
-}  // false for NaN
 
 bool is_plausible(const ReferenceCard& card) {
   constexpr double kMinSideMm = 10.0;

@@ -1,18 +1,12 @@
 #include "core/stereo/stereo_params.hpp"
 
+#include "core/base/is_within.hpp"
 #include "core/stereo/hierarchy.hpp"
 #include "core/stereo/median.hpp"
 #include "core/stereo/row_lanes.hpp"
 #include "core/stereo/smoothness.hpp"
 
 namespace traygauge {
-namespace {
-
-bool is_within(double value, double low, double high) {
-  return value >= low && value <= high;
-}  // false for NaN
-
-}  // namespace
 
 Status validate(const StereoParams& params) {
   constexpr int kWidestBand = 1 << 10;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 
+#include "core/base/is_within.hpp"
+
 namespace traygauge {
 namespace {
 
@@ -10,19 +12,14 @@ constexpr double kMinSizeMm = 20.0;
 constexpr double kMaxSizeMm = 1000.0;
 constexpr double kMaxHeightMm = 200.0;
 
-// False for NaN.
-bool is_in_range(double value, double low, double high) {
-  return value >= low && value <= high;
-}
-
 bool is_plausible_profile(const DishModel& dish) {
   if (dish.profile_size == 0) return true;
   if (dish.profile_size == 1 || dish.profile_size > kMaxDishProfilePoints) return false;
   const double max_inset_mm = 0.5 * std::min(dish.outer_size_mm[0], dish.outer_size_mm[1]);
   double previous_mm = -1.0;
   for (const DishProfilePoint& point : dish.profile()) {
-    if (!is_in_range(point.inset_mm, 0.0, max_inset_mm) || point.inset_mm <= previous_mm) return false;
-    if (!is_in_range(point.height_mm, 0.0, kMaxHeightMm)) return false;
+    if (!is_within(point.inset_mm, 0.0, max_inset_mm) || point.inset_mm <= previous_mm) return false;
+    if (!is_within(point.height_mm, 0.0, kMaxHeightMm)) return false;
     previous_mm = point.inset_mm;
   }
   return true;
@@ -31,11 +28,11 @@ bool is_plausible_profile(const DishModel& dish) {
 }  // namespace
 
 Status validate(const DishModel& dish) {
-  const bool is_plausible =
-      is_dish(dish.label) && is_in_range(dish.outer_size_mm[0], kMinSizeMm, kMaxSizeMm) &&
-      is_in_range(dish.outer_size_mm[1], kMinSizeMm, kMaxSizeMm) &&
-      is_in_range(dish.bottom_height_mm, 0.0, kMaxHeightMm) &&
-      is_in_range(dish.rim_height_mm, dish.bottom_height_mm, kMaxHeightMm) && is_plausible_profile(dish);
+  const bool is_plausible = is_dish(dish.label) && is_within(dish.outer_size_mm[0], kMinSizeMm, kMaxSizeMm) &&
+                            is_within(dish.outer_size_mm[1], kMinSizeMm, kMaxSizeMm) &&
+                            is_within(dish.bottom_height_mm, 0.0, kMaxHeightMm) &&
+                            is_within(dish.rim_height_mm, dish.bottom_height_mm, kMaxHeightMm) &&
+                            is_plausible_profile(dish);
   return is_plausible ? StatusCode::ok : StatusCode::invalid_configuration;
 }
 
