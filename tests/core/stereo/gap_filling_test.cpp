@@ -83,6 +83,9 @@ TEST(FillGaps, AStepThatNothingHidesLiesBelowTheLine) {
       EXPECT_EQ(down[i], up[5 - i]) << share;
     }
   }
+  const GapRow usual = fill(labels, {px(20), kNone, kNone, kNone, kNone, px(40)});
+  EXPECT_EQ(usual[1], px(22));
+  EXPECT_EQ(usual[4], px(28));
 }
 
 // A block of 20 px with upright walls, whose right one the second view does not see: its line of sight past
@@ -94,7 +97,7 @@ TEST(FillGaps, OfWhatABlockHidesItsWallAndTheFloorBehindItAreTold) {
   for (const int sign : {1, -1}) {
     for (const double in : {-0.2, 0.0, 0.1, 0.3, 0.9}) {
       constexpr double kOut = 0.3;
-      Labels labels(40, 2);
+      const Labels labels(40, 2);
       GapRow row(40, px(30));
       for (std::size_t x = kEdge + 1; x < 40; ++x) row[x] = x <= kEdge + 20 ? kNone : px(10);
       Sight sight;
@@ -119,7 +122,7 @@ TEST(FillGaps, OneSurfaceOrTwoIsDecidedByTheirDifference) {
   GapParams params;
   params.same_surface_px = 4.0;
   EXPECT_EQ(fill(labels, {px(10), kNone, px(14)}, params)[1], px(12));
-  EXPECT_NE(fill(labels, {px(10), kNone, px(14.125)}, params)[1], px(12.0625));
+  EXPECT_EQ(fill(labels, {px(10), kNone, px(14.125)}, params)[1], px(11));
   const Labels dish{1, 1, 1};
   EXPECT_EQ(fill(dish, {px(10), kNone, px(14)}, params)[1], px(12));
   EXPECT_EQ(fill(dish, {px(10), kNone, px(14.125)}, params)[1], px(10));
