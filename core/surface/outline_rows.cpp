@@ -69,6 +69,25 @@ Vec2 foot_on_level(const SurfaceGrid& view, const Vec2& run, double level_mm) {
   return view.camera_mm.head<2>() + (view.camera_mm.z() - level_mm) * run;
 }
 
+int count_pieces(ImageView<const std::uint8_t> labels, std::uint8_t label) {
+  // Every run of a row is a new piece, every overlap with a run above ties two together.
+  int pieces = 0;
+  for (int y = 0; y < labels.height; ++y) {
+    const std::uint8_t* row = labels.row(y);
+    const std::uint8_t* above = y > 0 ? labels.row(y - 1) : nullptr;
+    bool in_run = false;
+    bool in_overlap = false;
+    for (int x = 0; x < labels.width; ++x) {
+      const bool here = row[x] == label;
+      const bool overlaps = here && above != nullptr && above[x] == label;
+      pieces += (here && !in_run ? 1 : 0) - (overlaps && !in_overlap ? 1 : 0);
+      in_run = here;
+      in_overlap = overlaps;
+    }
+  }
+  return pieces;
+}
+
 OutlineRows collect_outline_rows(const std::array<SurfaceGrid, 2>& views, std::uint8_t label, double level_mm,
                                  std::span<OutlineRow> rows) {
   const int height = views[0].labels.height;

@@ -45,6 +45,9 @@ Vec2 run_at(const SurfaceGrid& view, int x, int y);
 // Where it meets the level.
 Vec2 foot_on_level(const SurfaceGrid& view, const Vec2& run, double level_mm);
 
+// Pieces that a label is in, less the holes in them (the Euler number; samples side by side belong together).
+int count_pieces(ImageView<const std::uint8_t> labels, std::uint8_t label);
+
 // `rows` has one entry for each row of the grids.
 OutlineRows collect_outline_rows(const std::array<SurfaceGrid, 2>& views, std::uint8_t label, double level_mm,
                                  std::span<OutlineRow> rows);

@@ -36,6 +36,7 @@ struct BodyWidth {
   double half_mm = 0.0;  // of the body from above
   double elongation = 1.0;
   double edge_rise_mm = 0.0;  // of the dish under its outline, over the level
+  double fullness = 1.0;      // of the bulge, in the view that has the less
 };
 
 class RoundBody {
@@ -48,7 +49,8 @@ class RoundBody {
         outline_(outline),
         level_mm_(dish.profile.bottom_height_mm()),
         pictures_{BodyPicture(grids.views[0], 0, outline, label, level_mm_, columns),
-                  BodyPicture(grids.views[1], 1, outline, label, level_mm_, columns)} {}
+                  BodyPicture(grids.views[1], 1, outline, label, level_mm_, columns)},
+        pieces_{count_pieces(grids.views[0].labels, label), count_pieces(grids.views[1].labels, label)} {}
 
   // Finds the body's height; false for what is no round body.
   bool fit();
@@ -70,6 +72,7 @@ class RoundBody {
   void correct_centre();
   double raise_share() const;
   double rim_above_share() const;
+  double sunken_share() const;
 
   const RoundBodyGrids& grids_;
   const InnerSurface& dish_;
@@ -77,11 +80,13 @@ class RoundBody {
   const OutlineRows& outline_;
   double level_mm_;
   std::array<BodyPicture, 2> pictures_;
+  std::array<int, 2> pieces_{};       // that the item is in, by view
   std::array<double, 2> most_mm2_{};  // greatest bulge, by view
   double centre_mm_ = 0.0;            // over the level
 };
 
 bool RoundBody::fit() {
+  if (pieces_[0] > 1 && pieces_[1] > 1) return false;
   if (outline_.steepest_run > params_.max_run || outline_.usable < params_.min_rows ||
       outline_.usable < params_.min_usable_share * outline_.shared)
     return false;
@@ -102,23 +107,26 @@ bool RoundBody::fit() {
   const auto has_room = [&] { return shape_in(0).amplitude > 0.0 && shape_in(1).amplitude > 0.0; };
   if (!has_room()) return false;
   centre_mm_ *= raise_share();
-  return has_room() && rim_above_share() <= params_.max_rim_above;
+  if (!has_room() || rim_above_share() > params_.max_rim_above) return false;
+  return width.fullness >= params_.least_fullness || sunken_share() <= params_.max_sunken;
 }
 
 // The bulge of an ellipse with half axes a ≥ b has its most a²b² / (a² + b²) over the area πab. A view along
 // a slope lengthens it, as if half height and half width were alike, and the level lies behind it.
 BodyWidth RoundBody::measure_width() {
-  BodyWidth width{0.0, 0.0, 0.0};
+  BodyWidth width{0.0, 0.0, 0.0, 1.0};
   for (std::size_t v = 0; v < 2; ++v) {
     double most_mm2 = 0.0;
-    double area_mm2 = 0.0;
     double along_sight = 0.0;
     double gradients = 0.0;
+    double bulges_mm2 = 0.0;
+    int samples = 0;
     double rise_mm = 0.0;
     int ends = 0;
     pictures_[v].for_each_sample([&](const BodySample& sample) {
       most_mm2 = std::max(most_mm2, sample.bulge_mm2);
-      area_mm2 += pictures_[v].sample_mm2();
+      bulges_mm2 += sample.bulge_mm2;
+      ++samples;
       along_sight += std::pow(sample.run.dot(sample.gradient_mm), 2);
       gradients += sample.gradient_mm.squaredNorm();
       const OutlineChord& chord = outline_.rows[static_cast<std::size_t>(sample.y)].chords[v];
@@ -127,6 +135,8 @@ BodyWidth RoundBody::measure_width() {
       ++ends;
     });
     most_mm2_[v] = most_mm2;
+    const double area_mm2 = samples * pictures_[v].sample_mm2();
+    width.fullness = std::min(width.fullness, bulges_mm2 / (samples * most_mm2));
     const double mean_ratio = std::max(0.5 * area_mm2 / (std::numbers::pi * most_mm2), 1.0);
     const double elongation = mean_ratio + std::sqrt(mean_ratio * mean_ratio - 1.0);
     const double seen_mm2 = most_mm2 * (1.0 + 1.0 / (elongation * elongation));
@@ -240,6 +250,24 @@ double RoundBody::rim_above_share() const {
     worst += 0.5 * above / std::max(samples, 1);
   }
   return worst;
+}
+
+// Of the middle: a mirrored lamp covers a part of it, and what is plain around that is not confirmed.
+double RoundBody::sunken_share() const {
+  double mean = 0.0;
+  for (std::size_t v = 0; v < 2; ++v) {
+    const BodyShape body = shape_in(v);
+    int samples = 0;
+    int sunken = 0;
+    pictures_[v].for_each_sample([&](const BodySample& sample) {
+      if (sample.bulge_mm2 < 0.5 * most_mm2_[v]) return;
+      ++samples;
+      const bool confirmed = grids_.views[v].evidence.at(sample.x, sample.y) == SurfaceEvidence::both;
+      sunken += confirmed && matched_mm(v, sample) < params_.sunken_top * body.top_mm(sample) ? 1 : 0;
+    });
+    mean += 0.5 * sunken / std::max(samples, 1);
+  }
+  return mean;
 }
 
 void RoundBody::shape() const {

@@ -13,6 +13,7 @@ namespace traygauge {
 struct HeightVolume {
   double volume_ml = 0.0;         // closed: without the air under an overhang
   double column_volume_ml = 0.0;  // all that lies between upper surface and dish
+  double closing_sigma_ml = 0.0;  // of volume_ml, where it is unsure whether the item overhangs
   double hidden_volume_ml = 0.0;  // of the column volume, what no view sees
   double area_mm2 = 0.0;
   double mean_height_mm = 0.0;

@@ -42,6 +42,13 @@ std::array<double, 256> undercut_areas(const HeightMap& map) {
   return areas;
 }
 
+double overhang_probability(double undercut_mm2, double of_ball_mm2, const OverhangParams& params) {
+  const double low_mm2 = std::max(params.wall_undercut_share * of_ball_mm2, params.min_undercut_mm2);
+  const double high_mm2 = params.fruit_undercut_share * of_ball_mm2;
+  if (undercut_mm2 <= low_mm2) return 0.0;
+  return undercut_mm2 >= high_mm2 ? 1.0 : (undercut_mm2 - low_mm2) / (high_mm2 - low_mm2);
+}
+
 }  // namespace
 
 void close_overhangs(std::span<const SurfaceGrid> views, const HeightMap& map, const InnerSurface& dish,
@@ -52,10 +59,13 @@ void close_overhangs(std::span<const SurfaceGrid> views, const HeightMap& map, c
     HeightVolume& item = items[label];
     item.undercut_mm2 = undercut[label];
     const double of_ball = std::sqrt(item.area_mm2) * 0.5 * item.max_height_mm * tangent;
-    const bool is_seen =
-        undercut[label] > params.min_undercut_mm2 && undercut[label] > params.min_undercut_share * of_ball;
-    const bool overhangs = is_seen || round.contains(static_cast<std::uint8_t>(label));
-    if (item.area_mm2 > 0.0 && overhangs) item.volume_ml = item.column_volume_ml / params.column_over_closed;
+    if (!(item.area_mm2 > 0.0)) continue;
+    const double probability = round.contains(static_cast<std::uint8_t>(label))
+                                   ? 1.0
+                                   : overhang_probability(item.undercut_mm2, of_ball, params);
+    const double air_ml = item.column_volume_ml * (1.0 - 1.0 / params.column_over_closed);
+    item.volume_ml = item.column_volume_ml - probability * air_ml;
+    item.closing_sigma_ml = std::sqrt(probability * (1.0 - probability)) * air_ml;
   }
 }
 

@@ -50,6 +50,9 @@ void visit_round_body_parameters(Params& best, Visit&& visit) {
   visit("best.round_body.least_roundness", body.least_roundness, Range{0, 1});
   visit("best.round_body.most_roundness", body.most_roundness, Range{0, 100});
   visit("best.round_body.max_edge_rise", body.max_edge_rise, Range{0, 10});
+  visit("best.round_body.least_fullness", body.least_fullness, Range{0, 1});
+  visit("best.round_body.sunken_top", body.sunken_top, Range{0, 10});
+  visit("best.round_body.max_sunken", body.max_sunken, Range{0, 1});
   visit("best.round_body.contact_share", body.contact_share, Range{0.01, 0.99});
   visit("best.round_body.flatness", body.flatness, Range{0.1, 10});
   visit("best.round_body.flatness_sigma", body.flatness_sigma, Range{1e-3, 100});
@@ -70,7 +73,8 @@ void visit_volume_parameters(Params& best, Visit&& visit) {
   using Range = ParameterRange;
   visit("best.volume.max_height_ignored_mm2", best.volume.max_height_ignored_mm2, Range{0, 1e5});
   visit("best.volume.wall_slope", best.volume.wall_slope, Range{0, 100});
-  visit("best.overhang.min_undercut_share", best.overhang.min_undercut_share, Range{0, 1000});
+  visit("best.overhang.wall_undercut_share", best.overhang.wall_undercut_share, Range{0, 1000});
+  visit("best.overhang.fruit_undercut_share", best.overhang.fruit_undercut_share, Range{0, 1000});
   visit("best.overhang.column_over_closed", best.overhang.column_over_closed, Range{1, 10});
   visit("best.overhang.min_undercut_mm2", best.overhang.min_undercut_mm2, Range{0, 1e6});
   visit("best.agreement.min_share", best.agreement.min_share, Range{0, 1});

@@ -62,7 +62,8 @@ double estimate_sigma_ml(const UncertaintyInput& input, const TableCameras& came
       item.area_mm2 * item.area_mm2 *
           (cameras_mm * cameras_mm + matching_mm * matching_mm + params.height_mm * params.height_mm) +
       std::pow(params.hidden_share * kMm3PerMl * item.hidden_volume_ml, 2) + edge_mm3 * edge_mm3 +
-      wall_mm3 * wall_mm3 + std::pow(unmatched_share * volume_mm3, 2);
+      wall_mm3 * wall_mm3 + std::pow(unmatched_share * volume_mm3, 2) +
+      std::pow(kMm3PerMl * item.closing_sigma_ml, 2);
   return std::sqrt(variance_mm6) / kMm3PerMl;
 }
 

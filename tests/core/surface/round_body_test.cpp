@@ -77,6 +77,21 @@ struct TwoGrids {
       std::fill(grid.evidence.begin(), grid.evidence.end(), SurfaceEvidence::filled);
   }
 
+  // Where the food's outline is near in a row or column.
+  void forget_rim(int reach) {
+    for (TrueGrid& grid : grids) {
+      for (int y = reach; y + reach < kSide; ++y) {
+        for (int x = reach; x + reach < kSide; ++x) {
+          const auto is_food = [&](int dx, int dy) {
+            return grid.labels[grid.index(x + dx, y + dy)] == kFood;
+          };
+          if (!is_food(reach, 0) || !is_food(-reach, 0) || !is_food(0, reach) || !is_food(0, -reach))
+            grid.evidence[grid.index(x, y)] = SurfaceEvidence::filled;
+        }
+      }
+    }
+  }
+
   LabelSet shape(const SolidScene& scene) {
     testing::Allocated<RoundBodyWorkspace> workspace(kSide, kSide);
     return shape_round_bodies({{grids[0].view(), grids[1].view()}, {grids[0].points, grids[1].points}},
@@ -182,6 +197,31 @@ TEST(RoundBody, LeavesOtherFoodAlone) {
     EXPECT_EQ(median, 0.0);
     EXPECT_EQ(mean, 0.0);
   }
+}
+
+// Its outlines are as high and as wide as a fruit's, and walls are matched badly, but not its top.
+TEST(RoundBody, LeavesSlicesOfCakeAlone) {
+  constexpr unsigned kSeed = 5;
+  std::printf("seed %u\n", kSeed);
+  std::mt19937 random(kSeed);
+  std::uniform_real_distribution<double> unit(0.0, 1.0);
+  for (int i = 0; i < 30; ++i) {
+    const double turn_rad = 2.0 * M_PI * unit(random);
+    const Vec2 tip = -45.0 * Vec2(std::cos(turn_rad), std::sin(turn_rad));
+    const SolidScene scene = on_plate(testing::wedge(kFood, tip, 75.0 + 10.0 * unit(random),
+                                                     0.6 + 0.3 * unit(random), turn_rad, bottom_mm() + 36.0));
+    TwoGrids grids(scene, {});
+    grids.forget_rim(6);
+    EXPECT_FALSE(grids.is_shaped(scene)) << i;
+  }
+}
+
+TEST(RoundBody, IsOnePiece) {
+  SolidScene scene = with_ellipsoid({26.0, 26.0, 24.0}, 0.0);
+  EXPECT_TRUE(TwoGrids(scene, {}).is_shaped(scene));
+  scene.solids.push_back(
+      testing::ellipsoid(kFood, {44.0, 30.0, bottom_mm() + 10.0}, {10.0, 10.0, 10.0}, 0.0));
+  EXPECT_FALSE(TwoGrids(scene, {}).is_shaped(scene));
 }
 
 // Its outline lies on the bowl's wall, as high as a fruit's limb.

@@ -204,6 +204,15 @@ Solid cap(int label, const Vec2& centre, double radius, double base_mm, double h
   });
 }
 
+Solid wedge(int label, const Vec2& tip, double radius, double angle_rad, double turn_rad, double top_mm) {
+  return height_field(label, "wedge", [=](const Vec2& at) {
+    const Vec2 local = turned_back(at - tip, turn_rad);
+    const bool is_inside =
+        local.norm() < radius && std::abs(std::atan2(local.y(), local.x())) < 0.5 * angle_rad;
+    return is_inside ? top_mm : kNothingMm;
+  });
+}
+
 Solid ball_columns(int label, const std::vector<Vec2>& centres, double radius, double base_mm) {
   return height_field(label, "balls", [=](const Vec2& at) {
     double top = kNothingMm;

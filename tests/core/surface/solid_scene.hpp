@@ -65,6 +65,8 @@ Solid box(int label, const Vec2& centre, const Vec2& half, double turn_rad, doub
 Solid cylinder(int label, const Vec2& centre, double radius, double top_mm);
 Solid cone(int label, const Vec2& centre, double radius, double base_mm, double height);
 Solid cap(int label, const Vec2& centre, double radius, double base_mm, double height);
+// A slice of a round cake, tip first.
+Solid wedge(int label, const Vec2& tip, double radius, double angle_rad, double turn_rad, double top_mm);
 // Spheres side by side, filled up below: what a height field makes of them.
 Solid ball_columns(int label, const std::vector<Vec2>& centres, double radius, double base_mm);
 // A heap with a bumpy surface.

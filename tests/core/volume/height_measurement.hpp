@@ -20,7 +20,8 @@ struct HeightMeasurement {
   Allocated<LevelLiquidWorkspace> liquid_space;
   HeightMap map;
   LevelLiquid liquid;
-  OverhangParams overhang{.min_undercut_share = 0.2};  // true depth shows all of an undercut
+  // True depth shows all of an undercut.
+  OverhangParams overhang{.wall_undercut_share = 0.2, .fruit_undercut_share = 0.2};
 
   LabelSet round;  // as round bodies
 
