@@ -80,6 +80,7 @@ void visit_two_view_surface(Params& surface, Visit&& visit) {
   visit("gaps.other_outline_share", gaps.other_outline_share, Range{0, 1});
   visit("gaps.same_surface_px", gaps.same_surface_px, Range{0, 1000});
   visit("gaps.step_share", gaps.step_share, Range{0, 1});
+  visit("gaps.unmatched_fall_share", gaps.unmatched_fall_share, Range{0, 1});
   visit("refinement.iterations", refinement.iterations, Range{0, 50});
   visit("refinement.window_radius", refinement.window_radius, Range{1, kMaxRefinementRadius});
   visit("refinement.max_step_px", refinement.max_step_px, Range{0, 100});

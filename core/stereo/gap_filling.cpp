@@ -109,7 +109,10 @@ class RowFiller {
     constexpr double kLeastLean = 0.02;  // between views that tell depths
     const double wall_share = std::clamp(-lean / std::max(other_lean - lean, kLeastLean), 0.0, 1.0);
     const double wall = wall_share * std::abs(lower.column - upper.column);
-    fall(upper, side, std::max(wall, 1.0), lower.disparity, lower.column);
+    const int gap = std::abs(lower.column - upper.column) - 1;
+    const double hidden = static_cast<double>(std::abs(upper.disparity - lower.disparity)) / kDisparityScale;
+    const double slope = params_.unmatched_fall_share * (gap - hidden);
+    fall(upper, side, std::max({wall, slope, 1.0}), lower.disparity, lower.column);
   }
 
   // From `from` in a straight line to a disparity `run` columns to its `side`, and level on to before `end`.

@@ -35,6 +35,10 @@ struct GapParams {
   // Where they differ by more and neither hides the gap from the other view: between the straight line (1)
   // and the lower end going on (0).
   double step_share = 0.5;
+  // A gap that one end hides from the other view is as wide as the step. What it is wider by both views see,
+  // and could not match, as on steep and glossy sides: over so much of that it falls. 0: it falls at once, as
+  // a wall does; 1: what was not matched is all slope.
+  double unmatched_fall_share = 0.5;
 };
 
 // A camera over a row: the column of its foot, and its height in columns.
@@ -69,8 +73,9 @@ class OutlineLean {
 
 // Fills a row's samples with a label and no disparity from the nearest known ones of the same label on either
 // side: between them when they lie on one surface; where an item hides a part of itself from the other view,
-// down an upright wall as far as this view sees it, then along the lower surface; the lower one where the
-// label is the dish's, whose surface goes on behind; towards an item's outline, as its flank falls there.
+// down an upright wall as far as this view sees it or a slope that was not matched, then along the lower
+// surface; the lower one where the label is the dish's, whose surface goes on behind; towards an item's
+// outline, as its flank falls there.
 void fill_gaps(const RowOfViews& row, const OutlineLean& outline, const GapParams& params,
                std::span<Disparity> disparity);
 

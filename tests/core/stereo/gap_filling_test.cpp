@@ -117,6 +117,31 @@ TEST(FillGaps, OfWhatABlockHidesItsWallAndTheFloorBehindItAreTold) {
   }
 }
 
+// 30 samples wide and 10 disparities deep: 20 of them both views see.
+TEST(FillGaps, WhatBothViewsSeeOfAGapAndDidNotMatchIsPartlySlope) {
+  constexpr int kEdge = 5;
+  const Labels labels(45, 2);
+  Sight sight;
+  sight.camera = {6.0, 1000.0};
+  sight.other_camera = {-300.0, 1000.0};
+  for (const double share : {0.0, 0.25, 0.5, 1.0}) {
+    for (const int gap : {8, 10, 11, 14, 30}) {
+      GapParams params;
+      params.unmatched_fall_share = share;
+      GapRow row(45, px(10));
+      std::fill_n(row.begin(), kEdge + 1, px(20));
+      std::fill_n(row.begin() + kEdge + 1, gap, kNone);
+      const GapRow filled = fill(labels, row, params, sight);
+      const double slope = std::max(share * (gap - 10), 1.0);
+      for (int i = 1; i <= gap; ++i) {
+        EXPECT_NEAR(filled[static_cast<std::size_t>(kEdge + i)], px(20.0 - 10.0 * std::min(i / slope, 1.0)),
+                    1)
+            << i << " of " << gap << " samples, " << share;
+      }
+    }
+  }
+}
+
 TEST(FillGaps, OneSurfaceOrTwoIsDecidedByTheirDifference) {
   const Labels labels{2, 2, 2};
   GapParams params;
