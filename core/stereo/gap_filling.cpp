@@ -108,10 +108,10 @@ class RowFiller {
     const double other_lean = row_.other_camera.lean(upper.column + side, side);
     constexpr double kLeastLean = 0.02;  // between views that tell depths
     const double wall_share = std::clamp(-lean / std::max(other_lean - lean, kLeastLean), 0.0, 1.0);
-    const double wall = wall_share * std::abs(lower.column - upper.column);
-    const int gap = std::abs(lower.column - upper.column) - 1;
+    const int apart = std::abs(lower.column - upper.column);
+    const double wall = wall_share * apart;
     const double hidden = static_cast<double>(std::abs(upper.disparity - lower.disparity)) / kDisparityScale;
-    const double slope = params_.unmatched_fall_share * (gap - hidden);
+    const double slope = params_.unmatched_fall_share * (apart - 1 - hidden);
     fall(upper, side, std::max({wall, slope, 1.0}), lower.disparity, lower.column);
   }
 

@@ -12,6 +12,7 @@
 namespace traygauge {
 namespace {
 
+constexpr double kMiddle = 0.5;        // of the greatest bulge: what has less lies outside of a body's middle
 constexpr int kCentreCorrections = 2;  // Newton steps: the second changes 0.1 mm at most
 
 // An ellipsoid's surface as a view sees it. Where the level meets the line of sight, and z / (H − z) for the
@@ -49,8 +50,7 @@ class RoundBody {
         outline_(outline),
         level_mm_(dish.profile.bottom_height_mm()),
         pictures_{BodyPicture(grids.views[0], 0, outline, label, level_mm_, columns),
-                  BodyPicture(grids.views[1], 1, outline, label, level_mm_, columns)},
-        pieces_{count_pieces(grids.views[0].labels, label), count_pieces(grids.views[1].labels, label)} {}
+                  BodyPicture(grids.views[1], 1, outline, label, level_mm_, columns)} {}
 
   // Finds the body's height; false for what is no round body.
   bool fit();
@@ -63,14 +63,23 @@ class RoundBody {
   double matched_mm(std::size_t v, const BodySample& sample) const {
     return static_cast<double>(grids_.views[v].points.at(sample.x, sample.y).z_mm) - level_mm_;
   }
+  SurfaceEvidence evidence_of(std::size_t v, const BodySample& sample) const {
+    return grids_.views[v].evidence.at(sample.x, sample.y);
+  }
   bool is_matched(std::size_t v, const BodySample& sample) const {
-    const SurfaceEvidence evidence = grids_.views[v].evidence.at(sample.x, sample.y);
+    const SurfaceEvidence evidence = evidence_of(v, sample);
     return evidence == SurfaceEvidence::single || evidence == SurfaceEvidence::both;
+  }
+  bool is_in_middle(std::size_t v, const BodySample& sample) const {
+    return sample.bulge_mm2 >= kMiddle * most_mm2_[v];
   }
   BodyWidth measure_width();
   BodyShape shape_in(std::size_t v) const;
   void correct_centre();
   double raise_share() const;
+  // Of the samples that count, how many meet a condition; mean over both views.
+  template <class Counts, class Meets>
+  double mean_share(Counts&& counts, Meets&& meets) const;
   double rim_above_share() const;
   double sunken_share() const;
 
@@ -80,13 +89,11 @@ class RoundBody {
   const OutlineRows& outline_;
   double level_mm_;
   std::array<BodyPicture, 2> pictures_;
-  std::array<int, 2> pieces_{};       // that the item is in, by view
   std::array<double, 2> most_mm2_{};  // greatest bulge, by view
   double centre_mm_ = 0.0;            // over the level
 };
 
 bool RoundBody::fit() {
-  if (pieces_[0] > 1 && pieces_[1] > 1) return false;
   if (outline_.steepest_run > params_.max_run || outline_.usable < params_.min_rows ||
       outline_.usable < params_.min_usable_share * outline_.shared)
     return false;
@@ -223,7 +230,7 @@ double RoundBody::raise_share() const {
   for (std::size_t v = 0; v < 2; ++v) {
     const BodyShape body = shape_in(v);
     pictures_[v].for_each_sample([&](const BodySample& sample) {
-      if (sample.bulge_mm2 < 0.5 * most_mm2_[v] || !is_matched(v, sample)) return;
+      if (!is_in_middle(v, sample) || !is_matched(v, sample)) return;
       const double at = (matched_mm(v, sample) / body.top_mm(sample) - kFirst) / kBin;
       ++bins[at > 0.0 ? static_cast<std::size_t>(std::min(at, bins.size() - 1.0)) : 0];
       ++samples;
@@ -236,38 +243,40 @@ double RoundBody::raise_share() const {
   return std::clamp(kFirst + kBin * (static_cast<double>(bin) + 0.5), 1.0, params_.max_raise);
 }
 
-double RoundBody::rim_above_share() const {
-  double worst = 0.0;
+template <class Counts, class Meets>
+double RoundBody::mean_share(Counts&& counts, Meets&& meets) const {
+  double mean = 0.0;
   for (std::size_t v = 0; v < 2; ++v) {
     const BodyShape body = shape_in(v);
-    int samples = 0;
-    int above = 0;
+    int counted = 0;
+    int met = 0;
     pictures_[v].for_each_sample([&](const BodySample& sample) {
-      if (sample.bulge_mm2 > params_.rim_share * most_mm2_[v] || !is_matched(v, sample)) return;
-      ++samples;
-      above += matched_mm(v, sample) > body.top_mm(sample) + params_.above_rim * centre_mm_ ? 1 : 0;
+      if (!counts(v, sample)) return;
+      ++counted;
+      met += meets(v, sample, body) ? 1 : 0;
     });
-    worst += 0.5 * above / std::max(samples, 1);
+    mean += 0.5 * met / std::max(counted, 1);
   }
-  return worst;
+  return mean;
+}
+
+double RoundBody::rim_above_share() const {
+  return mean_share(
+      [&](std::size_t v, const BodySample& sample) {
+        return sample.bulge_mm2 <= params_.rim_share * most_mm2_[v] && is_matched(v, sample);
+      },
+      [&](std::size_t v, const BodySample& sample, const BodyShape& body) {
+        return matched_mm(v, sample) > body.top_mm(sample) + params_.above_rim * centre_mm_;
+      });
 }
 
 // Of the middle: a mirrored lamp covers a part of it, and what is plain around that is not confirmed.
 double RoundBody::sunken_share() const {
-  double mean = 0.0;
-  for (std::size_t v = 0; v < 2; ++v) {
-    const BodyShape body = shape_in(v);
-    int samples = 0;
-    int sunken = 0;
-    pictures_[v].for_each_sample([&](const BodySample& sample) {
-      if (sample.bulge_mm2 < 0.5 * most_mm2_[v]) return;
-      ++samples;
-      const bool confirmed = grids_.views[v].evidence.at(sample.x, sample.y) == SurfaceEvidence::both;
-      sunken += confirmed && matched_mm(v, sample) < params_.sunken_top * body.top_mm(sample) ? 1 : 0;
-    });
-    mean += 0.5 * sunken / std::max(samples, 1);
-  }
-  return mean;
+  return mean_share([&](std::size_t v, const BodySample& sample) { return is_in_middle(v, sample); },
+                    [&](std::size_t v, const BodySample& sample, const BodyShape& body) {
+                      return evidence_of(v, sample) == SurfaceEvidence::both &&
+                             matched_mm(v, sample) < params_.sunken_top * body.top_mm(sample);
+                    });
 }
 
 void RoundBody::shape() const {
@@ -304,7 +313,8 @@ LabelSet shape_round_bodies(const RoundBodyGrids& grids, const InnerSurface& dis
     const OutlineRows outline =
         collect_outline_rows(grids.views, label, dish.profile.bottom_height_mm(), workspace.rows);
     RoundBody body(grids, dish, params, outline, label, workspace.columns);
-    if (!body.fit()) continue;
+    const auto in_pieces = [&](const SurfaceGrid& view) { return count_pieces(view.labels, label) > 1; };
+    if (!body.fit() || (in_pieces(grids.views[0]) && in_pieces(grids.views[1]))) continue;
     body.shape();
     shaped.add(label);
   }
