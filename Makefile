@@ -21,7 +21,7 @@ options := $(merged) $(if $(shell command -v ccache),-DCMAKE_CXX_COMPILER_LAUNCH
 sources = git ls-files '*.cpp' '*.hpp'
 ctest = ctest --output-on-failure --no-tests=error -j $(JOBS) -LE '^bench$$'
 
-.PHONY: configure build build-all demo test test-programs bench board-test board-packages board-guest arm-sysroot board-programs board-drivers board-gpiod-2 board-station arm-test without-surf lint format check-format check-captures sanitize asan-ubsan tsan packages clean
+.PHONY: configure build build-all demo test test-programs golden bench board-test board-packages board-guest arm-sysroot board-programs board-drivers board-gpiod-2 board-station arm-test without-surf lint format check-format check-captures sanitize asan-ubsan tsan packages clean
 
 configure: packages
 	cmake --preset release $(options) $(once)
@@ -53,6 +53,10 @@ ifeq ($(CI),true)
 endif
 
 # Benchmarks are tests with the label bench: they print figures and run alone.
+# Accepts what is measured now as golden numbers: review the diff.
+golden: check-captures build-all
+	TRAYGAUGE_GOLDEN_UPDATE=1 build/tests/golden/golden_test
+
 bench: build-all
 	ctest --test-dir build -L '^bench$$' -V --no-tests=error
 
