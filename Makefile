@@ -1,5 +1,4 @@
 # make build | demo | test | bench: each installs what config/packages.txt names and is missing, then does it.
-# make without-surf: builds and tries what may be shipped where SURF's patents hold, in build-without-surf.
 # make board-test: the drivers and the station on a real kernel in an emulated machine; BOARD=arm64 cross-builds for it.
 # make arm-test: cross-builds for 64-bit ARM, runs tests and compares volumes under user-mode emulation.
 # make lint | format | sanitize: further checks; lint takes a quarter of an hour. CI=true adds to `make test` the sanitizers,
@@ -21,7 +20,7 @@ options := $(merged) $(if $(shell command -v ccache),-DCMAKE_CXX_COMPILER_LAUNCH
 sources = git ls-files '*.cpp' '*.hpp'
 ctest = ctest --output-on-failure --no-tests=error -j $(JOBS) -LE '^bench$$'
 
-.PHONY: configure build build-all demo test test-programs golden bench board-test board-packages board-guest arm-sysroot board-programs board-drivers board-gpiod-2 board-station arm-test without-surf lint format check-format check-captures sanitize asan-ubsan tsan packages clean
+.PHONY: configure build build-all demo test test-programs golden bench board-test board-packages board-guest arm-sysroot board-programs board-drivers board-gpiod-2 board-station arm-test lint format check-format check-captures sanitize asan-ubsan tsan packages clean
 
 configure: packages
 	cmake --preset release $(options) $(once)
@@ -114,13 +113,6 @@ arm-test: build arm-sysroot
 	  sh -c '$(in_arm) "$$(find build-aarch64/tests -type f -name TEST)" --gtest_brief=1'
 	RUN_B='$(in_arm)' LIMIT_ML=0.01 tests/captures/compare_builds.sh build build-aarch64 simulator/demo/*_and_*
 
-# The measurement refuses profile paper there; the tests that measure with it are left out.
-WITHOUT_SURF_TESTS = core_symbols_test without_surf_test firmware_without_surf_test
-without-surf: packages
-	cmake --preset without-surf $(options)
-	cmake --build --preset without-surf -j $(JOBS) --target traygauge $(WITHOUT_SURF_TESTS)
-	$(ctest) --test-dir build-without-surf -R '^(CoreSymbols|WithoutSurf|ProgramWithoutSurf)\.'
-
 packages:
 	@config/install_packages.sh
 
@@ -156,4 +148,4 @@ tsan: packages
 	printf '%s\n' $(TSAN_TESTS) | xargs -P $(JOBS) -I TEST sh -c '"$$(find build-tsan -type f -name TEST)" --gtest_brief=1'
 
 clean:
-	rm -rf build build-without-surf build-debug build-asan-ubsan build-tsan build-aarch64 build-gpiod-2 build-board
+	rm -rf build build-debug build-asan-ubsan build-tsan build-aarch64 build-gpiod-2 build-board

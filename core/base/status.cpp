@@ -18,9 +18,6 @@ constexpr auto kTexts = std::to_array<Text>({
     {"invalid_configuration",
      "The configuration holds a value outside its range; run `traygauge measure` on a capture whose camera, "
      "card and dish are plausible."},
-    {"surf_not_built",
-     "Profile paper needs SURF, which this program was built without because US patents on it may run until "
-     "2027; for research, build it with -DTRAYGAUGE_SURF=ON."},
     {"out_of_memory",
      "The memory reserved at start is too small for this configuration; see `traygauge memory`."},
     {"frame_missing", "A view is missing; two pictures of the dish are needed."},

@@ -9,7 +9,6 @@ enum class StatusCode : std::uint8_t {
   ok,
   partial,
   invalid_configuration,
-  surf_not_built,
   out_of_memory,
   frame_missing,
   frame_size_mismatch,

@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "core/base/is_within.hpp"
-#include "core/estimator/feature_preparation.hpp"
 #include "core/estimator/parameters.hpp"
 
 namespace traygauge {
@@ -66,11 +65,8 @@ Status validate_apart_from_dishes(const Configuration& configuration) {
   if (const Status status = validate(configuration.lens); !status.ok()) return status;
   if (!is_plausible(configuration.card) || !is_plausible(configuration.limits))
     return StatusCode::invalid_configuration;
-  if (configuration.profile == Profile::paper) {
-    if (const Status status = validate_feature_search(configuration); !status.ok()) return status;
-  }
-  for (const Status status : {validate(configuration.pose), validate(configuration.rectification),
-                              validate(configuration.stereo)}) {
+  for (const Status status : {validate(configuration.surf), validate(configuration.pose),
+                              validate(configuration.rectification), validate(configuration.stereo)}) {
     if (!status.ok()) return status;
   }
   return are_parameters_within_range(configuration) ? StatusCode::ok : StatusCode::invalid_configuration;

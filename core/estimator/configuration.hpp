@@ -140,8 +140,7 @@ struct Configuration {
   SegmenterParams segmentation;  // where no labels are given
 };
 
-// invalid_configuration when a value lies outside its range (core/estimator/parameters.hpp); surf_not_built
-// in a library without SURF.
+// invalid_configuration when a value lies outside its range (core/estimator/parameters.hpp).
 Status validate(const Configuration& configuration);
 // The same for work that needs no dish.
 Status validate_apart_from_dishes(const Configuration& configuration);

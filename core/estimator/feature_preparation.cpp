@@ -101,10 +101,6 @@ void append_features(const SearchPicture& picture, bool card_apart, std::size_t 
 
 }  // namespace
 
-Status validate_feature_search(const Configuration& configuration) {
-  return validate(configuration.surf);
-}
-
 double fit_search_scale(double wanted, int width, int height, const EstimatorLimits& limits) {
   const double by_area = std::sqrt(limits.max_feature_px / (static_cast<double>(width) * height));
   return std::min({wanted, by_area, static_cast<double>(limits.max_frame_width) / width,

@@ -9,9 +9,6 @@
 
 namespace traygauge {
 
-// invalid_configuration when a value lies outside its range; surf_not_built in a library without SURF.
-Status validate_feature_search(const Configuration& configuration);
-
 // Detects, describes and undistorts; call after prepare_picture. Where the card is labelled, its part of the
 // picture is searched apart, enlarged. Points whose pixel the lens model cannot invert are dropped.
 // too_few_features when the picture has next to none.

@@ -13,7 +13,6 @@
 #include "core/base/random.hpp"
 #include "core/estimator/estimator.hpp"
 #include "core/estimator/parameters.hpp"
-#include "core/features/has_surf.hpp"
 #include "firmware/base/aligned_block.hpp"
 #include "firmware/config/profile.hpp"
 #include "firmware/measure/pair_setup.hpp"
@@ -112,7 +111,6 @@ class ParameterSweep : public ::testing::TestWithParam<Profile> {
   }
 
   void SetUp() override {
-    if (GetParam() == Profile::paper && !has_surf()) GTEST_SKIP() << "profile paper is not in this build";
     if (const char* given = std::getenv("TRAYGAUGE_SWEEP_SHARE")) share_ = std::strtod(given, nullptr);
     std::cout << "TRAYGAUGE_SWEEP_SHARE=" << share_ << std::endl;
   }

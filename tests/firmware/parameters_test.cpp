@@ -14,7 +14,6 @@
 #include <vector>
 
 #include "core/estimator/parameters.hpp"
-#include "core/features/has_surf.hpp"
 #include "firmware/base/exit_status.hpp"
 #include "tests/firmware/command_runner.hpp"
 
@@ -195,11 +194,8 @@ TEST(Parameters, WhatCannotBeMeantIsRefusedInOneLine) {
   expect_refused({"--set", "best.surface.band_lanes=24"}, "a multiple of 16 from 16 to 64, found 24");
   expect_refused({"--set", "best.joint.use_rims=yes"}, "expected true or false");
   expect_refused({"--set", "stereo.levels=2"}, "profile best does not read it; add --profile paper");
-  if (has_surf()) {
-    expect_refused({"--profile", "paper", "--set", "best.surface.levels=2"},
-                   "profile paper does not read it");
-    expect_refused({"--profile", "paper", "--set", "stereo.cost=ssd"}, "expected census or sad or zncc");
-  }
+  expect_refused({"--profile", "paper", "--set", "best.surface.levels=2"}, "profile paper does not read it");
+  expect_refused({"--profile", "paper", "--set", "stereo.cost=ssd"}, "expected census or sad or zncc");
   const CommandResult both = run(
       {"evaluate", "--parameters", "--set", "best.surface.levels=2", "--set", "geometry.max_angle_deg=4e1"});
   EXPECT_EQ(both.status, kExitMeasured) << both.error;

@@ -1,5 +1,5 @@
-// The core library refers to no symbol that allocates or throws, and holds no SURF where that is not built.
-// Unoptimised builds keep calls that can never be reached, so the former looks at Release builds.
+// The core library refers to no symbol that allocates or throws. Unoptimised builds keep calls that can never
+// be reached, so this looks at Release builds.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -37,20 +37,6 @@ Symbols read_symbols(const std::string& archive) {
   return symbols;
 }
 
-// Defined or called.
-std::set<std::string> surf_symbols(const std::string& archive) {
-  static const std::regex kSurf(
-      "(detect|describe)_surf|Surf(Params|Workspace)|compute_response_row|derivatives_at|find_orientation|"
-      "haar_response");
-  Symbols symbols = read_symbols(archive);
-  symbols.defined.merge(symbols.undefined);
-  std::set<std::string> found;
-  for (const std::string& symbol : symbols.defined) {
-    if (std::regex_search(symbol, kSurf)) found.insert(symbol);
-  }
-  return found;
-}
-
 std::set<std::string> forbidden_symbols(const std::string& archive) {
   static const std::regex kForbidden(
       R"((malloc|calloc|realloc|free|aligned_alloc|posix_memalign|memalign|strdup|alloca)(@.*)?|operator (new|delete).*|__cxa_(allocate_exception|throw)(@.*)?|std::__throw_.*)");
@@ -67,12 +53,6 @@ TEST(CoreSymbols, NoneAllocates) {
   for (const std::string& symbol : forbidden_symbols(TRAYGAUGE_CORE_ARCHIVE)) {
     ADD_FAILURE() << TRAYGAUGE_CORE_ARCHIVE << " refers to " << symbol;
   }
-}
-
-TEST(CoreSymbols, HoldSurfOnlyWhereItIsBuilt) {
-  EXPECT_EQ(!surf_symbols(TRAYGAUGE_CORE_ARCHIVE).empty(), TRAYGAUGE_HAS_SURF != 0);
-  EXPECT_FALSE(read_symbols(TRAYGAUGE_CORE_ARCHIVE_WITHOUT_SURF).defined.empty()) << "nm said nothing";
-  for (const std::string& symbol : surf_symbols(TRAYGAUGE_CORE_ARCHIVE_WITHOUT_SURF)) ADD_FAILURE() << symbol;
 }
 
 TEST(CoreSymbols, WouldBeFound) {
