@@ -14,11 +14,9 @@
 #include "firmware/station/recorded_captures.hpp"
 #include "firmware/station/station.hpp"
 
-namespace CLI {
-class App;
-}
-
 namespace traygauge {
+
+class Program;
 
 struct StationCommand {
   std::string devices;      // "hardware:FILE" or "simulator:FOLDER"
@@ -37,8 +35,8 @@ struct StationCommand {
 using OpenCaptures = std::function<std::unique_ptr<MeasurableCaptures>(
     const std::vector<std::filesystem::path>& folders, Profile, const LabelChoice&)>;
 
-// Adds the command to `app`; when it is given, parsing fills `command`.
-CLI::App* add_station_command(CLI::App& app, StationCommand& command);
+// Adds the command; when it is given, parsing fills `command`.
+void add_station_command(Program& program, StationCommand& command);
 
 // Runs the loop until its end or until `stop`. Exit status: all scans measured, or some not.
 // Throws UsageError, InputError and what `open_captures` throws, before anything is printed.
