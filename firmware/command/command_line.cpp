@@ -11,7 +11,7 @@
 #include "firmware/memory/memory_command.hpp"
 #include "firmware/record/record_command.hpp"
 #include "firmware/segment/segment_command.hpp"
-#include "firmware/station/recorded_captures.hpp"
+#include "firmware/station/open_captures.hpp"
 #include "firmware/station/station_command.hpp"
 #include "firmware/station/stop_signal.hpp"
 

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <string>
 
-#include "firmware/segment/pair_labels.hpp"
+#include "firmware/segment/label_source.hpp"
 #include "simulator/capture/capture.hpp"
 
 namespace traygauge {

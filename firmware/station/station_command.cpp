@@ -8,6 +8,7 @@
 #include "firmware/config/profile.hpp"
 #include "firmware/measure/measure_choices.hpp"
 #include "firmware/station/hardware_station.hpp"
+#include "firmware/station/played_scene.hpp"
 #include "firmware/station/scan_printer.hpp"
 #include "simulator/capture/input_error.hpp"
 #include "simulator/devices/capture_folders.hpp"
@@ -105,8 +106,8 @@ void add_station_command(Program& program, StationCommand& command) {
   station.add_option("--seed", command.seed, "Seed of the random samples").show_default();
 }
 
-int run_station(const StationCommand& command, const OpenCaptures& open_captures,
-                const std::atomic<bool>& stop, std::ostream& out, std::ostream& log) {
+int run_station(const StationCommand& command, OpenCaptures& open_captures, const std::atomic<bool>& stop,
+                std::ostream& out, std::ostream& log) {
   const Profile profile = choose_profile(command.profile);
   if (command.devices.starts_with(kHardwarePrefix)) {
     return run_hardware_station(command, command.devices.substr(kHardwarePrefix.size()), stop, out, log);

@@ -4,7 +4,7 @@
 #include <iostream>
 
 #include "firmware/command/program.hpp"
-#include "firmware/station/recorded_captures.hpp"
+#include "firmware/station/open_captures.hpp"
 #include "firmware/station/station_command.hpp"
 #include "firmware/station/stop_signal.hpp"
 
