@@ -5,11 +5,9 @@
 #include <string>
 #include <vector>
 
-namespace CLI {
-class App;
-}
-
 namespace traygauge {
+
+class Program;
 
 struct CalibrateOptions {
   std::string station;  // a station file
@@ -20,7 +18,7 @@ struct CalibrateOptions {
   bool force = false;    // writes what is not good enough, too
 };
 
-void add_calibrate_commands(CLI::App& app, CalibrateOptions& options);
+void add_calibrate_commands(Program& program, CalibrateOptions& options);
 
 // Exit status: 0 calibrated, 1 what came of it is not good enough and was not written. Throws UsageError,
 // InputError, OutputError.

@@ -1,12 +1,12 @@
 #include "firmware/check/check_command.hpp"
 
-#include <CLI/CLI.hpp>
 #include <ostream>
 
 #include "firmware/base/exit_status.hpp"
 #include "firmware/base/text.hpp"
 #include "firmware/check/device_check.hpp"
 #include "firmware/check/view_check.hpp"
+#include "firmware/command/program.hpp"
 #include "firmware/measure/pair_setup.hpp"
 #include "firmware/station/hardware.hpp"
 #include "simulator/capture/picture_file.hpp"
@@ -163,12 +163,12 @@ class StationCheck {
 
 }  // namespace
 
-void add_check_command(CLI::App& app, CheckOptions& options) {
-  CLI::App* command =
-      app.add_subcommand("check", "Try every device of a station and say what is wrong and what to do");
-  command->add_option("STATION", options.station, "The station file, see config/station.toml")->required();
-  command->add_option("--press", options.press_s, "Wait so many seconds for a press of the button")
-      ->check(CLI::Range(0.1, 600.0));
+void add_check_command(Program& program, CheckOptions& options) {
+  Command command =
+      program.add_command("check", "Try every device of a station and say what is wrong and what to do");
+  command.add_option("STATION", options.station, "The station file, see config/station.toml").required();
+  command.add_option("--press", options.press_s, "Wait so many seconds for a press of the button")
+      .range(0.1, 600.0);
 }
 
 int run_check(const CheckOptions& options, std::ostream& out) {

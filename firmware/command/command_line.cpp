@@ -1,6 +1,6 @@
 #include "firmware/command/command_line.hpp"
 
-#include <CLI/CLI.hpp>
+#include <string>
 
 #include "firmware/check/check_command.hpp"
 #include "firmware/command/program.hpp"
@@ -11,7 +11,7 @@
 #include "firmware/memory/memory_command.hpp"
 #include "firmware/record/record_command.hpp"
 #include "firmware/segment/segment_command.hpp"
-#include "firmware/station/recorded_captures.hpp"
+#include "firmware/station/open_captures.hpp"
 #include "firmware/station/station_command.hpp"
 #include "firmware/station/stop_signal.hpp"
 
@@ -30,26 +30,26 @@ struct Options {
 };
 
 // What follows belongs to a program of its own.
-void add_calibrate_command(CLI::App& app) {
-  CLI::App* command = app.add_subcommand(
+void add_calibrate_command(Program& program) {
+  Command command = program.add_command(
       "calibrate", "The lens from pictures of a chessboard, the arm from captures of the card");
-  command->set_help_flag();
-  command->prefix_command();
+  command.take_nothing();
 }
 
-int run_command(const CLI::App& app, const Options& options, std::ostream& out, std::ostream& error) {
-  if (app.got_subcommand("measure")) return run_measure(options.measure, out, error);
-  if (app.got_subcommand("evaluate")) return run_evaluate(options.evaluate, out, error);
-  if (app.got_subcommand("enrol-dish")) return run_enrol(options.enrol, out);
-  if (app.got_subcommand("segment")) return run_segment(options.segment, out);
-  if (app.got_subcommand("station")) {
+int run_command(const Program& program, const Options& options, std::ostream& out, std::ostream& error) {
+  const std::string command = program.chosen();
+  if (command == "measure") return run_measure(options.measure, out, error);
+  if (command == "evaluate") return run_evaluate(options.evaluate, out, error);
+  if (command == "enrol-dish") return run_enrol(options.enrol, out);
+  if (command == "segment") return run_segment(options.segment, out);
+  if (command == "station") {
     return run_station(options.station, open_recorded_captures, stop_on_signals(), out, error);
   }
-  if (app.got_subcommand("check")) return run_check(options.check, out);
-  if (app.got_subcommand("calibrate")) {
-    return run_sibling_program("traygauge-calibrate", app.get_subcommand("calibrate")->remaining());
+  if (command == "check") return run_check(options.check, out);
+  if (command == "calibrate") {
+    return run_sibling_program("traygauge-calibrate", program.remaining());
   }
-  if (app.got_subcommand("record")) return run_record(options.record, stop_on_signals(), out, error);
+  if (command == "record") return run_record(options.record, stop_on_signals(), out, error);
   return run_memory(options.memory, out);
 }
 
@@ -57,21 +57,20 @@ int run_command(const CLI::App& app, const Options& options, std::ostream& out, 
 
 int run_command_line(int argument_count, const char* const* arguments, std::ostream& out,
                      std::ostream& error) {
-  CLI::App app("Traygauge measures the volume of the food on a tray from two pictures.", "traygauge");
-  app.set_version_flag("--version", TRAYGAUGE_VERSION);
-  app.require_subcommand(1);
+  Program program("Traygauge measures the volume of the food on a tray from two pictures.", "traygauge");
+  program.add_version(TRAYGAUGE_VERSION);
   Options options;
-  add_measure_command(app, options.measure);
-  add_evaluate_command(app, options.evaluate);
-  add_segment_command(app, options.segment);
-  add_enrol_command(app, options.enrol);
-  add_memory_command(app, options.memory);
-  add_station_command(app, options.station);
-  add_check_command(app, options.check);
-  add_record_command(app, options.record);
-  add_calibrate_command(app);
-  const auto run = [&] { return run_command(app, options, out, error); };
-  return run_program(app, argument_count, arguments, run, out, error);
+  add_measure_command(program, options.measure);
+  add_evaluate_command(program, options.evaluate);
+  add_segment_command(program, options.segment);
+  add_enrol_command(program, options.enrol);
+  add_memory_command(program, options.memory);
+  add_station_command(program, options.station);
+  add_check_command(program, options.check);
+  add_record_command(program, options.record);
+  add_calibrate_command(program);
+  const auto run = [&] { return run_command(program, options, out, error); };
+  return program.run(argument_count, arguments, run, out, error);
 }
 
 }  // namespace traygauge

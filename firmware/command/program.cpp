@@ -4,32 +4,137 @@
 #include <exception>
 #include <new>
 #include <ostream>
-#include <string>
 
 #include "firmware/base/exit_status.hpp"
 #include "simulator/capture/input_error.hpp"
 
 namespace traygauge {
 
-int run_program(CLI::App& app, int argument_count, const char* const* arguments,
-                const std::function<int()>& run, std::ostream& out, std::ostream& error) {
+CommandOption& CommandOption::required() {
+  option_->required();
+  return *this;
+}
+
+CommandOption& CommandOption::range(int min, int max) {
+  option_->check(CLI::Range(min, max));
+  return *this;
+}
+
+CommandOption& CommandOption::range(double min, double max) {
+  option_->check(CLI::Range(min, max));
+  return *this;
+}
+
+CommandOption& CommandOption::positive() {
+  option_->check(CLI::PositiveNumber);
+  return *this;
+}
+
+CommandOption& CommandOption::environment(const std::string& name) {
+  option_->envname(name);
+  return *this;
+}
+
+CommandOption& CommandOption::several() {
+  option_->take_all();
+  return *this;
+}
+
+CommandOption& CommandOption::show_default() {
+  option_->capture_default_str();
+  return *this;
+}
+
+CommandOption& CommandOption::excludes(const CommandOption& other) {
+  option_->excludes(other.option_);
+  return *this;
+}
+
+CommandOption Command::add_option(const std::string& name, std::string& value, const std::string& text) {
+  return CommandOption(*app_->add_option(name, value, text));
+}
+
+CommandOption Command::add_option(const std::string& name, std::vector<std::string>& value,
+                                  const std::string& text) {
+  return CommandOption(*app_->add_option(name, value, text));
+}
+
+CommandOption Command::add_option(const std::string& name, int& value, const std::string& text) {
+  return CommandOption(*app_->add_option(name, value, text));
+}
+
+CommandOption Command::add_option(const std::string& name, std::uint64_t& value, const std::string& text) {
+  return CommandOption(*app_->add_option(name, value, text));
+}
+
+CommandOption Command::add_option(const std::string& name, double& value, const std::string& text) {
+  return CommandOption(*app_->add_option(name, value, text));
+}
+
+CommandOption Command::add_flag(const std::string& name, bool& value, const std::string& text) {
+  return CommandOption(*app_->add_flag(name, value, text));
+}
+
+CommandOption Command::add_action(const std::string& name, const std::function<void()>& action,
+                                  const std::string& text) {
+  return CommandOption(*app_->add_flag_callback(name, action, text));
+}
+
+void Command::take_nothing() {
+  app_->set_help_flag();
+  app_->prefix_command();
+}
+
+Program::Program(const std::string& text, const std::string& name)
+    : app_(std::make_unique<CLI::App>(text, name)) {
+  app_->require_subcommand(1);
+}
+
+Program::~Program() = default;
+
+void Program::add_version(const std::string& version) {
+  app_->set_version_flag("--version", version);
+}
+
+Command Program::add_command(const std::string& name, const std::string& text) {
+  return Command(*app_->add_subcommand(name, text));
+}
+
+Command Program::whole() {
+  return Command(*app_);
+}
+
+void Program::take_options_after_commands() {
+  app_->fallthrough();
+}
+
+int Program::run(int argument_count, const char* const* arguments, const std::function<int()>& action,
+                 std::ostream& out, std::ostream& error) {
   const auto fail = [&](const std::string& text) {
-    error << app.get_name() << ": " << printable(text) << "\n";
+    error << app_->get_name() << ": " << printable(text) << "\n";
     return kExitWrongUse;
   };
   try {
-    app.parse(argument_count, arguments);
-    const int status = run();
+    app_->parse(argument_count, arguments);
+    const int status = action();
     out.flush();
     return out ? status : fail("the result could not be written to standard output");
   } catch (const CLI::ParseError& problem) {
-    if (problem.get_exit_code() == 0) return app.exit(problem, out, error);  // --help, --version
-    return fail(std::string(problem.what()) + "; see " + app.get_name() + " --help");
+    if (problem.get_exit_code() == 0) return app_->exit(problem, out, error);  // --help, --version
+    return fail(std::string(problem.what()) + "; see " + app_->get_name() + " --help");
   } catch (const std::bad_alloc&) {
     return fail("too little memory for pictures of this size; see traygauge memory");
   } catch (const std::exception& problem) {  // UsageError, InputError, OutputError
     return fail(problem.what());
   }
+}
+
+std::string Program::chosen() const {
+  return app_->get_subcommands().front()->get_name();
+}
+
+std::vector<std::string> Program::remaining() const {
+  return app_->get_subcommands().front()->remaining();
 }
 
 }  // namespace traygauge

@@ -4,6 +4,7 @@
 
 #include "core/segmentation/label_regions.hpp"
 #include "firmware/config/dish_library.hpp"
+#include "firmware/config/station_file.hpp"
 #include "simulator/capture/input_error.hpp"
 
 namespace traygauge {

@@ -4,10 +4,11 @@
 #include <string>
 #include <vector>
 
-#include "firmware/config/station_file.hpp"
 #include "simulator/capture/capture.hpp"
 
 namespace traygauge {
+
+struct StationFile;
 
 // One dish of label 1, or none named: what profile paper measures.
 bool has_one_dish(const Capture& capture);

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <string_view>
 
 #include "core/estimator/measurement.hpp"
@@ -304,8 +303,8 @@ void read_trays(const JsonNode& table, const fs::path& folder, StationFile& stat
 }  // namespace
 
 StationFile read_station_file(const fs::path& file) {
-  const nlohmann::json document = read_toml(file, kMaxFileBytes, "a station in TOML");
-  const JsonNode root(document, file);
+  const JsonDocument document = read_toml(file, kMaxFileBytes, "a station in TOML");
+  const JsonNode root = document.root();
   expect(root, {"camera", "second_camera", "button", "lamp", "arm", "arm_geometry", "lens", "second_lens",
                 "card", "trays"});
   const fs::path folder = file.parent_path();

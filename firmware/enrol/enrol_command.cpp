@@ -1,6 +1,5 @@
 #include "firmware/enrol/enrol_command.hpp"
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
@@ -8,6 +7,7 @@
 #include <system_error>
 
 #include "firmware/base/exit_status.hpp"
+#include "firmware/command/program.hpp"
 #include "firmware/config/dish_file.hpp"
 #include "firmware/config/dish_library.hpp"
 #include "firmware/enrol/empty_dish.hpp"
@@ -45,19 +45,19 @@ std::filesystem::path file_of(const EnrolOptions& options) {
 
 }  // namespace
 
-void add_enrol_command(CLI::App& app, EnrolOptions& options) {
-  CLI::App* command =
-      app.add_subcommand("enrol-dish", "Learn a dish's size and inner surface from pictures of it empty");
-  command->add_option("capture", options.capture, "Folder with capture.json: the empty dish and the card")
-      ->required();
-  command->add_option("--style", options.style, "The dish's name")->required();
-  command->add_option("--out", options.out,
-                      "Folder for NAME.toml; default: dishes/ in the folder of --config");
-  command->add_option("--pair", options.pair, "The two views A,B; default: the first of the capture's pairs");
-  command->add_option("--seed", options.seed, "Seed of all randomness, default 0");
-  command->add_option("--config", options.config, "Folder with dishes/")->envname("TRAYGAUGE_CONFIG");
-  command->add_flag("--force", options.force, "Replace a dish of the same name");
-  command->add_flag("--json", options.json, "Print one JSON document instead of a table");
+void add_enrol_command(Program& program, EnrolOptions& options) {
+  Command command =
+      program.add_command("enrol-dish", "Learn a dish's size and inner surface from pictures of it empty");
+  command.add_option("capture", options.capture, "Folder with capture.json: the empty dish and the card")
+      .required();
+  command.add_option("--style", options.style, "The dish's name").required();
+  command.add_option("--out", options.out,
+                     "Folder for NAME.toml; default: dishes/ in the folder of --config");
+  command.add_option("--pair", options.pair, "The two views A,B; default: the first of the capture's pairs");
+  command.add_option("--seed", options.seed, "Seed of all randomness, default 0");
+  command.add_option("--config", options.config, "Folder with dishes/").environment("TRAYGAUGE_CONFIG");
+  command.add_flag("--force", options.force, "Replace a dish of the same name");
+  command.add_flag("--json", options.json, "Print one JSON document instead of a table");
 }
 
 int run_enrol(const EnrolOptions& options, std::ostream& out) {

@@ -4,11 +4,9 @@
 #include <iosfwd>
 #include <string>
 
-namespace CLI {
-class App;
-}
-
 namespace traygauge {
+
+class Program;
 
 // As typed; empty where not given.
 struct EnrolOptions {
@@ -22,7 +20,7 @@ struct EnrolOptions {
   bool json = false;
 };
 
-void add_enrol_command(CLI::App& app, EnrolOptions& options);
+void add_enrol_command(Program& program, EnrolOptions& options);
 
 // Returns the exit status: 0 when the dish was written, 1 when it was not measurable. Throws UsageError,
 // InputError, OutputError.

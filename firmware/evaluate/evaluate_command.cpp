@@ -2,7 +2,6 @@
 
 #include <unistd.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
@@ -10,6 +9,7 @@
 #include <ostream>
 
 #include "firmware/base/exit_status.hpp"
+#include "firmware/command/program.hpp"
 #include "firmware/config/parameters.hpp"
 #include "firmware/config/profile.hpp"
 #include "firmware/evaluate/evaluation.hpp"
@@ -86,24 +86,22 @@ std::string report_stages(const EvaluateOptions& options, const ProtocolOptions&
 
 }  // namespace
 
-void add_evaluate_command(CLI::App& app, EvaluateOptions& options) {
-  CLI::App* command =
-      app.add_subcommand("evaluate", "Measure a set of captures and compare with their truth");
-  command->add_option("set", options.set, "A capture with truth.json, or a folder of such");
-  command->add_option("--runs", options.runs, "Seeds a pair, default 8")->check(CLI::Range(1, kMaxRuns));
-  command->add_option("--jobs", options.jobs, "Pairs measured at the same time, default 1")
-      ->check(CLI::Range(1, kMaxJobs));
-  command->add_option("--profile", options.profile, "best (default) or paper");
-  command->add_option("--labels", options.labels,
-                      "given (default), or auto: found in the pictures, and compared with the given ones");
-  command->add_option("--out", options.out, "Folder for CSV files, plots (SVG) and summary.json");
-  command->add_flag("--json", options.json, "Print summary.json instead of tables");
-  command->add_flag("--stages", options.stages,
-                    "Compare every stage with the truth, and measure with the truth in its place");
-  command->add_option("--config", options.config, "Folder with dishes/, for captures that name no dish")
-      ->envname("TRAYGAUGE_CONFIG");
-  command->add_option("--set", options.settings, "Try another value: NAME=VALUE, several times")->take_all();
-  command->add_flag("--parameters", options.list_parameters, "List the names for --set with their values");
+void add_evaluate_command(Program& program, EvaluateOptions& options) {
+  Command command = program.add_command("evaluate", "Measure a set of captures and compare with their truth");
+  command.add_option("set", options.set, "A capture with truth.json, or a folder of such");
+  command.add_option("--runs", options.runs, "Seeds a pair, default 8").range(1, kMaxRuns);
+  command.add_option("--jobs", options.jobs, "Pairs measured at the same time, default 1").range(1, kMaxJobs);
+  command.add_option("--profile", options.profile, "best (default) or paper");
+  command.add_option("--labels", options.labels,
+                     "given (default), or auto: found in the pictures, and compared with the given ones");
+  command.add_option("--out", options.out, "Folder for CSV files, plots (SVG) and summary.json");
+  command.add_flag("--json", options.json, "Print summary.json instead of tables");
+  command.add_flag("--stages", options.stages,
+                   "Compare every stage with the truth, and measure with the truth in its place");
+  command.add_option("--config", options.config, "Folder with dishes/, for captures that name no dish")
+      .environment("TRAYGAUGE_CONFIG");
+  command.add_option("--set", options.settings, "Try another value: NAME=VALUE, several times").several();
+  command.add_flag("--parameters", options.list_parameters, "List the names for --set with their values");
 }
 
 int run_evaluate(const EvaluateOptions& options, std::ostream& out, std::ostream& error) {

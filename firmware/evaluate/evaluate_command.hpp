@@ -5,11 +5,9 @@
 #include <string>
 #include <vector>
 
-namespace CLI {
-class App;
-}
-
 namespace traygauge {
+
+class Program;
 
 struct EvaluateOptions {
   std::string set;
@@ -25,7 +23,7 @@ struct EvaluateOptions {
   bool list_parameters = false;
 };
 
-void add_evaluate_command(CLI::App& app, EvaluateOptions& options);
+void add_evaluate_command(Program& program, EvaluateOptions& options);
 
 // Returns the exit status: 0 when at least one item was measured, 1 when none. Throws UsageError, InputError,
 // OutputError.

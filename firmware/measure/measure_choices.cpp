@@ -1,6 +1,5 @@
 #include "firmware/measure/measure_choices.hpp"
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <charconv>
 #include <filesystem>
@@ -8,6 +7,7 @@
 
 #include "core/estimator/measurement.hpp"
 #include "firmware/base/exit_status.hpp"
+#include "firmware/command/program.hpp"
 #include "simulator/capture/input_error.hpp"
 #include "simulator/capture/output_file.hpp"
 
@@ -26,11 +26,11 @@ bool parse_whole(const std::string& text, Number& number) {
 
 }  // namespace
 
-void add_items_option(CLI::App& command, int& items) {
+void add_items_option(Command& command, int& items) {
   command
       .add_option("--items", items,
                   "How many food items there are, where they are found and not given; default: as found")
-      ->check(CLI::Range(1, static_cast<int>(kMaxItems)));
+      .range(1, static_cast<int>(kMaxItems));
 }
 
 void check_hint(int items, LabelSource labels) {

@@ -5,14 +5,12 @@
 #include <cstdint>
 #include <string>
 
-#include "firmware/segment/pair_labels.hpp"
+#include "firmware/segment/label_source.hpp"
 #include "simulator/capture/capture.hpp"
 
-namespace CLI {
-class App;
-}
-
 namespace traygauge {
+
+class Command;
 
 // The pair that `typed` ("A,B") names; without it the first of the capture's, else 0 and 1.
 std::array<int, 2> choose_pair(const std::string& typed, const Capture& capture);
@@ -25,7 +23,7 @@ void require_labels(const Capture& capture, const std::array<int, 2>& pair);
 LabelSource choose_labels(const std::string& typed, const Capture& capture, const std::array<int, 2>& pair);
 
 // "--items N": how many items there are, for labels that are found.
-void add_items_option(CLI::App& command, int& items);
+void add_items_option(Command& command, int& items);
 
 // UsageError where so many items are said to lie in given outlines; 0: nothing is said.
 void check_hint(int items, LabelSource labels);

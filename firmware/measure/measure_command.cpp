@@ -1,9 +1,9 @@
 #include "firmware/measure/measure_command.hpp"
 
-#include <CLI/CLI.hpp>
 #include <ostream>
 
 #include "firmware/base/exit_status.hpp"
+#include "firmware/command/program.hpp"
 #include "firmware/config/dish_choice.hpp"
 #include "firmware/config/profile.hpp"
 #include "firmware/measure/capture_session.hpp"
@@ -53,24 +53,24 @@ void write_files(const MeasureOptions& options, const CaptureSession& session, c
 
 }  // namespace
 
-void add_measure_command(CLI::App& app, MeasureOptions& options) {
-  CLI::App* command = app.add_subcommand("measure", "Measure the food in two views of a capture");
-  command->add_option("capture", options.capture, "Folder with capture.json")->required();
-  command->add_option("--pair", options.pair, "The two views A,B; default: the first of the capture's pairs");
-  command->add_option(
+void add_measure_command(Program& program, MeasureOptions& options) {
+  Command command = program.add_command("measure", "Measure the food in two views of a capture");
+  command.add_option("capture", options.capture, "Folder with capture.json").required();
+  command.add_option("--pair", options.pair, "The two views A,B; default: the first of the capture's pairs");
+  command.add_option(
       "--labels", options.labels,
       "Where dish and food are outlined: given (label pictures) or auto (found in the pictures); default: "
       "given where the capture has label pictures");
-  add_items_option(*command, options.items);
-  command->add_option("--profile", options.profile,
-                      "best (default), or paper: every stage as the paper describes it");
-  command->add_option("--seed", options.seed, "Seed of all randomness, default 0");
-  command->add_option("--config", options.config, "Folder with dishes/, for captures that name no dish")
-      ->envname("TRAYGAUGE_CONFIG");
-  command->add_flag("--json", options.json, "Print one JSON document instead of a table");
-  command->add_option("--picture", options.picture, "Write a PNG with views, disparity and heights");
-  command->add_option("--mesh", options.mesh,
-                      "Write the food surface as PLY, in mm over the bottom of the dish");
+  add_items_option(command, options.items);
+  command.add_option("--profile", options.profile,
+                     "best (default), or paper: every stage as the paper describes it");
+  command.add_option("--seed", options.seed, "Seed of all randomness, default 0");
+  command.add_option("--config", options.config, "Folder with dishes/, for captures that name no dish")
+      .environment("TRAYGAUGE_CONFIG");
+  command.add_flag("--json", options.json, "Print one JSON document instead of a table");
+  command.add_option("--picture", options.picture, "Write a PNG with views, disparity and heights");
+  command.add_option("--mesh", options.mesh,
+                     "Write the food surface as PLY, in mm over the bottom of the dish");
 }
 
 int run_measure(const MeasureOptions& options, std::ostream& out, std::ostream& error) {

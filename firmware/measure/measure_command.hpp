@@ -4,11 +4,9 @@
 #include <iosfwd>
 #include <string>
 
-namespace CLI {
-class App;
-}
-
 namespace traygauge {
+
+class Program;
 
 // As typed; empty where not given.
 struct MeasureOptions {
@@ -25,7 +23,7 @@ struct MeasureOptions {
 };
 
 // Adds the command and its options.
-void add_measure_command(CLI::App& app, MeasureOptions& options);
+void add_measure_command(Program& program, MeasureOptions& options);
 
 // Returns the exit status. Throws UsageError, InputError, OutputError before anything is printed to `out`.
 int run_measure(const MeasureOptions& options, std::ostream& out, std::ostream& error);

@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "core/estimator/measurement.hpp"
-#include "firmware/measure/capture_session.hpp"
 
 namespace traygauge {
 

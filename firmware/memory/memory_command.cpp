@@ -1,6 +1,5 @@
 #include "firmware/memory/memory_command.hpp"
 
-#include <CLI/CLI.hpp>
 #include <cstddef>
 #include <ostream>
 #include <span>
@@ -11,6 +10,7 @@
 #include "core/estimator/segmenter_memory.hpp"
 #include "firmware/base/exit_status.hpp"
 #include "firmware/base/text.hpp"
+#include "firmware/command/program.hpp"
 #include "firmware/config/profile.hpp"
 #include "simulator/capture/picture.hpp"
 
@@ -33,13 +33,13 @@ void print_parts(std::span<const MemoryRow> parts, std::ostream& out) {
 
 }  // namespace
 
-void add_memory_command(CLI::App& app, MemoryOptions& options) {
-  CLI::App* command = app.add_subcommand("memory", "Show the memory that a measurement reserves at start");
-  const CLI::Range side(kMinPictureSide, kMaxPictureSide);
-  command->add_option("--width", options.width, "Width of the frames in pixels, default 1600")->check(side);
-  command->add_option("--height", options.height, "Height of the frames in pixels, default 1200")
-      ->check(side);
-  command->add_option("--profile", options.profile, "best (default) or paper");
+void add_memory_command(Program& program, MemoryOptions& options) {
+  Command command = program.add_command("memory", "Show the memory that a measurement reserves at start");
+  command.add_option("--width", options.width, "Width of the frames in pixels, default 1600")
+      .range(kMinPictureSide, kMaxPictureSide);
+  command.add_option("--height", options.height, "Height of the frames in pixels, default 1200")
+      .range(kMinPictureSide, kMaxPictureSide);
+  command.add_option("--profile", options.profile, "best (default) or paper");
 }
 
 int run_memory(const MemoryOptions& options, std::ostream& out) {

@@ -4,11 +4,9 @@
 #include <iosfwd>
 #include <string>
 
-namespace CLI {
-class App;
-}
-
 namespace traygauge {
+
+class Program;
 
 struct MemoryOptions {
   int width = 1600;
@@ -16,7 +14,7 @@ struct MemoryOptions {
   std::string profile;  // empty: the default
 };
 
-void add_memory_command(CLI::App& app, MemoryOptions& options);
+void add_memory_command(Program& program, MemoryOptions& options);
 
 // A table of the estimator's parts, their sum, and the caller's frames apart. Returns the exit status.
 int run_memory(const MemoryOptions& options, std::ostream& out);

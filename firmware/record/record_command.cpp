@@ -1,9 +1,9 @@
 #include "firmware/record/record_command.hpp"
 
-#include <CLI/CLI.hpp>
 #include <ostream>
 
 #include "firmware/base/exit_status.hpp"
+#include "firmware/command/program.hpp"
 #include "firmware/record/capture_recorder.hpp"
 #include "firmware/record/picture_recorder.hpp"
 #include "firmware/station/hardware.hpp"
@@ -46,15 +46,15 @@ class RecordPrinter final : public ResultSink {
 
 }  // namespace
 
-void add_record_command(CLI::App& app, RecordOptions& options) {
-  CLI::App* command = app.add_subcommand("record", "Save captures: press the button for each tray");
-  command->add_option("STATION", options.station, "The station file, see config/station.toml")->required();
-  command->add_option("--out", options.out, "Folder for the captures")->required();
-  command->add_flag(
+void add_record_command(Program& program, RecordOptions& options) {
+  Command command = program.add_command("record", "Save captures: press the button for each tray");
+  command.add_option("STATION", options.station, "The station file, see config/station.toml").required();
+  command.add_option("--out", options.out, "Folder for the captures").required();
+  command.add_flag(
       "--pictures", options.pictures,
       "Single pictures, such as of a chessboard for traygauge calibrate; neither lens nor card need "
       "be known");
-  command->add_option("--count", options.count, "End after so many")->check(CLI::PositiveNumber);
+  command.add_option("--count", options.count, "End after so many").positive();
 }
 
 int run_record(const RecordOptions& options, const std::atomic<bool>& stop, std::ostream& out,

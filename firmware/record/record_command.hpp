@@ -6,11 +6,9 @@
 #include <iosfwd>
 #include <string>
 
-namespace CLI {
-class App;
-}
-
 namespace traygauge {
+
+class Program;
 
 struct RecordOptions {
   std::string station;  // a station file
@@ -19,7 +17,7 @@ struct RecordOptions {
   std::uint64_t count = 0;  // 0: until it is stopped
 };
 
-void add_record_command(CLI::App& app, RecordOptions& options);
+void add_record_command(Program& program, RecordOptions& options);
 
 // Exit status: all captures saved, or some not. Throws InputError and OutputError before a device is opened.
 int run_record(const RecordOptions& options, const std::atomic<bool>& stop, std::ostream& out,

@@ -10,15 +10,10 @@
 #include "core/estimator/estimator.hpp"
 #include "core/estimator/segmenter.hpp"
 #include "firmware/base/aligned_block.hpp"
+#include "firmware/segment/label_source.hpp"
 #include "simulator/capture/picture.hpp"
 
 namespace traygauge {
-
-// Where dish and food are outlined.
-enum class LabelSource : std::uint8_t {
-  given,      // by label pictures
-  automatic,  // by the segmentation
-};
 
 struct PairLabels {
   std::array<Picture, 2> labels;

@@ -1,12 +1,12 @@
 #include "firmware/segment/segment_command.hpp"
 
-#include <CLI/CLI.hpp>
 #include <filesystem>
 #include <opencv2/core.hpp>
 #include <ostream>
 #include <system_error>
 
 #include "firmware/base/exit_status.hpp"
+#include "firmware/command/program.hpp"
 #include "firmware/config/dish_choice.hpp"
 #include "firmware/measure/capture_session.hpp"
 #include "firmware/measure/drawing.hpp"
@@ -55,18 +55,18 @@ void write_labels(const std::filesystem::path& folder, const SegmentReport& repo
 
 }  // namespace
 
-void add_segment_command(CLI::App& app, SegmentOptions& options) {
-  CLI::App* command =
-      app.add_subcommand("segment", "Find card, dishes and food in two views of a capture, without labels");
-  command->add_option("capture", options.capture, "Folder with capture.json")->required();
-  command->add_option("--pair", options.pair, "The two views A,B; default: the first of the capture's pairs");
-  command->add_option("--config", options.config, "Folder with dishes/, for captures that name no dish")
-      ->envname("TRAYGAUGE_CONFIG");
-  add_items_option(*command, options.items);
-  command->add_flag("--json", options.json, "Print one JSON document instead of a table");
-  command->add_option("--picture", options.picture, "Write a PNG with the outlines, beside the given ones");
-  command->add_option("--out", options.out,
-                      "Folder for labels_A.png and labels_B.png, to correct by hand and to measure with");
+void add_segment_command(Program& program, SegmentOptions& options) {
+  Command command =
+      program.add_command("segment", "Find card, dishes and food in two views of a capture, without labels");
+  command.add_option("capture", options.capture, "Folder with capture.json").required();
+  command.add_option("--pair", options.pair, "The two views A,B; default: the first of the capture's pairs");
+  command.add_option("--config", options.config, "Folder with dishes/, for captures that name no dish")
+      .environment("TRAYGAUGE_CONFIG");
+  add_items_option(command, options.items);
+  command.add_flag("--json", options.json, "Print one JSON document instead of a table");
+  command.add_option("--picture", options.picture, "Write a PNG with the outlines, beside the given ones");
+  command.add_option("--out", options.out,
+                     "Folder for labels_A.png and labels_B.png, to correct by hand and to measure with");
 }
 
 int run_segment(const SegmentOptions& options, std::ostream& out) {

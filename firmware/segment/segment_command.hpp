@@ -4,11 +4,9 @@
 #include <iosfwd>
 #include <string>
 
-namespace CLI {
-class App;
-}
-
 namespace traygauge {
+
+class Program;
 
 // As typed; empty where not given.
 struct SegmentOptions {
@@ -21,7 +19,7 @@ struct SegmentOptions {
   bool json = false;
 };
 
-void add_segment_command(CLI::App& app, SegmentOptions& options);
+void add_segment_command(Program& program, SegmentOptions& options);
 
 // Returns the exit status: 0 where food was found in both views, 1 where not. Throws UsageError, InputError,
 // OutputError before anything is printed to `out`.

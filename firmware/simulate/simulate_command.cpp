@@ -2,7 +2,6 @@
 
 #include <unistd.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -100,33 +99,30 @@ int run_list(std::ostream& out) {
   return kExitMeasured;
 }
 
-void add_render(CLI::App& app, RenderOptions& options) {
-  CLI::App* command = app.add_subcommand("render", "Render a set, or one scene, into capture folders.");
-  command->add_option("what", options.what, "a set (see list) or a scene as .toml")->required();
-  command->add_option("--out", options.out, "folder of the captures; complete ones in it are kept")
-      ->required();
-  command->add_option("--seed", options.seed, "of the set's scenes");
-  command->add_option("--jobs", options.jobs, "threads; 0: one a core")->check(CLI::Range(0, 256));
-  command->add_option("--samples", options.samples, "rays a pixel")->check(CLI::Range(8, 4096));
-  command->add_option("--only", options.only, "the one scene of this name");
-  command->add_option("--pairs", options.pairs, "of each scene, the first N; 0: all")
-      ->check(CLI::Range(0, 1000));
-  command->add_flag("--reduced", options.is_reduced, "a few scenes of the set, in small pictures");
+void add_render(Program& program, RenderOptions& options) {
+  Command command = program.add_command("render", "Render a set, or one scene, into capture folders.");
+  command.add_option("what", options.what, "a set (see list) or a scene as .toml").required();
+  command.add_option("--out", options.out, "folder of the captures; complete ones in it are kept").required();
+  command.add_option("--seed", options.seed, "of the set's scenes");
+  command.add_option("--jobs", options.jobs, "threads; 0: one a core").range(0, 256);
+  command.add_option("--samples", options.samples, "rays a pixel").range(8, 4096);
+  command.add_option("--only", options.only, "the one scene of this name");
+  command.add_option("--pairs", options.pairs, "of each scene, the first N; 0: all").range(0, 1000);
+  command.add_flag("--reduced", options.is_reduced, "a few scenes of the set, in small pictures");
 }
 
 }  // namespace
 
 int run_simulate(int argument_count, const char* const* arguments, std::ostream& out, std::ostream& error) {
-  CLI::App app("Renders scenes of trays into captures with exact truth.", "traygauge-simulate");
-  app.set_version_flag("--version", TRAYGAUGE_VERSION);
-  app.require_subcommand(1);
+  Program program("Renders scenes of trays into captures with exact truth.", "traygauge-simulate");
+  program.add_version(TRAYGAUGE_VERSION);
   RenderOptions options;
-  add_render(app, options);
-  app.add_subcommand("list", "The sets of scenes.");
+  add_render(program, options);
+  program.add_command("list", "The sets of scenes.");
   const auto run = [&] {
-    return app.got_subcommand("list") ? run_list(out) : run_render(options, out, error);
+    return program.chosen() == "list" ? run_list(out) : run_render(options, out, error);
   };
-  return run_program(app, argument_count, arguments, run, out, error);
+  return program.run(argument_count, arguments, run, out, error);
 }
 
 }  // namespace traygauge

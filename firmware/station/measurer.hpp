@@ -6,10 +6,11 @@
 #include <string_view>
 
 #include "core/base/status.hpp"
-#include "core/estimator/measurement.hpp"
 #include "core/image_view/image_view.hpp"
 
 namespace traygauge {
+
+struct Measurement;
 
 // A picture as the station took it.
 struct StationView {

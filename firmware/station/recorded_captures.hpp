@@ -8,17 +8,12 @@
 #include <vector>
 
 #include "firmware/measure/pair_setup.hpp"
-#include "firmware/segment/pair_labels.hpp"
+#include "firmware/segment/label_source.hpp"
+#include "firmware/station/open_captures.hpp"
 #include "firmware/station/played_scene.hpp"
 #include "simulator/capture/capture.hpp"
 
 namespace traygauge {
-
-// How captures are outlined, as typed.
-struct LabelChoice {
-  std::string source;  // given, auto, or empty: auto for captures without label pictures
-  int items = 0;       // on each tray, where they are found; 0: not known
-};
 
 class RecordedCaptures final : public MeasurableCaptures {
  public:
@@ -59,9 +54,5 @@ class RecordedCaptures final : public MeasurableCaptures {
   std::array<PlayedView, 2> pair_;
   std::string problem_;
 };
-
-// A RecordedCaptures, for run_station.
-std::unique_ptr<MeasurableCaptures> open_recorded_captures(const std::vector<std::filesystem::path>& folders,
-                                                           Profile profile, const LabelChoice& labels);
 
 }  // namespace traygauge

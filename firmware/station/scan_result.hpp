@@ -4,11 +4,12 @@
 #include <cstdint>
 #include <string_view>
 
-#include "core/estimator/measurement.hpp"
 #include "drivers/clock.hpp"
 #include "drivers/device_status.hpp"
 
 namespace traygauge {
+
+struct Measurement;
 
 enum class ScanOutcome : std::uint8_t {
   measured,        // all items, or some of them

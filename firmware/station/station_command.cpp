@@ -1,13 +1,14 @@
 #include "firmware/station/station_command.hpp"
 
-#include <CLI/CLI.hpp>
 #include <ostream>
 #include <string_view>
 
 #include "firmware/base/exit_status.hpp"
+#include "firmware/command/program.hpp"
 #include "firmware/config/profile.hpp"
 #include "firmware/measure/measure_choices.hpp"
 #include "firmware/station/hardware_station.hpp"
+#include "firmware/station/played_scene.hpp"
 #include "firmware/station/scan_printer.hpp"
 #include "simulator/capture/input_error.hpp"
 #include "simulator/devices/capture_folders.hpp"
@@ -72,42 +73,41 @@ int play(const StationCommand& command, Profile profile, const FaultPlan& faults
 
 }  // namespace
 
-CLI::App* add_station_command(CLI::App& app, StationCommand& command) {
-  CLI::App* station = app.add_subcommand("station", "Wait for the button, measure the tray, report; again");
+void add_station_command(Program& program, StationCommand& command) {
+  Command station = program.add_command("station", "Wait for the button, measure the tray, report; again");
   station
-      ->add_option(
+      .add_option(
           "--devices", command.devices,
           "hardware:FILE opens the devices of a station file (config/station.toml); simulator:FOLDER plays "
           "a capture, or a folder of captures by name")
-      ->required();
-  station->add_option("--faults", command.faults,
-                      "A script of what goes wrong with the simulated devices; see simulator/README.md");
-  CLI::Option* scans =
-      station->add_option("--scans", command.scans, "End after so many scans")->check(CLI::PositiveNumber);
+      .required();
+  station.add_option("--faults", command.faults,
+                     "A script of what goes wrong with the simulated devices; see simulator/README.md");
+  const CommandOption scans =
+      station.add_option("--scans", command.scans, "End after so many scans").positive();
   station
-      ->add_flag_callback(
+      .add_action(
           "--once", [&command] { command.scans = 1; }, "The same as --scans 1")
-      ->excludes(scans);
-  station->add_flag("--json", command.json, "One JSON document a line for each scan");
-  station->add_flag("--by-hand", command.by_hand,
-                    "Without an arm: move the camera and press again for the second view");
+      .excludes(scans);
+  station.add_flag("--json", command.json, "One JSON document a line for each scan");
+  station.add_flag("--by-hand", command.by_hand,
+                   "Without an arm: move the camera and press again for the second view");
   station
-      ->add_option("--second-view", command.second_view_deg,
-                   "Where the simulated arm goes, degrees from home; a real one's is in its station file")
-      ->capture_default_str();
-  station->add_option("--profile", command.profile,
-                      "best (default), or paper: every stage as the paper describes it");
-  station->add_option(
+      .add_option("--second-view", command.second_view_deg,
+                  "Where the simulated arm goes, degrees from home; a real one's is in its station file")
+      .show_default();
+  station.add_option("--profile", command.profile,
+                     "best (default), or paper: every stage as the paper describes it");
+  station.add_option(
       "--labels", command.labels.source,
       "Where played captures are outlined: given (label pictures) or auto (found in the pictures); default: "
       "given where a capture has label pictures. A real station's are in its station file");
-  add_items_option(*station, command.labels.items);
-  station->add_option("--seed", command.seed, "Seed of the random samples")->capture_default_str();
-  return station;
+  add_items_option(station, command.labels.items);
+  station.add_option("--seed", command.seed, "Seed of the random samples").show_default();
 }
 
-int run_station(const StationCommand& command, const OpenCaptures& open_captures,
-                const std::atomic<bool>& stop, std::ostream& out, std::ostream& log) {
+int run_station(const StationCommand& command, OpenCaptures& open_captures, const std::atomic<bool>& stop,
+                std::ostream& out, std::ostream& log) {
   const Profile profile = choose_profile(command.profile);
   if (command.devices.starts_with(kHardwarePrefix)) {
     return run_hardware_station(command, command.devices.substr(kHardwarePrefix.size()), stop, out, log);

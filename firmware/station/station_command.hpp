@@ -3,22 +3,15 @@
 
 #include <atomic>
 #include <cstdint>
-#include <filesystem>
-#include <functional>
 #include <iosfwd>
-#include <memory>
 #include <string>
-#include <vector>
 
-#include "firmware/station/played_scene.hpp"
-#include "firmware/station/recorded_captures.hpp"
+#include "firmware/station/open_captures.hpp"
 #include "firmware/station/station.hpp"
 
-namespace CLI {
-class App;
-}
-
 namespace traygauge {
+
+class Program;
 
 struct StationCommand {
   std::string devices;      // "hardware:FILE" or "simulator:FOLDER"
@@ -32,17 +25,12 @@ struct StationCommand {
   LabelChoice labels;  // of captures
 };
 
-// Reads what belongs to these folders, of which there is at least one; throws where a file or key of it is
-// not as expected.
-using OpenCaptures = std::function<std::unique_ptr<MeasurableCaptures>(
-    const std::vector<std::filesystem::path>& folders, Profile, const LabelChoice&)>;
-
-// Adds the command to `app`; when it is given, parsing fills `command`.
-CLI::App* add_station_command(CLI::App& app, StationCommand& command);
+// Adds the command; when it is given, parsing fills `command`.
+void add_station_command(Program& program, StationCommand& command);
 
 // Runs the loop until its end or until `stop`. Exit status: all scans measured, or some not.
 // Throws UsageError, InputError and what `open_captures` throws, before anything is printed.
-int run_station(const StationCommand& command, const OpenCaptures& open_captures,
-                const std::atomic<bool>& stop, std::ostream& out, std::ostream& log);
+int run_station(const StationCommand& command, OpenCaptures& open_captures, const std::atomic<bool>& stop,
+                std::ostream& out, std::ostream& log);
 
 }  // namespace traygauge

@@ -1,11 +1,10 @@
 // `traygauge station` as a program of its own: what draws pictures stays out of its memory.
 #include <malloc.h>
 
-#include <CLI/CLI.hpp>
 #include <iostream>
 
 #include "firmware/command/program.hpp"
-#include "firmware/station/recorded_captures.hpp"
+#include "firmware/station/open_captures.hpp"
 #include "firmware/station/station_command.hpp"
 #include "firmware/station/stop_signal.hpp"
 
@@ -21,13 +20,12 @@ constexpr int kOwnPagesFrom_bytes = 128 * 1024;
 // NOLINTNEXTLINE(bugprone-exception-escape): options that contradict each other end the program at once
 int main(int argument_count, char** arguments) {
   mallopt(M_MMAP_THRESHOLD, kOwnPagesFrom_bytes);
-  CLI::App app("Waits for the button, measures the tray, reports; again.", "traygauge");
-  app.require_subcommand(1);
+  traygauge::Program program("Waits for the button, measures the tray, reports; again.", "traygauge");
   traygauge::StationCommand command;
-  traygauge::add_station_command(app, command);
+  traygauge::add_station_command(program, command);
   const auto run = [&] {
     return traygauge::run_station(command, traygauge::open_recorded_captures, traygauge::stop_on_signals(),
                                   std::cout, std::cerr);
   };
-  return traygauge::run_program(app, argument_count, arguments, run, std::cout, std::cerr);
+  return program.run(argument_count, arguments, run, std::cout, std::cerr);
 }

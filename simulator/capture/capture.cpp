@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <nlohmann/json.hpp>
 #include <system_error>
 
 #include "simulator/capture/json_file.hpp"
@@ -115,8 +114,8 @@ Capture read_capture(const std::filesystem::path& folder) {
   }
   Capture capture;
   capture.file = folder / "capture.json";
-  const nlohmann::json document = read_json(capture.file);
-  const JsonNode root(document, capture.file);
+  const JsonDocument document = read_json(capture.file);
+  const JsonNode root = document.root();
   root.member("version").integer(kVersion, kVersion);
   if (const auto camera = root.find("camera")) read_camera(*camera);
   capture.card = read_card(root.member("card"), folder);

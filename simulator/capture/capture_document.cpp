@@ -1,5 +1,7 @@
 #include "simulator/capture/capture_document.hpp"
 
+#include <nlohmann/json.hpp>
+
 namespace traygauge {
 
 nlohmann::ordered_json compose_camera(const CameraDescription& camera) {

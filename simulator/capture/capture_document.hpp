@@ -1,7 +1,7 @@
 // Parts of capture.json, as every writer of captures needs them.
 #pragma once
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 
 #include "simulator/capture/capture.hpp"
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "simulator/capture/json_node.hpp"
+
 namespace traygauge {
 namespace {
 

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "simulator/capture/json_node.hpp"
-
 namespace traygauge {
+
+class JsonNode;
 
 inline constexpr std::size_t kMaxDishes = 50;  // of a capture: labels 1 and 201 to 249
 

@@ -2,7 +2,6 @@
 
 #include <array>
 #include <cstddef>
-#include <nlohmann/json.hpp>
 #include <string_view>
 
 #include "simulator/capture/toml_file.hpp"
@@ -17,8 +16,8 @@ constexpr std::array<std::string_view, 5> kKeys = {"style", "outer_size_mm", "ri
 }  // namespace
 
 DishDescription read_dish_file(const std::filesystem::path& file) {
-  const nlohmann::json document = read_toml(file, kMaxDishBytes, "a dish in TOML");
-  const JsonNode root(document, file);
+  const JsonDocument document = read_toml(file, kMaxDishBytes, "a dish in TOML");
+  const JsonNode root = document.root();
   expect_keys(root, kKeys);
   return read_dish(root);
 }

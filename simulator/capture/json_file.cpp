@@ -18,7 +18,7 @@ constexpr const char* kJson = "a JSON document";
 
 }  // namespace
 
-nlohmann::json read_json(const std::filesystem::path& file) {
+JsonDocument read_json(const std::filesystem::path& file) {
   const InputFile input{file, ""};
   const std::vector<std::uint8_t> bytes = read_bytes(input, kMaxBytes, kJson);
   const auto limit_depth = [&](int depth, nlohmann::json::parse_event_t, nlohmann::json&) {
@@ -26,7 +26,7 @@ nlohmann::json read_json(const std::filesystem::path& file) {
     return true;
   };
   try {
-    return nlohmann::json::parse(bytes.begin(), bytes.end(), limit_depth);
+    return {file, nlohmann::json::parse(bytes.begin(), bytes.end(), limit_depth)};
   } catch (const nlohmann::json::parse_error& error) {
     throw InputError(input, kJson, "an error at byte " + std::to_string(error.byte),
                      bytes.empty() ? "the file is empty" : "check commas, quotes and brackets there");

@@ -2,11 +2,12 @@
 #pragma once
 
 #include <filesystem>
-#include <nlohmann/json_fwd.hpp>
+
+#include "simulator/capture/json_node.hpp"
 
 namespace traygauge {
 
 // Throws InputError: absent, unreadable, above 1 MiB, not JSON, nested deeper than 32.
-nlohmann::json read_json(const std::filesystem::path& file);
+JsonDocument read_json(const std::filesystem::path& file);
 
 }  // namespace traygauge

@@ -135,4 +135,11 @@ std::vector<double> JsonNode::numbers(std::size_t count, NumberRange range) cons
   return numbers;
 }
 
+JsonDocument::JsonDocument(const std::filesystem::path& file, nlohmann::json value)
+    : file_(file), value_(std::make_shared<const nlohmann::json>(std::move(value))) {}
+
+std::string JsonDocument::dump() const {
+  return value_->dump(-1, ' ', true, nlohmann::json::error_handler_t::replace);
+}
+
 }  // namespace traygauge

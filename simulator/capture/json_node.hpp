@@ -1,7 +1,11 @@
-// A value in a JSON document that knows where it stands, so that every error names file and key.
+// A JSON document, and values in it that know where they stand, so that every error names file and key.
+//
+// nlohmann/json, which is behind them, takes two seconds to compile wherever it is included: those who read
+// documents through these need not.
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
@@ -43,6 +47,20 @@ class JsonNode {
   const nlohmann::json* value_;
   const std::filesystem::path* file_;
   std::string key_;
+};
+
+// What a file held. Its nodes refer to it.
+class JsonDocument {
+ public:
+  JsonDocument(const std::filesystem::path& file, nlohmann::json value);
+
+  JsonNode root() const { return {*value_, file_}; }
+  const nlohmann::json& value() const { return *value_; }
+  std::string dump() const;  // in one line of ASCII
+
+ private:
+  std::filesystem::path file_;
+  std::shared_ptr<const nlohmann::json> value_;  // shared: knows how to delete what is not defined here
 };
 
 }  // namespace traygauge

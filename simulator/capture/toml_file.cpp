@@ -34,11 +34,12 @@ nlohmann::json to_json(const toml::node& node) {
 
 }  // namespace
 
-nlohmann::json read_toml(const std::filesystem::path& file, std::size_t max_bytes, const char* expected) {
+JsonDocument read_toml(const std::filesystem::path& file, std::size_t max_bytes, const char* expected) {
   const InputFile input{file, ""};
   const std::vector<std::uint8_t> bytes = read_bytes(input, max_bytes, expected);
   try {
-    return to_json(toml::parse(std::string_view(reinterpret_cast<const char*>(bytes.data()), bytes.size())));
+    const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    return {file, to_json(toml::parse(text))};
   } catch (const toml::parse_error& error) {
     throw InputError(input, expected, std::string(error.description()),
                      "correct line " + std::to_string(error.source().begin.line));

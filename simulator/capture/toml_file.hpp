@@ -3,7 +3,6 @@
 
 #include <cstddef>
 #include <filesystem>
-#include <nlohmann/json_fwd.hpp>
 #include <span>
 #include <string_view>
 
@@ -13,7 +12,7 @@ namespace traygauge {
 
 // `expected` names the content in errors: "a dish in TOML". Dates become null: no key of ours takes one.
 // Throws InputError: absent, unreadable, larger than `max_bytes`, not TOML.
-nlohmann::json read_toml(const std::filesystem::path& file, std::size_t max_bytes, const char* expected);
+JsonDocument read_toml(const std::filesystem::path& file, std::size_t max_bytes, const char* expected);
 
 // Throws InputError for a key of this table that is none of `keys`: it is a typing mistake.
 void expect_keys(const JsonNode& table, std::span<const std::string_view> keys);

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <nlohmann/json.hpp>
 #include <system_error>
 
 #include "simulator/capture/dish_description.hpp"
@@ -79,8 +78,8 @@ std::optional<Truth> read_truth(const std::filesystem::path& capture_folder) {
   const std::filesystem::path file = capture_folder / "truth.json";
   std::error_code ignored;
   if (!std::filesystem::exists(file, ignored)) return std::nullopt;
-  const nlohmann::json document = read_json(file);
-  const JsonNode root(document, file);
+  const JsonDocument document = read_json(file);
+  const JsonNode root = document.root();
   Truth truth;
   for (const JsonNode& node : root.member("items").elements(0, kMaxItems))
     truth.items.push_back(read_item(node));

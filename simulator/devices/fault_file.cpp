@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -96,8 +95,8 @@ void FaultPlan::apply(SimulatedDevice device, FaultScript& script) const {
 }
 
 FaultPlan read_fault_file(const std::filesystem::path& file) {
-  const nlohmann::json document = read_toml(file, kMaxScriptBytes, "a fault script in TOML");
-  const JsonNode root(document, file);
+  const JsonDocument document = read_toml(file, kMaxScriptBytes, "a fault script in TOML");
+  const JsonNode root = document.root();
   expect_keys(root, std::to_array<std::string_view>({"seed", "fault"}));
   FaultPlan plan;
   if (const auto seed = root.find("seed")) {

@@ -139,7 +139,8 @@ CaptureState state_of_capture(const fs::path& folder, const SceneDescription& sc
     if (!has(numbered("view", i, ".jpg")) || !has(numbered("labels", i, ".png"))) return CaptureState::absent;
   }
   try {
-    const nlohmann::json truth = read_json(folder / "truth.json");
+    const JsonDocument document = read_json(folder / "truth.json");
+    const nlohmann::json& truth = document.value();
     const auto digest = truth.find(kDigestKey);
     const bool is_same = digest != truth.end() && *digest == digest_of(scene, settings);
     return is_same ? CaptureState::complete : CaptureState::stale;

@@ -5,7 +5,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <span>
 #include <string>
@@ -264,13 +263,13 @@ void read_pairs(const SceneTable& root, SceneDescription& scene) {
 }  // namespace
 
 SceneDescription read_scene_file(const std::filesystem::path& file) {
-  const nlohmann::json document = read_toml(file, kMaxSceneBytes, "a scene in TOML");
+  const JsonDocument document = read_toml(file, kMaxSceneBytes, "a scene in TOML");
   const std::filesystem::path folder = file.parent_path();
-  const JsonNode node(document, file);
+  const JsonNode node = document.root();
   const SceneTable root(node, {"name", "seed", "camera", "dishes", "foods", "card", "table", "tray",
                                "utensils", "lamps", "ambient", "views", "pairs"});
   SceneDescription scene;
-  scene.origin = "file " + document.dump(-1, ' ', true, nlohmann::json::error_handler_t::replace);
+  scene.origin = "file " + document.dump();
   scene.name = file.stem().string();
   if (const auto name = root.find("name")) scene.name = name->text();
   if (scene.name.find('/') != std::string::npos || scene.name.starts_with('.'))

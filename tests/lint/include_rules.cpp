@@ -10,6 +10,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr std::string_view kCommandLineParser = "firmware/command/program.cpp";
 constexpr auto kFolders = std::to_array<std::string_view>({"core", "drivers", "simulator", "firmware"});
 
 // The part of the standard library that neither allocates nor does input or output.
@@ -59,6 +60,16 @@ std::optional<std::string> forbids_foreign(std::string_view folder, const std::s
   return std::nullopt;
 }
 
+// Headers that cost seconds of compiler wherever they are included.
+std::optional<std::string> forbids_heavy(std::string_view path, const std::string& included) {
+  if (begins(included, "CLI/") && path != kCommandLineParser)
+    return std::string(kCommandLineParser) + " alone includes CLI11; others use its header";
+  const bool is_heavy = included == "nlohmann/json.hpp" || begins(included, "toml++/");
+  if (is_heavy && path.ends_with(".hpp"))
+    return "<" + included + "> is included by the sources that need it, not by headers";
+  return std::nullopt;
+}
+
 void scan_file(const fs::path& root, const std::string& path, ScanOfIncludes& scan) {
   std::ifstream file(root / path);
   std::string text;
@@ -86,7 +97,10 @@ std::optional<IncludedFile> parse_include(std::string_view line) {
 
 std::optional<std::string> forbids(std::string_view path, const IncludedFile& included) {
   const std::string_view folder = folder_of(path);
-  if (!included.in_quotes) return forbids_foreign(folder, included.path);
+  if (!included.in_quotes) {
+    const auto reason = forbids_foreign(folder, included.path);
+    return reason ? reason : forbids_heavy(path, included.path);
+  }
   if (may_know(folder, included.path)) return std::nullopt;
   return std::string(folder) + " does not know \"" + included.path + "\"";
 }

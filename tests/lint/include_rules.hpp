@@ -1,4 +1,4 @@
-// Who may include whom.
+// Who may include whom, and what is too heavy for most.
 #pragma once
 
 #include <filesystem>

@@ -66,6 +66,17 @@ TEST(IncludeRules, KeepSimulatorBelowFirmwareAndEverythingAboveTests) {
   EXPECT_FALSE(may("firmware/a.cpp", "#include \"tests/a.hpp\""));
 }
 
+TEST(IncludeRules, KeepHeavyHeadersOutOfMostSources) {
+  EXPECT_TRUE(may("firmware/command/program.cpp", "#include <CLI/CLI.hpp>"));
+  EXPECT_FALSE(may("firmware/command/program.hpp", "#include <CLI/CLI.hpp>"));
+  EXPECT_FALSE(may("firmware/a.cpp", "#include <CLI/CLI.hpp>"));
+  for (const char* line : {"#include <nlohmann/json.hpp>", "#include <toml++/toml.h>"}) {
+    EXPECT_TRUE(may("simulator/a.cpp", line)) << line;
+    EXPECT_FALSE(may("simulator/a.hpp", line)) << line;
+  }
+  EXPECT_TRUE(may("simulator/a.hpp", "#include <nlohmann/json_fwd.hpp>"));
+}
+
 TEST(IncludeRules, AreAppliedToEveryFileOfATree) {
   const fs::path root = fs::path(testing::TempDir()) / ("include_rules_" + std::to_string(getpid()));
   for (const char* folder : {"core/deep/er", "drivers", "simulator", "firmware"}) {

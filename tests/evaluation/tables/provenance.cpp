@@ -13,7 +13,8 @@ namespace {
 
 // As the renderer states it: set and seed.
 std::string origin_of(const std::filesystem::path& capture) {
-  const nlohmann::json truth = read_json(capture / "truth.json");
+  const JsonDocument document = read_json(capture / "truth.json");
+  const nlohmann::json& truth = document.value();
   const auto origin = truth.find("origin");
   if (origin == truth.end() || !origin->is_string()) return "origin not stated";
   return "origin “" + printable(origin->get<std::string>()) + "”";

@@ -3,7 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <CLI/CLI.hpp>
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
@@ -12,6 +11,7 @@
 #include <sstream>
 
 #include "firmware/base/exit_status.hpp"
+#include "firmware/command/program.hpp"
 #include "firmware/measure/capture_session.hpp"
 #include "firmware/station/recorded_captures.hpp"
 #include "firmware/station/site_scene.hpp"
@@ -269,18 +269,29 @@ TEST(StationCommandUse, SaysWhatIsWrong) {
   EXPECT_EQ(out.str(), "");
 }
 
+struct TypedCommand {
+  StationCommand command;
+  int status = 0;
+  std::string error;
+};
+
+TypedCommand parse(const std::vector<const char*>& words) {
+  TypedCommand typed;
+  Program program("", "test");
+  add_station_command(program, typed.command);
+  std::ostringstream out;
+  std::ostringstream error;
+  typed.status = program.run(
+      static_cast<int>(words.size()), words.data(), [] { return kExitMeasured; }, out, error);
+  typed.error = error.str();
+  return typed;
+}
+
 TEST(StationCommandUse, TakesItsOptions) {
-  const auto parse = [](std::vector<std::string> words) {
-    CLI::App app;
-    StationCommand command;
-    add_station_command(app, command);
-    std::reverse(words.begin(), words.end());
-    app.parse(words);
-    return command;
-  };
-  const StationCommand command =
-      parse({"station", "--devices", "simulator:x", "--scans", "3", "--json", "--by-hand", "--second-view",
-             "15", "--faults", "f.toml", "--labels", "auto", "--items", "4"});
+  const auto [command, status, error] =
+      parse({"program", "station", "--devices", "simulator:x", "--scans", "3", "--json", "--by-hand",
+             "--second-view", "15", "--faults", "f.toml", "--labels", "auto", "--items", "4"});
+  EXPECT_EQ(status, kExitMeasured) << error;
   EXPECT_EQ(command.labels.source, "auto");
   EXPECT_EQ(command.labels.items, 4);
   EXPECT_EQ(command.devices, "simulator:x");
@@ -289,11 +300,20 @@ TEST(StationCommandUse, TakesItsOptions) {
   EXPECT_TRUE(command.json);
   EXPECT_TRUE(command.by_hand);
   EXPECT_EQ(command.second_view_deg, 15.0);
-  EXPECT_EQ(parse({"station", "--devices", "simulator:x", "--once"}).scans, 1U);
-  EXPECT_THROW(parse({"station"}), CLI::ParseError);
-  EXPECT_THROW(parse({"station", "--devices", "simulator:x", "--items", "0"}), CLI::ParseError);
-  EXPECT_THROW(parse({"station", "--devices", "simulator:x", "--scans", "0"}), CLI::ParseError);
-  EXPECT_THROW(parse({"station", "--devices", "simulator:x", "--scans", "2", "--once"}), CLI::ParseError);
+  EXPECT_EQ(parse({"program", "station", "--devices", "simulator:x", "--once"}).command.scans, 1U);
+}
+
+TEST(StationCommandUse, RefusesWhatItDoesNotTake) {
+  const auto expect_refusal = [](std::vector<const char*> words, const std::string& beginning) {
+    words.insert(words.begin(), {"program", "station"});
+    const TypedCommand typed = parse(words);
+    EXPECT_EQ(typed.status, kExitWrongUse);
+    EXPECT_EQ(typed.error.find("test: " + beginning), 0U) << typed.error;
+  };
+  expect_refusal({}, "--devices is required");
+  expect_refusal({"--devices", "simulator:x", "--items", "0"}, "--items: Value 0 not in range 1 to 198");
+  expect_refusal({"--devices", "simulator:x", "--scans", "0"}, "--scans: Value 0 not in range");
+  expect_refusal({"--devices", "simulator:x", "--scans", "2", "--once"}, "--scans excludes --once");
 }
 
 }  // namespace
