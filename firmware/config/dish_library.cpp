@@ -8,22 +8,6 @@
 
 namespace traygauge {
 
-std::filesystem::path find_config_folder(const std::string& named) {
-  std::error_code ignored;
-  if (!named.empty()) {
-    if (std::filesystem::is_directory(named, ignored)) return named;
-    throw InputError({named, "--config"}, "a folder", "none", "name the folder that holds dishes/");
-  }
-  const std::filesystem::path program =
-      std::filesystem::read_symlink("/proc/self/exe", ignored).parent_path();
-  for (const char* place : {"config", "../config", "../share/traygauge/config"}) {
-    std::filesystem::path folder = (program / place).lexically_normal();
-    if (std::filesystem::is_directory(folder / "dishes", ignored)) return folder;
-  }
-  throw InputError({program / "config", ""}, "the folder with dishes/, because the capture names no dish",
-                   "none beside the program", "pass --config DIR or set TRAYGAUGE_CONFIG");
-}
-
 std::vector<DishDescription> read_dish_library(const std::filesystem::path& config_folder) {
   const std::filesystem::path folder = config_folder / "dishes";
   std::error_code error;

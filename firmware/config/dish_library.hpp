@@ -2,16 +2,11 @@
 #pragma once
 
 #include <filesystem>
-#include <string>
 #include <vector>
 
 #include "simulator/capture/dish_description.hpp"
 
 namespace traygauge {
-
-// The folder `config`: `named` when it is not empty, else beside the program, in the checkout that it was
-// built in, or where it was installed. Throws InputError.
-std::filesystem::path find_config_folder(const std::string& named);
 
 // Every dishes/*.toml below `config_folder`, by file name. Unknown keys are errors: they are typing mistakes.
 // Throws InputError; also when there is none.

@@ -8,8 +8,8 @@
 
 #include "firmware/base/exit_status.hpp"
 #include "firmware/command/program.hpp"
+#include "firmware/config/config_folder.hpp"
 #include "firmware/config/dish_file.hpp"
-#include "firmware/config/dish_library.hpp"
 #include "firmware/enrol/empty_dish.hpp"
 #include "firmware/enrol/enrol_report.hpp"
 #include "firmware/measure/measure_choices.hpp"

@@ -26,7 +26,7 @@ struct EvaluateOptions {
 void add_evaluate_command(Program& program, EvaluateOptions& options);
 
 // Returns the exit status: 0 when at least one item was measured, 1 when none. Throws UsageError, InputError,
-// OutputError.
+// OutputError, PlotError.
 int run_evaluate(const EvaluateOptions& options, std::ostream& out, std::ostream& error);
 
 }  // namespace traygauge

@@ -95,6 +95,8 @@ std::string compose_summary_json(const Evaluation& evaluation);
 
 // For a spreadsheet. A row an item of each run:
 std::string compose_estimates_csv(const std::vector<PairRuns>& runs);
+// A row an item of each pair, with means over its seeds:
+std::string compose_pairs_csv(const std::vector<PairRuns>& runs);
 // A row a run: how far each stage came, and how far from the truth it lies.
 std::string compose_runs_csv(const std::vector<PairRuns>& runs);
 // A row an item, over its pairs and seeds:

@@ -28,6 +28,11 @@ std::string list_warnings(const Run& run) {
   return list;
 }
 
+// Nothing in per cent is an error of a volume of 0.
+double error_or_undefined(double volume_ml, const TruthItem& item) {
+  return item.volume_ml > 0.0 ? signed_error_percent(volume_ml, item.volume_ml) : kUndefined;
+}
+
 std::string estimate_row(const PairRuns& pair, const Run& run, const TruthItem& item) {
   const ItemEstimate* estimate = estimate_of(run, item.label);
   const bool is_measured = estimate != nullptr;
@@ -36,6 +41,7 @@ std::string estimate_row(const PairRuns& pair, const Run& run, const TruthItem& 
       << fixed(run.relative_angle_deg, 3) << ',' << item.label << ',' << csv_field(item.name) << ','
       << csv_field(item.kind) << ',' << (is_measured ? "ok" : "refused") << ','
       << (is_measured ? fixed(estimate->volume_ml, 3) : "") << ',' << fixed(item.volume_ml, 3) << ','
+      << csv_number(is_measured ? error_or_undefined(estimate->volume_ml, item) : kUndefined, 3) << ','
       << csv_number(item.volume_above_bottom_plane_ml, 3) << ','
       << (is_measured && estimate->sigma_ml > 0.0 ? fixed(estimate->sigma_ml, 3) : "") << ','
       << (is_measured ? fixed(estimate->column_volume_ml, 3) : "") << ','
@@ -44,16 +50,48 @@ std::string estimate_row(const PairRuns& pair, const Run& run, const TruthItem& 
   return row.str();
 }
 
+// An item's volumes from one pair; of nothing, means are undefined.
+std::string pair_row(const PairRuns& pair, const TruthItem& item) {
+  std::vector<double> angles;
+  std::vector<double> volumes;
+  std::vector<double> sigmas;
+  for (const Run& run : pair.runs) {
+    const ItemEstimate* estimate = estimate_of(run, item.label);
+    if (estimate == nullptr) continue;
+    angles.push_back(run.relative_angle_deg);
+    volumes.push_back(estimate->volume_ml);
+    if (estimate->sigma_ml > 0.0) sigmas.push_back(estimate->sigma_ml);
+  }
+  const double mean_ml = mean(volumes);
+  std::ostringstream row;
+  row << csv_field(pair.capture) << ',' << pair.pair[0] << ',' << pair.pair[1] << ','
+      << csv_number(pair.true_angle_deg.value_or(mean(angles)), 3) << ',' << item.label << ','
+      << csv_field(item.name) << ',' << csv_field(item.kind) << ',' << volumes.size() << ','
+      << csv_number(mean_ml, 3) << ',' << fixed(item.volume_ml, 3) << ','
+      << csv_number(error_or_undefined(mean_ml, item), 3) << ',' << csv_number(mean(sigmas), 3) << '\n';
+  return row.str();
+}
+
 }  // namespace
 
 std::string compose_estimates_csv(const std::vector<PairRuns>& runs) {
   std::string csv =
-      "capture,first,second,seed,angle_deg,label,name,kind,status,volume_ml,truth_ml,"
+      "capture,first,second,seed,angle_deg,label,name,kind,status,volume_ml,truth_ml,signed_error_percent,"
       "truth_above_bottom_plane_ml,sigma_ml,column_volume_ml,column_truth_ml,refusal,true_angle_deg,warned\n";
   for (const PairRuns& pair : runs) {
     for (const Run& run : pair.runs) {
       for (const TruthItem& item : pair.truth.items) csv += estimate_row(pair, run, item);
     }
+  }
+  return csv;
+}
+
+std::string compose_pairs_csv(const std::vector<PairRuns>& runs) {
+  std::string csv =
+      "capture,first,second,angle_deg,label,name,kind,estimates,mean_ml,truth_ml,signed_error_percent,"
+      "sigma_ml\n";
+  for (const PairRuns& pair : runs) {
+    for (const TruthItem& item : pair.truth.items) csv += pair_row(pair, item);
   }
   return csv;
 }

@@ -1,6 +1,7 @@
 #include "firmware/station/hardware_station.hpp"
 
 #include "firmware/base/exit_status.hpp"
+#include "firmware/config/config_folder.hpp"
 #include "firmware/config/dish_choice.hpp"
 #include "firmware/config/dish_library.hpp"
 #include "firmware/config/profile.hpp"

@@ -40,8 +40,9 @@ class StagesOfCaptures : public testing::Test {
 
 TEST_F(StagesOfCaptures, ArePrintedAndWritten) {
   const TemporaryFolder out;
-  const CommandResult result = run({"evaluate", (captures_folder() / "plates" / "c1_dinner").string(),
-                                    "--runs", "1", "--stages", "--out", out.path().string()});
+  const CommandResult result =
+      run({"evaluate", (captures_folder() / "plates" / "c1_dinner").string(), "--runs", "1", "--stages",
+           "--out", out.path().string(), "--config", TRAYGAUGE_SOURCE_DIR "/config"});
   ASSERT_EQ(result.status, 0) << result.error;
   const std::size_t heights_at = result.out.find("heights");
   const std::size_t losses_at = result.out.find("MAPE %, with true");

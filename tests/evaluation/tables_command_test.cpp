@@ -13,7 +13,8 @@
 
 #include "tests/evaluation/tables/paper_tables.hpp"
 #include "tests/evaluation/tables/tables_command.hpp"
-#include "tests/firmware/evaluate/xml_check.hpp"
+#include "tests/firmware/evaluate/search_path.hpp"
+#include "tests/firmware/evaluate/svg_check.hpp"
 #include "tests/firmware/fake/fake_meal.hpp"
 #include "tests/simulator/capture/temporary_capture.hpp"
 
@@ -58,6 +59,11 @@ class TablesCommand : public FakeMeal {
     if (!names("--runs")) arguments.insert(arguments.end(), {"--runs", "2"});
     arguments.insert(arguments.end(), more.begin(), more.end());
     return run(arguments);
+  }
+
+  CommandResult report(const fs::path& out) const {
+    return run({"report", "--out", out.string(), "--meals", files_.folder().string(), "--cache",
+                cache_.path().string(), "--runs", "1", "--pairs", "1"});
   }
 
   // Measurements that the command made.
@@ -200,15 +206,38 @@ TEST_F(TablesCommand, WritesAReport) {
   for (const Table& own : paper_tables()) {
     if (own.command == "table-5") continue;  // its set was not named
     EXPECT_NE(report.find("## " + own.title), std::string::npos) << own.title;
-    EXPECT_EQ(find_xml_fault(read_text(out.path() / (own.command + ".svg"))), "") << own.command;
+    EXPECT_EQ(find_svg_fault(read_text(out.path() / (own.command + ".svg"))), "") << own.command;
   }
   EXPECT_EQ(report.find("Table V."), std::string::npos);
   for (const char* part : {"meals-45: `", "1 captures, 1 of 2 pairs; 1 of origin “meals-45, seed 7”",
                            "Seeds 1 to 1 of each pair", "noise 0 grey values", "core ", "OpenCV ",
                            "`--jobs 1`", "Left out: bare: no truth.json"})
     EXPECT_NE(report.find(part), std::string::npos) << part << "\n" << report;
-  for (const char* plot : {"signed_errors_paper.svg", "variation_best.svg"})
-    EXPECT_EQ(find_xml_fault(read_text(out.path() / plot)), "") << plot;
+  for (const char* plot : {"paper/signed_errors.svg", "best/volumes.svg"}) {
+    EXPECT_EQ(find_svg_fault(read_text(out.path() / plot)), "") << plot;
+    EXPECT_NE(report.find("](" + std::string(plot) + ")"), std::string::npos) << plot;
+  }
+}
+
+// Rows with a number as a curve, others below each other by their titles.
+TEST_F(TablesCommand, DrawsEveryRowWhereThereIsGnuplot) {
+  const TemporaryFolder out;
+  CommandResult result = report(out.path());
+  EXPECT_EQ(result.status, 0) << result.error;
+  const std::string meshes = read_text(out.path() / "table-4.svg");
+  for (const int curve : {1, 2})  // the paper's and ours
+    EXPECT_EQ(count_in_curve(meshes, curve, "<use"), std::size_t{kVariants} + 1) << curve;
+  const std::string poses = read_text(out.path() / "table-3.svg");
+  EXPECT_EQ(count_in_curve(poses, 2, "<use"), 6U + 1U);
+  EXPECT_NE(poses.find(">RANSAC, LO, adaptive [30], LM<"), std::string::npos);
+
+  const SearchPath nothing_there(out.path());
+  result = report(out.path());
+  EXPECT_EQ(result.status, 0);
+  EXPECT_NE(result.error.find("no plots: gnuplot is not installed"), std::string::npos) << result.error;
+  EXPECT_EQ(result.error.find("no plots: "), result.error.rfind("no plots: ")) << "once: " << result.error;
+  EXPECT_FALSE(fs::exists(out.path() / "table-4.svg"));
+  EXPECT_TRUE(fs::exists(out.path() / "table-4.csv"));
 }
 
 TEST_F(TablesCommand, RefusesWrongUse) {

@@ -1,6 +1,6 @@
 #!/bin/sh
 # Checks config/packages.txt against what the build really used: every listed package exists, and every header
-# that the compiler read and every tool that the Makefile calls belongs to a listed package or to one that a
+# that the compiler read and every tool that the Makefile or a test calls belongs to a listed package or to one that a
 # listed package depends on. Usage: packages_test.sh BUILD_FOLDER. Exit status 77: cannot be checked here.
 set -eu
 
@@ -29,7 +29,7 @@ apt-cache depends --recurse --no-recommends --no-suggests --no-conflicts --no-br
 ninja -C "$build" -t deps | sed -n 's/^    \(\/.*\)/\1/p' | grep -vF -e "$root/" -e "$build/" | sort -u |
   xargs -r realpath -e 2>/dev/null | sort -u >"$work/files" || true
 [ -s "$work/files" ] || { echo "nothing has been built in $build"; exit 77; }
-for tool in g++ cmake ctest ninja make nm clang-format clang-tidy run-clang-tidy; do
+for tool in g++ cmake ctest ninja make nm clang-format clang-tidy run-clang-tidy gnuplot; do
   found=$(command -v $tool) || { echo "$tool is not installed"; status=1; continue; }
   realpath "$found" >>"$work/files"
 done

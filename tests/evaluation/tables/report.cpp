@@ -1,72 +1,39 @@
 #include "tests/evaluation/tables/report.hpp"
 
-#include <algorithm>
 #include <array>
-#include <cmath>
-#include <fstream>
 #include <set>
 #include <sstream>
 #include <string>
+#include <utility>
+#include <vector>
 
-#include "firmware/base/text.hpp"
+#include "firmware/evaluate/csv_fields.hpp"
 #include "firmware/evaluate/evaluation.hpp"
-#include "firmware/evaluate/evaluation_plots.hpp"
+#include "firmware/evaluate/evaluation_files.hpp"
 #include "firmware/evaluate/table_cells.hpp"
-#include "firmware/plot/chart.hpp"
-#include "simulator/capture/output_file.hpp"
 #include "tests/evaluation/tables/provenance.hpp"
 
 namespace traygauge::tables {
 namespace {
 
-constexpr double kMaxMapeShown = 60.0;
+constexpr const char* kScripts = TRAYGAUGE_SOURCE_DIR "/config/plots";
 
-struct Curve {
-  std::vector<DataPoint> paper;
-  std::vector<DataPoint> ours;
-  std::vector<DataPoint> best;
-};
-
-void write_text(const std::filesystem::path& file, const std::string& text) {
-  std::ofstream stream(file, std::ios::binary);
-  stream << text;
-  if (!stream.flush()) throw OutputError(file, "it could not be written");
+// Numbered rows are drawn as a curve; others have no order, and stand below each other.
+Plot plot_of_table(const std::filesystem::path& folder, const Table& table) {
+  const char* script = table.axis.empty() ? "paper_rows.gp" : "paper_curve.gp";
+  return {std::filesystem::path(kScripts) / script,
+          folder / (table.command + ".csv"),
+          folder / (table.command + ".svg"),
+          {table.title, table.axis}};
 }
 
-Curve curve_of(const MeasuredTable& table) {
-  Curve curve;
-  double place = 0.0;
-  for (const MeasuredRow& row : table.rows) {
-    place += 1.0;
-    const double x = row.row.number.value_or(place);
-    if (row.row.paper_mape) curve.paper.push_back({x, *row.row.paper_mape});
-    if (std::isnan(row.figures.foods.mape)) continue;
-    auto& ours = row.row.variant.profile == Profile::best ? curve.best : curve.ours;
-    ours.push_back({x, row.figures.foods.mape});
-  }
-  return curve;
-}
-
-// Numbered rows are joined; others have no order.
-void draw(Chart& chart, const std::vector<DataPoint>& points, const MarkerStyle& style, bool is_joined,
-          const std::string& legend) {
-  if (points.empty()) return;
-  if (is_joined) chart.line(points, {style.colour, 1.6, ""}, "");
-  chart.markers(points, style, legend);
-}
-
-struct ProfileErrors {
-  Profile profile;
-  Evaluation evaluation;
-};
-
-ProfileErrors evaluate(Profile profile, const std::filesystem::path& set, const RunnerOptions& options,
-                       const WorkResult& result) {
+Evaluation evaluate(Profile profile, const std::filesystem::path& set, const RunnerOptions& options,
+                    const WorkResult& result) {
   ProtocolOptions protocol;
   protocol.runs = options.runs;
   protocol.parameters.profile = profile;
   protocol.profile = abilities_of(profile);
-  return {profile, evaluate_runs(set.string(), protocol, result.runs, result.skipped)};
+  return evaluate_runs(set.string(), protocol, result.runs, result.skipped);
 }
 
 // What the profile's volumes are compared with, as in the tables.
@@ -77,14 +44,14 @@ const SetFigures& figures_of(const Evaluation& evaluation) {
   return evaluation.groups.front().figures;
 }
 
-void compose_errors(const std::vector<ProfileErrors>& profiles, std::ostream& text) {
+void compose_errors(const std::vector<Evaluation>& profiles, std::ostream& text) {
   text << "## Distribution of the errors (V-D-1, Fig. 8)\n\n"
           "| | MAPE % | bias % | within 10 % | within 20 % | mean CV % | CV below 10 % | refused % |\n"
           "| --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: |\n"
           "| paper | 8.2 | about 0 | 69 | 91.5 | 7.1 | 81.8 | – |\n";
-  for (const ProfileErrors& own : profiles) {
-    const SetFigures& f = figures_of(own.evaluation);
-    text << "| profile " << own.evaluation.profile;
+  for (const Evaluation& own : profiles) {
+    const SetFigures& f = figures_of(own);
+    text << "| profile " << own.profile;
     for (const std::string& value :
          {cell(f.mape, 2), signed_cell(f.bias, 2), cell(f.within_10, 1), cell(f.within_20, 1), cell(f.cv, 2),
           cell(f.cv_below_10, 1), cell(f.refused_share, 1)})
@@ -92,20 +59,11 @@ void compose_errors(const std::vector<ProfileErrors>& profiles, std::ostream& te
     text << " |\n";
   }
   text << "\n";
-  for (const ProfileErrors& own : profiles) {
+  for (const Evaluation& own : profiles) {
     for (const char* plot : {"signed_errors", "variation", "error_by_angle", "volumes"})
-      text << "![" << plot << ", profile " << own.evaluation.profile << "](" << plot << "_"
-           << own.evaluation.profile << ".svg)\n";
+      text << "![" << plot << ", profile " << own.profile << "](" << own.profile << "/" << plot << ".svg)\n";
   }
   text << "\n";
-}
-
-void write_error_plots(const std::filesystem::path& folder, const Evaluation& evaluation) {
-  const std::string end = "_" + evaluation.profile + ".svg";
-  write_text(folder / ("signed_errors" + end), plot_signed_errors(evaluation));
-  write_text(folder / ("variation" + end), plot_variation(evaluation));
-  write_text(folder / ("error_by_angle" + end), plot_error_by_angle(evaluation));
-  write_text(folder / ("volumes" + end), plot_volumes(evaluation));
 }
 
 void compose_head(std::ostream& text) {
@@ -124,61 +82,62 @@ void compose_head(std::ostream& text) {
           "95 % intervals by bootstrap over captures.\n\n";
 }
 
-}  // namespace
-
-std::string plot_table(const MeasuredTable& table) {
-  const Curve curve = curve_of(table);
-  if (curve.ours.empty() && curve.best.empty())
-    return compose_empty_chart(table.table.title, "Nothing was measured.");
-  double largest = 0.0;
-  double low = HUGE_VAL;
-  double high = 0.0;
-  for (const auto* points : {&curve.paper, &curve.ours, &curve.best}) {
-    for (const DataPoint& point : *points) {
-      largest = std::max(largest, point.y);
-      low = std::min(low, point.x);
-      high = std::max(high, point.x);
-    }
+std::string compose_rows_csv(const MeasuredTable& table) {
+  std::ostringstream csv;
+  csv << "title,number,paper_mape_percent,ours_mape_percent,best_mape_percent\n";
+  double place = 0.0;
+  for (const MeasuredRow& measured : table.rows) {
+    place += 1.0;
+    const Row& row = measured.row;
+    const std::string mape = csv_number(measured.figures.foods.mape, 3);
+    const bool is_best = row.variant.profile == Profile::best;
+    csv << csv_field(row.title) << ',' << csv_number(row.number.value_or(place), 3) << ','
+        << csv_number(row.paper_mape, 3) << ',' << (is_best ? "" : mape) << ',' << (is_best ? mape : "")
+        << '\n';
   }
-  const bool is_joined = !table.table.axis.empty();
-  const Axis x = make_axis(is_joined ? table.table.axis : "row of the table", low, high, 8);
-  Chart chart(table.table.title, "the paper's figures and ours", x,
-              make_axis("MAPE (%)", 0.0, std::min(largest, kMaxMapeShown), 6));
-  draw(chart, curve.paper, {Marker::square, kOrange, 4.0, 1.0}, is_joined, "paper");
-  draw(chart, curve.ours, {Marker::dot, kBlue, 4.0, 1.0}, is_joined, "ours");
-  draw(chart, curve.best, {Marker::dot, kGreen, 4.0, 1.0}, is_joined, "profile best");
-  return chart.str();
+  return csv.str();
 }
+
+// Both profiles on the meals; appends to the text and to what is to be drawn.
+void write_errors(const std::filesystem::path& folder, const std::filesystem::path& meals,
+                  const RunnerOptions& options, std::ostream& error, std::set<std::string>& skipped,
+                  std::ostream& text, std::vector<Plot>& plots) {
+  const std::array<Profile, 2> profiles = {Profile::paper, Profile::best};
+  std::vector<Work> works;
+  for (const Profile profile : profiles) works.push_back({meals, {Method::ours, profile, {}}});
+  const std::vector<WorkResult> results = run_with_progress(works, options, error, skipped);
+  std::vector<Evaluation> evaluations;
+  for (std::size_t i = 0; i < profiles.size(); ++i) {
+    const Evaluation& own = evaluations.emplace_back(evaluate(profiles[i], meals, options, results[i]));
+    create_folder(folder / own.profile);
+    write_evaluation_files(folder / own.profile, own, results[i].runs);
+    for (Plot& plot : plots_of_evaluation(kScripts, folder / own.profile)) plots.push_back(std::move(plot));
+  }
+  compose_errors(evaluations, text);
+}
+
+}  // namespace
 
 void write_report(const std::filesystem::path& folder, const SetFolders& sets, const RunnerOptions& options,
                   std::ostream& error) {
-  std::error_code problem;
-  std::filesystem::create_directories(folder, problem);
-  if (!std::filesystem::is_directory(folder)) throw OutputError(folder, "it is no folder");
+  create_folder(folder);
   std::set<std::string> skipped;
   const auto tables =
       measure_tables(measurable_tables(paper_tables(), sets, error), sets, options, error, skipped);
   std::ostringstream text;
   compose_head(text);
   text << compose_provenance(sets, options, skipped);
+  std::vector<Plot> plots;
   for (const MeasuredTable& table : tables) {
     text << compose_markdown(table.table, table.rows);
     text << "![" << table.table.title << "](" << table.table.command << ".svg)\n\n";
-    write_text(folder / (table.table.command + ".svg"), plot_table(table));
+    plots.push_back(plot_of_table(folder, table.table));
+    write_text_file(plots.back().data, compose_rows_csv(table));
   }
-  if (const auto meals = sets.find(PaperSet::meals); meals != sets.end()) {
-    const std::array<Profile, 2> profiles = {Profile::paper, Profile::best};
-    std::vector<Work> works;
-    for (const Profile profile : profiles) works.push_back({meals->second, {Method::ours, profile, {}}});
-    const std::vector<WorkResult> results = run_with_progress(works, options, error, skipped);
-    std::vector<ProfileErrors> errors;
-    for (std::size_t i = 0; i < profiles.size(); ++i) {
-      errors.push_back(evaluate(profiles[i], meals->second, options, results[i]));
-      write_error_plots(folder, errors.back().evaluation);
-    }
-    compose_errors(errors, text);
-  }
-  write_text(folder / "report.md", text.str());
+  if (const auto meals = sets.find(PaperSet::meals); meals != sets.end())
+    write_errors(folder, meals->second, options, error, skipped, text, plots);
+  write_text_file(folder / "report.md", text.str());
+  draw_plots(plots, error);
 }
 
 }  // namespace traygauge::tables

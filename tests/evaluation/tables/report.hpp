@@ -8,10 +8,8 @@
 
 namespace traygauge::tables {
 
-// MAPE by row, the paper's beside ours; SVG.
-std::string plot_table(const MeasuredTable& table);
-
-// Writes report.md and its plots into `folder`. Throws InputError, OutputError.
+// Writes report.md into `folder`, the tables' rows as CSV, both profiles' evaluations into folders of their
+// names, and the plots of all that, where gnuplot is installed. Throws InputError, OutputError, PlotError.
 void write_report(const std::filesystem::path& folder, const SetFolders& sets, const RunnerOptions& options,
                   std::ostream& error);
 

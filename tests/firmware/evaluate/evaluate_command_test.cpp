@@ -6,7 +6,8 @@
 #include <vector>
 
 #include "tests/firmware/command_runner.hpp"
-#include "tests/firmware/evaluate/xml_check.hpp"
+#include "tests/firmware/evaluate/search_path.hpp"
+#include "tests/firmware/evaluate/svg_check.hpp"
 #include "tests/firmware/fake/fake_meal.hpp"
 #include "tests/simulator/capture/temporary_capture.hpp"
 
@@ -29,6 +30,9 @@ class EvaluateCommand : public FakeMeal {
 
   CommandResult evaluate(std::vector<std::string> options) const {
     options.insert(options.begin(), {"evaluate", files_.folder().string(), "--runs", "3"});
+    const bool has_config = std::find(options.begin(), options.end(), "--config") != options.end();
+    // Beside a test's program lies none.
+    if (!has_config) options.insert(options.end(), {"--config", TRAYGAUGE_SOURCE_DIR "/config"});
     return run(options);
   }
 
@@ -99,16 +103,54 @@ TEST_F(EvaluateCommand, SigmaReachesTheFigures) {
 }
 
 TEST_F(EvaluateCommand, WritesFilesThatParse) {
-  const auto folder = out_.path() / "new" / "folder";
+  const auto folder = out_.path() / "new" / "it's a \"folder\"";
   const CommandResult result = evaluate({"--out", folder.string()});
   ASSERT_EQ(result.status, 0) << result.error;
+  EXPECT_EQ(result.error, "");
   EXPECT_EQ(count_lines(read_text(folder / "estimates.csv")), 13U);
+  EXPECT_EQ(count_lines(read_text(folder / "pairs.csv")), 5U);
   EXPECT_EQ(count_lines(read_text(folder / "runs.csv")), 7U);
   EXPECT_EQ(count_lines(read_text(folder / "items.csv")), 3U);
   EXPECT_EQ(count_lines(read_text(folder / "captures.csv")), 3U);
   EXPECT_EQ(Json::parse(read_text(folder / "summary.json"))["profile"], "best");
   for (const char* plot : {"signed_errors.svg", "variation.svg", "error_by_angle.svg", "volumes.svg"})
-    EXPECT_EQ(find_xml_fault(read_text(folder / plot)), "") << plot;
+    EXPECT_EQ(find_svg_fault(read_text(folder / plot)), "") << plot;
+  EXPECT_EQ(count_in_curve(read_text(folder / "volumes.svg"), 5, "'#gpPt6'"), 4U + 1U);
+}
+
+TEST_F(EvaluateCommand, WithoutGnuplotAllButThePlotsIsWritten) {
+  const SearchPath nothing_there(out_.path());
+  const CommandResult result = evaluate({"--json", "--out", out_.path().string()});
+  EXPECT_EQ(result.status, 0);
+  EXPECT_EQ(result.error, "no plots: gnuplot is not installed; install the package gnuplot-nox\n");
+  EXPECT_EQ(Json::parse(result.out)["measurements"], 6);
+  EXPECT_EQ(count_lines(read_text(out_.path() / "pairs.csv")), 5U);
+  for (const auto& entry : std::filesystem::directory_iterator(out_.path()))
+    EXPECT_NE(entry.path().extension(), ".svg");
+}
+
+// A site's own plots come before those of the program.
+TEST_F(EvaluateCommand, APlotThatFailsIsSaidAfterTheResults) {
+  const auto plots = out_.path() / "config" / "plots";
+  std::filesystem::create_directories(plots);
+  write_text(plots / "common.gp", "");
+  write_text(plots / "signed_errors.gp", "plot no_such_variable\n");
+  const auto folder = out_.path() / "folder";
+  const CommandResult result = evaluate({"--out", folder.string(), "--config", plots.parent_path().string()});
+  EXPECT_EQ(result.status, 2);
+  EXPECT_EQ(count_lines(result.error), 1U) << result.error;
+  EXPECT_NE(result.error.find("signed_errors.svg: not drawn: gnuplot failed"), std::string::npos)
+      << result.error;
+  EXPECT_NE(result.error.find("no_such_variable"), std::string::npos) << result.error;
+  EXPECT_NE(result.out.find("6 measurements"), std::string::npos) << result.out;
+  EXPECT_EQ(count_lines(read_text(folder / "estimates.csv")), 13U);
+}
+
+TEST_F(EvaluateCommand, MissingScriptsAreNamedBeforeTheWork) {
+  const CommandResult result = run({"evaluate", files_.folder().string(), "--out", out_.path().string()});
+  EXPECT_EQ(result.status, 2);
+  EXPECT_NE(result.error.find("expected the folder with plots/"), std::string::npos) << result.error;
+  EXPECT_EQ(fake_estimator().estimates, 0);
 }
 
 // 2 pairs with 3 seeds, then once for each of 7 variants; the fake estimator shows no stage.

@@ -1,4 +1,4 @@
-// What an evaluation looks like on the terminal, in files and in plots.
+// What an evaluation looks like on the terminal and in files.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -6,9 +6,7 @@
 #include <sstream>
 
 #include "firmware/evaluate/evaluation.hpp"
-#include "firmware/evaluate/evaluation_plots.hpp"
 #include "tests/firmware/evaluate/sample_runs.hpp"
-#include "tests/firmware/evaluate/xml_check.hpp"
 
 namespace traygauge {
 namespace {
@@ -53,36 +51,9 @@ void expect_table(const std::string& csv, std::size_t rows) {
     EXPECT_EQ(split_fields(line).size(), split_fields(lines[0]).size()) << line;
 }
 
-// Two captures with awkward names; a scanned fruit; refusals; sigma on all volumes when `sigma_ml` > 0.
-std::vector<PairRuns> sample(double sigma_ml) {
-  const std::vector<TruthItem> items = {{2, "rice, \"brown\" <&>", "heightfield", 100.0, 100.0, {}},
-                                        {3, "plum", "scan", 40.0, {}, 48.0}};
-  std::vector<PairRuns> runs;
-  for (const char* capture : {"set, one/a long name that no column will hold", "två"}) {
-    PairRuns pair = pair_runs(capture, items);
-    for (std::uint64_t seed = 1; seed <= 3; ++seed) {
-      const double volume_ml = 95.0 + 4.0 * static_cast<double>(seed);
-      pair.runs.push_back(measured_run(
-          seed, 16.0,
-          {{2, StatusCode::ok, volume_ml, volume_ml, sigma_ml}, {3, StatusCode::ok, 44.0, 52.0, sigma_ml}}));
-    }
-    pair.runs.push_back(
-        measured_run(4, 16.0, {{2, StatusCode::item_hidden}, {3, StatusCode::ok, 44.0, 52.0}}));
-    pair.runs.push_back(refused_run(5, StatusCode::card_not_found));
-    runs.push_back(pair);
-  }
-  return runs;
-}
-
-Evaluation evaluate(const std::vector<PairRuns>& runs) {
-  ProtocolOptions options;
-  options.runs = 5;
-  return evaluate_runs("set", options, runs, {"tray: several dishes"});
-}
-
 TEST(EvaluationTables, FitATerminal) {
   for (const double sigma_ml : {0.0, 5.0}) {
-    const std::string tables = compose_tables(evaluate(sample(sigma_ml)));
+    const std::string tables = compose_tables(evaluate_sample(sample_runs(sigma_ml)));
     for (const std::string& line : split_lines(tables))
       EXPECT_LE(count_characters(line), kMaxColumns) << line;
     EXPECT_EQ(tables.find("nan"), std::string::npos) << tables;
@@ -101,7 +72,7 @@ TEST(EvaluationTables, ManyItemsShowTheWorst) {
     pair.runs = {measured_run(1, 15.0, {{2, StatusCode::ok, 100.0 + 0.1 * i}})};
     runs.push_back(pair);
   }
-  const std::string tables = compose_tables(evaluate(runs));
+  const std::string tables = compose_tables(evaluate_sample(runs));
   EXPECT_NE(tables.find("the 40 worst of 60 items"), std::string::npos);
   const std::string items = tables.substr(tables.find("true ml"));
   EXPECT_NE(items.find("capture159"), std::string::npos);
@@ -116,19 +87,14 @@ TEST(EvaluationTables, NothingMeasuredIsNoCrash) {
           pair.runs = {refused_run(1, StatusCode::pose_not_found)};
           return std::vector{pair};
         }()}) {
-    const Evaluation evaluation = evaluate(runs);
+    const Evaluation evaluation = evaluate_sample(runs);
     EXPECT_EQ(compose_tables(evaluation).find("nan"), std::string::npos);
     EXPECT_TRUE(Json::parse(compose_summary_json(evaluation))["groups"]["foods"]["mape_percent"].is_null());
-    for (const std::string& svg : {plot_signed_errors(evaluation), plot_variation(evaluation),
-                                   plot_error_by_angle(evaluation), plot_volumes(evaluation)}) {
-      EXPECT_EQ(find_xml_fault(svg), "");
-      EXPECT_NE(svg.find("No data"), std::string::npos);
-    }
   }
 }
 
 TEST(EvaluationJson, CarriesTheFigures) {
-  const Json document = Json::parse(compose_summary_json(evaluate(sample(5.0))));
+  const Json document = Json::parse(compose_summary_json(evaluate_sample(sample_runs(5.0))));
   EXPECT_EQ(document["version"], 1);
   EXPECT_EQ(document["measurements"], 10);
   EXPECT_EQ(document["skipped"], Json({"tray: several dishes"}));
@@ -156,28 +122,34 @@ TEST(EvaluationJson, CarriesTheFigures) {
 }
 
 TEST(EvaluationJson, SigmaThatIsNotEstimatedIsNull) {
-  const Json document = Json::parse(compose_summary_json(evaluate(sample(0.0))));
+  const Json document = Json::parse(compose_summary_json(evaluate_sample(sample_runs(0.0))));
   EXPECT_TRUE(document["groups"]["foods"]["sigma"].is_null());
   EXPECT_TRUE(document["groups"]["foods"]["within_two_sigma_interval_percent"].is_null());
 }
 
 TEST(EvaluationCsv, HasARowForEachAttempt) {
-  const std::vector<PairRuns> runs = sample(5.0);
+  const std::vector<PairRuns> runs = sample_runs(5.0);
   expect_table(compose_estimates_csv(runs), 20);
+  expect_table(compose_pairs_csv(runs), 4);
   expect_table(compose_runs_csv(runs), 10);
-  expect_table(compose_items_csv(evaluate(runs)), 4);
-  expect_table(compose_captures_csv(evaluate(runs)), 3);
+  expect_table(compose_items_csv(evaluate_sample(runs)), 4);
+  expect_table(compose_captures_csv(evaluate_sample(runs)), 3);
+}
+
+// The field of that name in a line.
+std::string field_of(const std::string& csv, std::size_t line, const std::string& name) {
+  const std::vector<std::string> lines = split_lines(csv);
+  const std::vector<std::string> names = split_fields(lines[0]);
+  const auto column = std::find(names.begin(), names.end(), name) - names.begin();
+  return split_fields(lines.at(line)).at(static_cast<std::size_t>(column));
 }
 
 TEST(EvaluationCsv, FieldsAreWhereTheirNamesSay) {
-  const std::vector<std::string> lines = split_lines(compose_estimates_csv(sample(5.0)));
-  const std::vector<std::string> names = split_fields(lines[0]);
-  const auto field = [&](std::size_t line, const std::string& name) {
-    const auto column = std::find(names.begin(), names.end(), name) - names.begin();
-    return split_fields(lines[line]).at(static_cast<std::size_t>(column));
-  };
+  const std::string csv = compose_estimates_csv(sample_runs(5.0));
+  const auto field = [&](std::size_t line, const std::string& name) { return field_of(csv, line, name); };
   EXPECT_EQ(field(1, "capture"), "set, one/a long name that no column will hold");
   EXPECT_EQ(field(1, "volume_ml"), "99.000");
+  EXPECT_EQ(field(1, "signed_error_percent"), "-1.000");
   EXPECT_EQ(field(1, "sigma_ml"), "5.000");
   EXPECT_EQ(field(2, "column_volume_ml"), "52.000");
   EXPECT_EQ(field(2, "column_truth_ml"), "48.000");
@@ -185,44 +157,32 @@ TEST(EvaluationCsv, FieldsAreWhereTheirNamesSay) {
   EXPECT_EQ(field(7, "refusal"), "item_hidden");
   EXPECT_EQ(field(9, "refusal"), "card_not_found");
   EXPECT_EQ(field(9, "volume_ml"), "");
+  EXPECT_EQ(field(9, "signed_error_percent"), "");
 }
 
-TEST(EvaluationPlots, AreWellFormedAndShowEveryVolume) {
-  const Evaluation evaluation = evaluate(sample(0.0));
-  for (const std::string& svg : {plot_signed_errors(evaluation), plot_variation(evaluation),
-                                 plot_error_by_angle(evaluation), plot_volumes(evaluation)}) {
-    EXPECT_EQ(find_xml_fault(svg), "");
-    EXPECT_EQ(svg.find("nan"), std::string::npos);
-    EXPECT_EQ(svg.find("inf"), std::string::npos);
-  }
-  const std::string volumes = plot_volumes(evaluation);
-  const auto count_of = [&](const std::string& text) {
-    int count = 0;
-    for (std::size_t at = volumes.find(text); at != std::string::npos; at = volumes.find(text, at + 1))
-      ++count;
-    return count;
-  };
-  EXPECT_EQ(count_of("<circle"), 2 + 1);  // foods of two pairs, and one in the legend
+TEST(EvaluationCsv, PairsHaveMeansOverSeeds) {
+  const std::string csv = compose_pairs_csv(sample_runs(5.0));
+  EXPECT_EQ(field_of(csv, 1, "estimates"), "3") << "refused by two of five seeds";
+  EXPECT_EQ(field_of(csv, 1, "mean_ml"), "103.000");
+  EXPECT_EQ(field_of(csv, 1, "signed_error_percent"), "3.000");
+  EXPECT_EQ(field_of(csv, 1, "angle_deg"), "16.000") << "as measured: the truth has none";
+  EXPECT_EQ(field_of(csv, 2, "estimates"), "4");
+  EXPECT_EQ(field_of(csv, 2, "sigma_ml"), "5.000") << "mean over the three seeds that estimated it";
 }
 
-TEST(EvaluationPlots, OneVolumeIsEnough) {
-  PairRuns pair = pair_runs("a", {{2, "food", "heightfield", 100.0, {}, {}}});
-  pair.runs = {measured_run(1, 15.0, {{2, StatusCode::ok, 100.0}})};
-  const Evaluation evaluation = evaluate({pair});
-  for (const std::string& svg :
-       {plot_signed_errors(evaluation), plot_error_by_angle(evaluation), plot_volumes(evaluation)}) {
-    EXPECT_EQ(find_xml_fault(svg), "");
-    EXPECT_EQ(svg.find("nan"), std::string::npos);
-    EXPECT_EQ(svg.find("No data"), std::string::npos);
-  }
-  EXPECT_NE(plot_variation(evaluation).find("No data"), std::string::npos);
-}
-
-TEST(EvaluationPlots, ErrorsBeyondTheAxisAreCounted) {
-  PairRuns pair = pair_runs("a", {{2, "food", "heightfield", 100.0, {}, {}}});
-  for (const double volume_ml : {400.0, 101.0, 99.0, 0.0})
-    pair.runs.push_back(measured_run(1, 15.0, {{2, StatusCode::ok, volume_ml}}));
-  EXPECT_NE(plot_signed_errors(evaluate({pair})).find("2 volumes beyond 50 %"), std::string::npos);
+TEST(EvaluationCsv, WhatIsUndefinedIsBlank) {
+  PairRuns pair =
+      pair_runs("a", {{2, "refused", "heightfield", 100.0, {}, {}}, {3, "none", "heightfield", 0.0, {}, {}}});
+  pair.true_angle_deg = 21.5;
+  pair.runs = {measured_run(1, 15.0, {{2, StatusCode::item_hidden}, {3, StatusCode::ok, 4.0}})};
+  const std::string csv = compose_pairs_csv({pair});
+  EXPECT_EQ(field_of(csv, 1, "estimates"), "0");
+  for (const char* name : {"mean_ml", "signed_error_percent", "sigma_ml"})
+    EXPECT_EQ(field_of(csv, 1, name), "") << name;
+  EXPECT_EQ(field_of(csv, 1, "angle_deg"), "21.500");
+  EXPECT_EQ(field_of(csv, 2, "mean_ml"), "4.000");
+  EXPECT_EQ(field_of(csv, 2, "signed_error_percent"), "");
+  EXPECT_EQ(field_of(compose_estimates_csv({pair}), 2, "signed_error_percent"), "");
 }
 
 }  // namespace
