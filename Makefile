@@ -11,7 +11,7 @@ export TRAYGAUGE_CAPTURES
 
 # Merged sources compile in half the time; for who edits one of them, apart is sooner.
 ifeq ($(CI),true)
-merged := -DCMAKE_UNITY_BUILD=ON -DCMAKE_UNITY_BUILD_BATCH_SIZE=12 -DTRAYGAUGE_PRECOMPILED_HEADERS=ON
+merged := -DCMAKE_UNITY_BUILD=ON -DCMAKE_UNITY_BUILD_BATCH_SIZE=12
 # A program of tests runs once: where sanitizers cannot, else with them. Those of the core and the drivers run for ARM as
 # they are shipped.
 once := -DTRAYGAUGE_SANITIZED_TESTS=OFF -DTRAYGAUGE_WHOLE_TESTS=ON
@@ -51,11 +51,11 @@ ifeq ($(CI),true)
 	$(MAKE) board-drivers
 endif
 
-# Benchmarks are tests with the label bench: they print figures and run alone.
 # Accepts what is measured now as golden numbers: review the diff.
 golden: check-captures build-all
 	TRAYGAUGE_GOLDEN_UPDATE=1 build/tests/golden/golden_test
 
+# Benchmarks are tests with the label bench: they print figures and run alone.
 bench: build-all
 	ctest --test-dir build -L '^bench$$' -V --no-tests=error
 
@@ -127,11 +127,13 @@ check-format: packages
 format: packages
 	$(sources) | xargs clang-format -i
 
-# clang-tidy over everything that is shipped; LINT='core/pose/' for a part of it.
+# clang-tidy over everything that is shipped; LINT='core/pose/' for a part of it. It reads the commands of a build
+# without precompiled headers, because clang cannot read GCC's.
 LINT ?= (core|drivers|simulator|firmware)/
-lint: configure
-	run-clang-tidy -quiet -j $(JOBS) -p build '^$(CURDIR)/$(LINT)' >build/lint.log 2>&1 || \
-	  { grep -A 3 -E '(error|warning): ' build/lint.log; echo 'All of it: build/lint.log' >&2; exit 1; }
+lint: packages
+	cmake --preset lint
+	run-clang-tidy -quiet -j $(JOBS) -p build-lint '^$(CURDIR)/$(LINT)' >build-lint/lint.log 2>&1 || \
+	  { grep -A 3 -E '(error|warning): ' build-lint/lint.log; echo 'All of it: build-lint/lint.log' >&2; exit 1; }
 
 sanitize: asan-ubsan tsan
 
@@ -148,4 +150,4 @@ tsan: packages
 	printf '%s\n' $(TSAN_TESTS) | xargs -P $(JOBS) -I TEST sh -c '"$$(find build-tsan -type f -name TEST)" --gtest_brief=1'
 
 clean:
-	rm -rf build build-debug build-asan-ubsan build-tsan build-aarch64 build-gpiod-2 build-board
+	rm -rf build build-debug build-lint build-asan-ubsan build-tsan build-aarch64 build-gpiod-2 build-board
