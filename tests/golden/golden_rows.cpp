@@ -1,7 +1,6 @@
 #include "tests/golden/golden_rows.hpp"
 
 #include <Eigen/Geometry>
-#include <algorithm>
 #include <array>
 #include <cstdio>
 #include <sstream>
@@ -9,6 +8,7 @@
 #include "firmware/config/dish_choice.hpp"
 #include "firmware/measure/capture_session.hpp"
 #include "simulator/capture/capture.hpp"
+#include "tests/simulator/capture/temporary_capture.hpp"
 
 namespace traygauge::golden {
 namespace {
@@ -76,15 +76,6 @@ void append_rows(const std::string& capture, std::array<int, 2> pair, const Meas
   }
 }
 
-std::vector<std::filesystem::path> list_captures(const std::filesystem::path& folder) {
-  std::vector<std::filesystem::path> captures;
-  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
-    if (entry.path().filename() == "capture.json") captures.push_back(entry.path().parent_path());
-  }
-  std::sort(captures.begin(), captures.end());
-  return captures;
-}
-
 }  // namespace
 
 std::string header_row() {
@@ -96,7 +87,7 @@ std::vector<std::string> measure_rows(const std::filesystem::path& folder, const
   std::vector<std::string> rows;
   Configuration parameters;
   parameters.profile = route.profile;
-  for (const std::filesystem::path& path : list_captures(folder)) {
+  for (const std::filesystem::path& path : capture_folders(folder)) {
     const Capture capture = read_capture(path);
     if (route.profile == Profile::paper && capture.dishes.size() > 1) continue;
     std::vector<std::array<int, 2>> pairs = capture.pairs;

@@ -75,9 +75,13 @@ std::filesystem::path captures_folder() {
 }
 
 std::vector<std::filesystem::path> capture_folders() {
+  if (captures_folder().empty()) return {};
+  return capture_folders(captures_folder());
+}
+
+std::vector<std::filesystem::path> capture_folders(const std::filesystem::path& root) {
   std::vector<std::filesystem::path> folders;
-  if (captures_folder().empty()) return folders;
-  for (const auto& entry : std::filesystem::recursive_directory_iterator(captures_folder())) {
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(root)) {
     if (entry.path().filename() == "capture.json") folders.push_back(entry.path().parent_path());
   }
   std::sort(folders.begin(), folders.end());

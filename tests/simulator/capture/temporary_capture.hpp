@@ -37,7 +37,8 @@ cv::Mat draw_noise(int width, int height, int type, unsigned seed);
 
 // Where the captures with truth are, by TRAYGAUGE_CAPTURES; empty when that is not set.
 std::filesystem::path captures_folder();
-// The capture folders there.
+// The capture folders there, and those below `root` at any depth, sorted.
 std::vector<std::filesystem::path> capture_folders();
+std::vector<std::filesystem::path> capture_folders(const std::filesystem::path& root);
 
 }  // namespace traygauge
