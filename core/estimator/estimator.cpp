@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "core/estimator/estimator_state.hpp"
-#include "core/estimator/feature_preparation.hpp"
+#include "core/paper/pipeline/feature_preparation.hpp"
 
 namespace traygauge {
 namespace {

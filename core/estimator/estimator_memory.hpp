@@ -10,10 +10,10 @@
 #include "core/base/arena.hpp"
 #include "core/estimator/best/best_memory.hpp"
 #include "core/estimator/configuration.hpp"
-#include "core/estimator/dense_reconstruction.hpp"
-#include "core/estimator/extrinsic_calibration.hpp"
-#include "core/estimator/view_preparation.hpp"
-#include "core/estimator/volume_extraction.hpp"
+#include "core/paper/pipeline/dense_reconstruction.hpp"
+#include "core/paper/pipeline/extrinsic_calibration.hpp"
+#include "core/paper/pipeline/view_preparation.hpp"
+#include "core/paper/pipeline/volume_extraction.hpp"
 
 namespace traygauge {
 

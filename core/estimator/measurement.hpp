@@ -11,8 +11,8 @@
 #include "core/base/table_frame.hpp"
 #include "core/image/camera.hpp"
 #include "core/image_view/image_view.hpp"
+#include "core/paper/surface/food_mesh.hpp"
 #include "core/stereo/disparity.hpp"
-#include "core/surface/food_mesh.hpp"
 #include "core/surface/height_map.hpp"
 
 namespace traygauge {

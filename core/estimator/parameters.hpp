@@ -4,8 +4,8 @@
 #include "core/estimator/best/dense_parameters.hpp"
 #include "core/estimator/best/sparse_parameters.hpp"
 #include "core/estimator/configuration.hpp"
-#include "core/estimator/paper_parameters.hpp"
 #include "core/estimator/segmenter_parameters.hpp"
+#include "core/paper/pipeline/parameters.hpp"
 
 namespace traygauge {
 

@@ -8,9 +8,9 @@
 #include "core/base/arena.hpp"
 #include "core/base/bounded_list.hpp"
 #include "core/base/geometry.hpp"
-#include "core/base/half_sample_mode.hpp"
 #include "core/base/random.hpp"
 #include "core/base/status.hpp"
+#include "core/paper/base/half_sample_mode.hpp"
 
 namespace traygauge {
 

@@ -6,7 +6,7 @@
 
 #include "core/base/levenberg_marquardt.hpp"
 #include "core/base/table_frame.hpp"
-#include "core/pose/triangulation.hpp"
+#include "core/paper/pose/triangulation.hpp"
 #include "core/scale/card.hpp"
 
 namespace traygauge {

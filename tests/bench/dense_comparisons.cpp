@@ -3,10 +3,10 @@
 #include <opencv2/calib3d.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "core/rectification/polar_rectification.hpp"
-#include "core/stereo/stereo.hpp"
-#include "core/surface/food_mesh.hpp"
-#include "core/volume/volume.hpp"
+#include "core/paper/rectification/polar_rectification.hpp"
+#include "core/paper/stereo/stereo.hpp"
+#include "core/paper/surface/food_mesh.hpp"
+#include "core/paper/volume/mesh_volume.hpp"
 #include "tests/bench/comparisons.hpp"
 #include "tests/bench/opencv_stereo.hpp"
 #include "tests/bench/workspace.hpp"

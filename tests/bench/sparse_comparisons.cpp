@@ -4,8 +4,8 @@
 #include <opencv2/features2d.hpp>
 
 #include "core/base/random.hpp"
-#include "core/image/integral.hpp"
-#include "core/pose/five_point.hpp"
+#include "core/paper/image/integral.hpp"
+#include "core/paper/pose/five_point.hpp"
 #include "tests/bench/comparisons.hpp"
 #include "tests/bench/opencv_measurement.hpp"
 #include "tests/bench/workspace.hpp"

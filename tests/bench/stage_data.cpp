@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/image/integral.hpp"
 #include "core/image/resample.hpp"
+#include "core/paper/image/integral.hpp"
 #include "core/segmentation/label_regions.hpp"
 #include "tests/bench/workspace.hpp"
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/image/resample.hpp"
-#include "core/pose/ray_match.hpp"
+#include "core/paper/pose/ray_match.hpp"
 #include "tests/bench/scene.hpp"
 
 namespace traygauge::bench {

@@ -1,4 +1,4 @@
-#include "core/base/half_sample_mode.hpp"
+#include "core/paper/base/half_sample_mode.hpp"
 
 #include <gtest/gtest.h>
 

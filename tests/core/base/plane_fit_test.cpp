@@ -1,4 +1,4 @@
-#include "core/base/plane_fit.hpp"
+#include "core/paper/base/plane_fit.hpp"
 
 #include <gtest/gtest.h>
 

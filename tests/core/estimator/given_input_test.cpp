@@ -4,10 +4,10 @@
 #include <opencv2/features2d.hpp>
 #include <vector>
 
-#include "core/features/surf.hpp"
-#include "core/image/integral.hpp"
 #include "core/image/resample.hpp"
-#include "core/pose/motion_search.hpp"
+#include "core/paper/features/surf.hpp"
+#include "core/paper/image/integral.hpp"
+#include "core/paper/pose/motion_search.hpp"
 #include "tests/core/estimator/measuring_bench.hpp"
 
 namespace traygauge {

@@ -7,7 +7,7 @@
 
 #include "core/base/random.hpp"
 #include "core/estimator/estimator_memory.hpp"
-#include "core/estimator/feature_preparation.hpp"
+#include "core/paper/pipeline/feature_preparation.hpp"
 #include "tests/core/estimator/measuring_bench.hpp"
 
 namespace traygauge {

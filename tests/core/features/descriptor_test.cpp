@@ -8,9 +8,9 @@
 #include <string>
 
 #include "core/base/random.hpp"
-#include "core/features/angle.hpp"
 #include "core/features/descriptor_block.hpp"
 #include "core/features/gaussian.hpp"
+#include "core/paper/features/angle.hpp"
 #include "surf_on_picture.hpp"
 
 namespace traygauge {

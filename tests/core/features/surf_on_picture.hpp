@@ -10,8 +10,8 @@
 
 #include "core/base/arena.hpp"
 #include "core/base/bounded_list.hpp"
-#include "core/features/surf.hpp"
-#include "core/image/integral.hpp"
+#include "core/paper/features/surf.hpp"
+#include "core/paper/image/integral.hpp"
 
 namespace traygauge::testing {
 

@@ -1,4 +1,4 @@
-#include "core/image/integral.hpp"
+#include "core/paper/image/integral.hpp"
 
 #include <gtest/gtest.h>
 

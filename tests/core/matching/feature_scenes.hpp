@@ -7,7 +7,7 @@
 #include <random>
 #include <vector>
 
-#include "core/features/keypoint.hpp"
+#include "core/paper/features/keypoint.hpp"
 
 namespace traygauge {
 

@@ -1,4 +1,4 @@
-#include "core/matching/matcher.hpp"
+#include "core/paper/matching/matcher.hpp"
 
 #include <gtest/gtest.h>
 

@@ -9,7 +9,7 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "core/base/geometry.hpp"
-#include "core/matching/matcher.hpp"
+#include "core/paper/matching/matcher.hpp"
 #include "tests/core/matching/sift_features.hpp"
 #include "tests/core/matching/workspace_block.hpp"
 

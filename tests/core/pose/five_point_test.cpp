@@ -1,10 +1,10 @@
-#include "core/pose/five_point.hpp"
+#include "core/paper/pose/five_point.hpp"
 
 #include <gtest/gtest.h>
 
 #include <opencv2/calib3d.hpp>
 
-#include "core/pose/polynomial_roots.hpp"
+#include "core/paper/pose/polynomial_roots.hpp"
 #include "tests/core/pose/scenes.hpp"
 
 namespace traygauge {

@@ -1,4 +1,4 @@
-#include "core/pose/inlier_threshold.hpp"
+#include "core/paper/pose/inlier_threshold.hpp"
 
 #include <gtest/gtest.h>
 

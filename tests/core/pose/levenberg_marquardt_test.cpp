@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "core/base/random.hpp"
-#include "core/pose/pose_refinement.hpp"
+#include "core/paper/pose/pose_refinement.hpp"
 #include "tests/core/pose/scenes.hpp"
 
 namespace traygauge {

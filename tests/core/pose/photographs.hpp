@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/pose/relative_pose.hpp"
+#include "core/paper/pose/relative_pose.hpp"
 #include "tests/support/capture_truth.hpp"
 
 namespace traygauge::testing {

@@ -1,12 +1,12 @@
-#include "core/pose/relative_pose.hpp"
+#include "core/paper/pose/relative_pose.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <numeric>
 
-#include "core/pose/epipolar.hpp"
-#include "core/pose/planar_twin.hpp"
+#include "core/paper/pose/epipolar.hpp"
+#include "core/paper/pose/planar_twin.hpp"
 #include "tests/core/pose/scenes.hpp"
 
 namespace traygauge {

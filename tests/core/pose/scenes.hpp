@@ -8,7 +8,7 @@
 
 #include "core/base/arena.hpp"
 #include "core/base/random.hpp"
-#include "core/pose/relative_pose.hpp"
+#include "core/paper/pose/relative_pose.hpp"
 #include "tests/support/cameras.hpp"
 
 namespace traygauge::testing {

@@ -1,11 +1,11 @@
-#include "core/pose/triangulation.hpp"
+#include "core/paper/pose/triangulation.hpp"
 
 #include <gtest/gtest.h>
 
 #include <opencv2/calib3d.hpp>
 
-#include "core/pose/epipolar.hpp"
-#include "core/pose/essential_decomposition.hpp"
+#include "core/paper/pose/epipolar.hpp"
+#include "core/paper/pose/essential_decomposition.hpp"
 #include "tests/core/pose/scenes.hpp"
 
 namespace traygauge {

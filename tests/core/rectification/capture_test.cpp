@@ -8,7 +8,7 @@
 #include <opencv2/features2d.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "core/rectification/polar_rectification.hpp"
+#include "core/paper/rectification/polar_rectification.hpp"
 #include "tests/core/rectification/capture_pair.hpp"
 #include "tests/core/rectification/photometric.hpp"
 

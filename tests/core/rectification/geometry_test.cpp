@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/rectification/polar_rectification.hpp"
+#include "core/paper/rectification/polar_rectification.hpp"
 #include "tests/core/rectification/rectification_fixture.hpp"
 
 namespace traygauge {

@@ -1,7 +1,7 @@
 // Horizontal order: surfaces seen from the same side keep it, a sheet seen from both sides inverts it.
 #include <gtest/gtest.h>
 
-#include "core/rectification/polar_rectification.hpp"
+#include "core/paper/rectification/polar_rectification.hpp"
 #include "tests/core/rectification/rectification_fixture.hpp"
 
 namespace traygauge {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <optional>
 
-#include "core/rectification/polar_rectification.hpp"
+#include "core/paper/rectification/polar_rectification.hpp"
 #include "tests/core/rectification/rectification_fixture.hpp"
 
 namespace traygauge {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/base/random.hpp"
-#include "core/rectification/polar_rectification.hpp"
+#include "core/paper/rectification/polar_rectification.hpp"
 #include "tests/support/synthetic_scene.hpp"
 
 namespace traygauge {

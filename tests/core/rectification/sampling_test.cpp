@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/rectification/line_sampling.hpp"
+#include "core/paper/rectification/line_sampling.hpp"
 #include "tests/core/rectification/rectification_fixture.hpp"
 
 namespace traygauge {

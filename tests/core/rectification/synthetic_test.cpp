@@ -1,7 +1,7 @@
 // Rendered scenes with exact depth: partners lie in the same row, and look alike there.
 #include <gtest/gtest.h>
 
-#include "core/rectification/polar_rectification.hpp"
+#include "core/paper/rectification/polar_rectification.hpp"
 #include "tests/core/rectification/photometric.hpp"
 #include "tests/core/rectification/rectification_fixture.hpp"
 

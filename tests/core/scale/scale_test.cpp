@@ -1,4 +1,4 @@
-#include "core/scale/scale_estimation.hpp"
+#include "core/paper/card/scale_estimation.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,9 +6,9 @@
 #include <random>
 #include <vector>
 
+#include "core/paper/card/card_plane.hpp"
+#include "core/paper/card/card_tracks.hpp"
 #include "core/scale/card_detection.hpp"
-#include "core/scale/card_plane.hpp"
-#include "core/scale/card_tracks.hpp"
 #include "tests/core/matching/workspace_block.hpp"
 #include "tests/core/scale/synthetic_card.hpp"
 

@@ -1,4 +1,4 @@
-#include "core/stereo/disparity_range.hpp"
+#include "core/paper/stereo/disparity_range.hpp"
 
 #include <gtest/gtest.h>
 

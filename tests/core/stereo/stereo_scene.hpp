@@ -9,7 +9,7 @@
 #include <string>
 
 #include "core/base/arena.hpp"
-#include "core/stereo/stereo.hpp"
+#include "core/paper/stereo/stereo.hpp"
 #include "tests/support/pictures.hpp"
 
 namespace traygauge::testing {

@@ -5,8 +5,8 @@
 #include <cstdio>
 #include <random>
 
-#include "core/surface/dish.hpp"
-#include "core/surface/rim.hpp"
+#include "core/paper/surface/dish_surface.hpp"
+#include "core/paper/surface/rim.hpp"
 #include "core/surface/rim_ellipse.hpp"
 #include "tests/core/surface/block.hpp"
 #include "tests/core/surface/capture_scene.hpp"

@@ -1,4 +1,4 @@
-#include "core/surface/depth_map.hpp"
+#include "core/paper/surface/depth_map.hpp"
 
 #include <gtest/gtest.h>
 

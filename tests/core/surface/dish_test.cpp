@@ -1,4 +1,4 @@
-#include "core/surface/dish.hpp"
+#include "core/paper/surface/dish_surface.hpp"
 
 #include <gtest/gtest.h>
 

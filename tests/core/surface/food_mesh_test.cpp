@@ -1,4 +1,4 @@
-#include "core/surface/food_mesh.hpp"
+#include "core/paper/surface/food_mesh.hpp"
 
 #include <gtest/gtest.h>
 

@@ -8,7 +8,7 @@
 #include <numbers>
 #include <vector>
 
-#include "core/base/plane_fit.hpp"
+#include "core/paper/base/plane_fit.hpp"
 #include "core/surface/two_view_surface.hpp"
 #include "tests/core/pose/photographs.hpp"
 #include "tests/core/pose/scenes.hpp"

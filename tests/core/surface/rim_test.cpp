@@ -1,4 +1,4 @@
-#include "core/surface/rim.hpp"
+#include "core/paper/surface/rim.hpp"
 
 #include <gtest/gtest.h>
 

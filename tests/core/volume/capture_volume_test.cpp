@@ -4,7 +4,7 @@
 #include <chrono>
 #include <cstdio>
 
-#include "core/volume/volume.hpp"
+#include "core/paper/volume/mesh_volume.hpp"
 #include "tests/core/surface/block.hpp"
 #include "tests/core/surface/capture_scene.hpp"
 

@@ -1,5 +1,5 @@
 // Solids of known volume, sampled exactly by a camera 50 cm away.
-#include "core/volume/volume.hpp"
+#include "core/paper/volume/mesh_volume.hpp"
 
 #include <gtest/gtest.h>
 

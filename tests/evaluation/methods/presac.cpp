@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "core/base/ransac.hpp"
-#include "core/pose/epipolar.hpp"
-#include "core/pose/essential_decomposition.hpp"
-#include "core/pose/five_point.hpp"
-#include "core/pose/triangulation.hpp"
+#include "core/paper/pose/epipolar.hpp"
+#include "core/paper/pose/essential_decomposition.hpp"
+#include "core/paper/pose/five_point.hpp"
+#include "core/paper/pose/triangulation.hpp"
 
 namespace traygauge::tables {
 namespace {

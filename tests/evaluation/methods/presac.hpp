@@ -4,7 +4,7 @@
 
 #include <span>
 
-#include "core/pose/motion_search.hpp"
+#include "core/paper/pose/motion_search.hpp"
 
 namespace traygauge::tables {
 

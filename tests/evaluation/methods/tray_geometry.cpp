@@ -4,9 +4,9 @@
 #include <array>
 #include <opencv2/calib3d.hpp>
 
-#include "core/base/plane_fit.hpp"
-#include "core/pose/epipolar.hpp"
-#include "core/pose/triangulation.hpp"
+#include "core/paper/base/plane_fit.hpp"
+#include "core/paper/pose/epipolar.hpp"
+#include "core/paper/pose/triangulation.hpp"
 #include "core/segmentation/label_regions.hpp"
 #include "tests/evaluation/methods/given_measurement.hpp"
 
