@@ -9,7 +9,7 @@
 #include "core/estimator/best/best_params.hpp"
 #include "core/estimator/segmenter_params.hpp"
 #include "core/estimator/view_checks.hpp"
-#include "core/image/camera.hpp"
+#include "core/geometry/camera.hpp"
 #include "core/image/exposure.hpp"
 #include "core/image_view/image_view.hpp"
 #include "core/paper/features/surf.hpp"

@@ -6,10 +6,10 @@
 #include <cstdint>
 #include <span>
 
-#include "core/base/geometry.hpp"
 #include "core/base/status.hpp"
-#include "core/base/table_frame.hpp"
-#include "core/image/camera.hpp"
+#include "core/geometry/camera.hpp"
+#include "core/geometry/geometry.hpp"
+#include "core/geometry/table_frame.hpp"
 #include "core/image_view/image_view.hpp"
 #include "core/paper/surface/food_mesh.hpp"
 #include "core/stereo/disparity.hpp"

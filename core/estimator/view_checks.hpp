@@ -7,7 +7,7 @@
 
 #include "core/base/status.hpp"
 #include "core/estimator/measurement.hpp"
-#include "core/image/camera.hpp"
+#include "core/geometry/camera.hpp"
 #include "core/image/edge_blur.hpp"
 #include "core/image_view/image_view.hpp"
 #include "core/segmentation/card_silhouette.hpp"

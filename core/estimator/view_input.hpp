@@ -7,7 +7,7 @@
 #include "core/base/status.hpp"
 #include "core/estimator/configuration.hpp"
 #include "core/estimator/measurement.hpp"
-#include "core/image/camera.hpp"
+#include "core/geometry/camera.hpp"
 #include "core/image_view/image_view.hpp"
 #include "core/segmentation/label_regions.hpp"
 

@@ -6,7 +6,7 @@
 #include <array>
 #include <cstdint>
 
-#include "core/base/geometry.hpp"
+#include "core/geometry/geometry.hpp"
 #include "core/image_view/image_view.hpp"
 
 namespace traygauge {

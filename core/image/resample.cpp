@@ -4,8 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "core/geometry/lens_lanes.hpp"
 #include "core/image/gray_weights.hpp"
-#include "core/image/lens_lanes.hpp"
 
 namespace traygauge {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "core/image/camera.hpp"
+#include "core/geometry/camera.hpp"
 #include "core/image_view/image_view.hpp"
 
 namespace traygauge {

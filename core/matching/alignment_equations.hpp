@@ -4,8 +4,8 @@
 
 #include <cstdint>
 
-#include "core/base/geometry.hpp"
-#include "core/base/levenberg_marquardt.hpp"
+#include "core/geometry/geometry.hpp"
+#include "core/geometry/levenberg_marquardt.hpp"
 #include "core/image_view/image_view.hpp"
 
 namespace traygauge {

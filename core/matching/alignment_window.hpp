@@ -3,8 +3,8 @@
 
 #include <cstdint>
 
-#include "core/base/geometry.hpp"
 #include "core/base/lanes.hpp"
+#include "core/geometry/geometry.hpp"
 #include "core/image_view/image_view.hpp"
 #include "core/matching/alignment_equations.hpp"
 

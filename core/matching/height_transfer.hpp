@@ -2,8 +2,8 @@
 // table.
 #pragma once
 
-#include "core/base/table_frame.hpp"
-#include "core/image/camera.hpp"
+#include "core/geometry/camera.hpp"
+#include "core/geometry/table_frame.hpp"
 
 namespace traygauge {
 

@@ -8,7 +8,7 @@
 #include <span>
 
 #include "core/base/bounded_list.hpp"
-#include "core/base/geometry.hpp"
+#include "core/geometry/geometry.hpp"
 #include "core/image_view/image_view.hpp"
 
 namespace traygauge {

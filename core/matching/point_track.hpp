@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "core/base/geometry.hpp"
+#include "core/geometry/geometry.hpp"
 
 namespace traygauge {
 

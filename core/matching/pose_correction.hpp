@@ -4,9 +4,9 @@
 
 #include <span>
 
-#include "core/base/geometry.hpp"
-#include "core/base/levenberg_marquardt.hpp"
-#include "core/base/table_frame.hpp"
+#include "core/geometry/geometry.hpp"
+#include "core/geometry/levenberg_marquardt.hpp"
+#include "core/geometry/table_frame.hpp"
 
 namespace traygauge {
 

@@ -1,8 +1,8 @@
 // What the card's alignment in one view says about the camera, once the card may lie a little askew.
 #pragma once
 
-#include "core/base/geometry.hpp"
-#include "core/base/table_frame.hpp"
+#include "core/geometry/geometry.hpp"
+#include "core/geometry/table_frame.hpp"
 
 namespace traygauge {
 

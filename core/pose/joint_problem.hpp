@@ -9,9 +9,9 @@
 #include <cstddef>
 #include <span>
 
-#include "core/base/geometry.hpp"
-#include "core/base/levenberg_marquardt.hpp"
-#include "core/base/table_frame.hpp"
+#include "core/geometry/geometry.hpp"
+#include "core/geometry/levenberg_marquardt.hpp"
+#include "core/geometry/table_frame.hpp"
 #include "core/matching/point_track.hpp"
 #include "core/pose/card_prior.hpp"
 #include "core/pose/track_residuals.hpp"

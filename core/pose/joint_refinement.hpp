@@ -8,9 +8,9 @@
 #include <cstdint>
 #include <span>
 
-#include "core/base/geometry.hpp"
 #include "core/base/status.hpp"
-#include "core/base/table_frame.hpp"
+#include "core/geometry/geometry.hpp"
+#include "core/geometry/table_frame.hpp"
 #include "core/matching/point_track.hpp"
 #include "core/pose/card_prior.hpp"
 #include "core/pose/joint_problem.hpp"

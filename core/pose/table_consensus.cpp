@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/base/levenberg_marquardt.hpp"
 #include "core/base/random.hpp"
+#include "core/geometry/levenberg_marquardt.hpp"
 
 namespace traygauge {
 namespace {

@@ -7,9 +7,9 @@
 // camera_from_table is applied once to the sums.
 #pragma once
 
-#include "core/base/geometry.hpp"
-#include "core/base/levenberg_marquardt.hpp"
-#include "core/base/table_frame.hpp"
+#include "core/geometry/geometry.hpp"
+#include "core/geometry/levenberg_marquardt.hpp"
+#include "core/geometry/table_frame.hpp"
 #include "core/matching/point_track.hpp"
 
 namespace traygauge {

@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <span>
 
-#include "core/base/geometry.hpp"
-#include "core/base/table_frame.hpp"
+#include "core/geometry/geometry.hpp"
+#include "core/geometry/table_frame.hpp"
 #include "core/pose/joint_refinement.hpp"
 #include "core/segmentation/label_regions.hpp"
 

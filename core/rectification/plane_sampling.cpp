@@ -3,7 +3,7 @@
 #include <array>
 #include <cmath>
 
-#include "core/image/lens_lanes.hpp"
+#include "core/geometry/lens_lanes.hpp"
 #include "core/rectification/plane_rectification.hpp"
 
 namespace traygauge {

@@ -5,9 +5,9 @@
 
 #include <cstdint>
 
-#include "core/base/geometry.hpp"
 #include "core/base/status.hpp"
-#include "core/image/camera.hpp"
+#include "core/geometry/camera.hpp"
+#include "core/geometry/geometry.hpp"
 #include "core/scale/card_outline.hpp"
 #include "core/scale/card_pattern.hpp"
 #include "core/scale/card_picture.hpp"

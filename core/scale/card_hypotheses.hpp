@@ -5,7 +5,7 @@
 #include <span>
 
 #include "core/base/bounded_list.hpp"
-#include "core/base/geometry.hpp"
+#include "core/geometry/geometry.hpp"
 #include "core/scale/card.hpp"
 #include "core/scale/card_outline.hpp"
 

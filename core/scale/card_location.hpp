@@ -6,9 +6,9 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "core/base/geometry.hpp"
 #include "core/base/status.hpp"
-#include "core/image/camera.hpp"
+#include "core/geometry/camera.hpp"
+#include "core/geometry/geometry.hpp"
 #include "core/scale/card.hpp"
 #include "core/scale/card_alignment.hpp"
 #include "core/scale/card_pattern.hpp"

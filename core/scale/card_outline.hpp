@@ -6,9 +6,9 @@
 #include <span>
 
 #include "core/base/arena.hpp"
-#include "core/base/geometry.hpp"
 #include "core/base/status.hpp"
-#include "core/image/camera.hpp"
+#include "core/geometry/camera.hpp"
+#include "core/geometry/geometry.hpp"
 #include "core/segmentation/label_regions.hpp"
 
 namespace traygauge {

@@ -7,10 +7,10 @@
 #include <span>
 
 #include "core/base/arena.hpp"
-#include "core/base/geometry.hpp"
-#include "core/base/levenberg_marquardt.hpp"
 #include "core/base/status.hpp"
-#include "core/image/camera.hpp"
+#include "core/geometry/camera.hpp"
+#include "core/geometry/geometry.hpp"
+#include "core/geometry/levenberg_marquardt.hpp"
 #include "core/scale/card_pattern.hpp"
 #include "core/segmentation/label_regions.hpp"
 

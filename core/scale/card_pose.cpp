@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "core/base/levenberg_marquardt.hpp"
+#include "core/geometry/levenberg_marquardt.hpp"
 
 namespace traygauge {
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/base/levenberg_marquardt.hpp"
-#include "core/base/table_frame.hpp"
+#include "core/geometry/levenberg_marquardt.hpp"
+#include "core/geometry/table_frame.hpp"
 #include "core/scale/card_hypotheses.hpp"
 
 namespace traygauge {

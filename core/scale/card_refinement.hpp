@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
-#include "core/base/geometry.hpp"
-#include "core/image/camera.hpp"
+#include "core/geometry/camera.hpp"
+#include "core/geometry/geometry.hpp"
 #include "core/scale/card_pattern.hpp"
 #include "core/scale/card_picture.hpp"
 

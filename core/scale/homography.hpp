@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <span>
 
-#include "core/base/geometry.hpp"
+#include "core/geometry/geometry.hpp"
 #include "core/scale/card.hpp"
 
 namespace traygauge {

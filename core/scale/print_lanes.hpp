@@ -4,8 +4,8 @@
 
 #include <cstdint>
 
-#include "core/base/geometry.hpp"
 #include "core/base/lanes.hpp"
+#include "core/geometry/geometry.hpp"
 #include "core/scale/card_pattern.hpp"
 
 namespace traygauge {

@@ -4,8 +4,8 @@
 #include <Eigen/LU>
 #include <utility>
 
-#include "core/base/geometry.hpp"
-#include "core/base/table_frame.hpp"
+#include "core/geometry/geometry.hpp"
+#include "core/geometry/table_frame.hpp"
 #include "core/scale/card.hpp"
 
 namespace traygauge {

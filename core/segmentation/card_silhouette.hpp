@@ -7,8 +7,8 @@
 #include <span>
 
 #include "core/base/arena.hpp"
-#include "core/base/geometry.hpp"
-#include "core/image/camera.hpp"
+#include "core/geometry/camera.hpp"
+#include "core/geometry/geometry.hpp"
 #include "core/image_view/image_view.hpp"
 #include "core/segmentation/label_regions.hpp"
 

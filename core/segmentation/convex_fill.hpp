@@ -7,7 +7,7 @@
 #include <limits>
 #include <span>
 
-#include "core/base/geometry.hpp"
+#include "core/geometry/geometry.hpp"
 #include "core/image_view/image_view.hpp"
 
 namespace traygauge {

@@ -6,8 +6,8 @@
 
 #include "core/base/arena.hpp"
 #include "core/base/bounded_list.hpp"
-#include "core/base/geometry.hpp"
 #include "core/base/status.hpp"
+#include "core/geometry/geometry.hpp"
 #include "core/image_view/image_view.hpp"
 #include "core/segmentation/label_set.hpp"
 

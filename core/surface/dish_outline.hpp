@@ -5,9 +5,9 @@
 #include <cstdint>
 
 #include "core/base/bounded_list.hpp"
-#include "core/base/geometry.hpp"
 #include "core/base/status.hpp"
-#include "core/image/camera.hpp"
+#include "core/geometry/camera.hpp"
+#include "core/geometry/geometry.hpp"
 #include "core/image_view/image_view.hpp"
 #include "core/segmentation/label_set.hpp"
 #include "core/surface/dish_contour.hpp"

@@ -7,9 +7,9 @@
 #include <span>
 
 #include "core/base/bounded_list.hpp"
-#include "core/base/geometry.hpp"
 #include "core/base/status.hpp"
-#include "core/base/table_frame.hpp"
+#include "core/geometry/geometry.hpp"
+#include "core/geometry/table_frame.hpp"
 #include "core/surface/dish_model.hpp"
 #include "core/surface/placement_problem.hpp"
 #include "core/surface/rim_ellipse.hpp"

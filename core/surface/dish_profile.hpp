@@ -5,8 +5,8 @@
 #include <cstddef>
 #include <span>
 
-#include "core/base/geometry.hpp"
 #include "core/base/status.hpp"
+#include "core/geometry/geometry.hpp"
 #include "core/surface/dish_model.hpp"
 
 namespace traygauge {

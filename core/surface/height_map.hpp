@@ -7,8 +7,8 @@
 #include <span>
 
 #include "core/base/arena.hpp"
-#include "core/base/geometry.hpp"
 #include "core/base/status.hpp"
+#include "core/geometry/geometry.hpp"
 #include "core/image_view/image_view.hpp"
 #include "core/surface/dish_profile.hpp"
 #include "core/surface/surface_grid.hpp"

@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "core/base/geometry.hpp"
+#include "core/geometry/geometry.hpp"
 #include "core/image_view/image_view.hpp"
 #include "core/rectification/plane_rectification.hpp"
 #include "core/stereo/gap_filling.hpp"

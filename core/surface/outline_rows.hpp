@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <span>
 
-#include "core/base/geometry.hpp"
+#include "core/geometry/geometry.hpp"
 #include "core/surface/surface_grid.hpp"
 
 namespace traygauge {

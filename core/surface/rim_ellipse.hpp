@@ -4,8 +4,8 @@
 #include <array>
 #include <span>
 
-#include "core/base/geometry.hpp"
 #include "core/base/status.hpp"
+#include "core/geometry/geometry.hpp"
 
 namespace traygauge {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/base/table_frame.hpp"
+#include "core/geometry/table_frame.hpp"
 
 namespace traygauge {
 namespace {

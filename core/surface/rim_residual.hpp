@@ -7,7 +7,7 @@
 
 #include <array>
 
-#include "core/base/geometry.hpp"
+#include "core/geometry/geometry.hpp"
 
 namespace traygauge {
 

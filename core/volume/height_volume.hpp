@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <span>
 
-#include "core/base/geometry.hpp"
 #include "core/base/status.hpp"
+#include "core/geometry/geometry.hpp"
 #include "core/surface/height_map.hpp"
 
 namespace traygauge {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "core/base/geometry.hpp"
+#include "core/geometry/geometry.hpp"
 #include "firmware/config/station_file.hpp"
 
 namespace traygauge {

@@ -4,8 +4,8 @@
 #include <numbers>
 #include <vector>
 
-#include "core/base/levenberg_marquardt.hpp"
-#include "core/base/table_frame.hpp"
+#include "core/geometry/levenberg_marquardt.hpp"
+#include "core/geometry/table_frame.hpp"
 #include "core/paper/pose/triangulation.hpp"
 #include "core/scale/card.hpp"
 

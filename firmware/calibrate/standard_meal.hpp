@@ -4,7 +4,7 @@
 
 #include <optional>
 
-#include "core/image/camera.hpp"
+#include "core/geometry/camera.hpp"
 
 namespace traygauge {
 

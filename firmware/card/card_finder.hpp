@@ -5,8 +5,8 @@
 #include <optional>
 #include <span>
 
-#include "core/base/table_frame.hpp"
 #include "core/estimator/configuration.hpp"
+#include "core/geometry/table_frame.hpp"
 #include "core/scale/card_location.hpp"
 #include "firmware/base/aligned_block.hpp"
 

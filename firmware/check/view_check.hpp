@@ -3,8 +3,8 @@
 
 #include <optional>
 
-#include "core/base/geometry.hpp"
 #include "core/estimator/configuration.hpp"
+#include "core/geometry/geometry.hpp"
 #include "firmware/check/device_check.hpp"
 #include "firmware/config/station_file.hpp"
 

@@ -6,8 +6,8 @@
 #include <filesystem>
 #include <optional>
 
-#include "core/base/geometry.hpp"
-#include "core/image/camera.hpp"
+#include "core/geometry/camera.hpp"
+#include "core/geometry/geometry.hpp"
 #include "simulator/capture/capture.hpp"
 #include "simulator/capture/truth.hpp"
 

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "core/estimator/measurement.hpp"
-#include "core/image/camera.hpp"
+#include "core/geometry/camera.hpp"
 #include "simulator/capture/picture.hpp"
 
 namespace traygauge {

@@ -5,8 +5,8 @@
 #include <opencv2/core.hpp>
 #include <vector>
 
-#include "core/base/geometry.hpp"
-#include "core/image/camera.hpp"
+#include "core/geometry/camera.hpp"
+#include "core/geometry/geometry.hpp"
 #include "core/segmentation/label_regions.hpp"
 #include "tests/support/opencv_camera.hpp"
 

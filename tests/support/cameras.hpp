@@ -6,8 +6,8 @@
 #include <numbers>
 #include <random>
 
-#include "core/base/geometry.hpp"
-#include "core/image/camera.hpp"
+#include "core/geometry/camera.hpp"
+#include "core/geometry/geometry.hpp"
 
 namespace traygauge::testing {
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "core/base/table_frame.hpp"
+#include "core/geometry/table_frame.hpp"
 #include "core/surface/dish_model.hpp"
 #include "core/surface/dish_outline.hpp"
 #include "core/surface/rim_residual.hpp"

@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include "core/base/geometry.hpp"
-#include "core/image/camera.hpp"
+#include "core/geometry/camera.hpp"
+#include "core/geometry/geometry.hpp"
 #include "tests/support/opencv_camera.hpp"
 
 namespace traygauge::testing {

@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <opencv2/core.hpp>
 
-#include "core/base/geometry.hpp"
+#include "core/geometry/geometry.hpp"
 #include "core/surface/dish_profile.hpp"
 #include "tests/simulator/capture/temporary_capture.hpp"
 

@@ -4,7 +4,7 @@
 #include <opencv2/core.hpp>
 #include <vector>
 
-#include "core/image/camera.hpp"
+#include "core/geometry/camera.hpp"
 
 namespace traygauge::testing {
 

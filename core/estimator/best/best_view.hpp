@@ -11,7 +11,7 @@
 #include "core/estimator/configuration.hpp"
 #include "core/estimator/stage_clock.hpp"
 #include "core/estimator/view_checks.hpp"
-#include "core/image/camera.hpp"
+#include "core/geometry/camera.hpp"
 #include "core/image/gray_pyramid.hpp"
 #include "core/image_view/image_view.hpp"
 #include "core/scale/card_alignment.hpp"

@@ -6,9 +6,9 @@
 #include "core/estimator/best/dish_views.hpp"
 #include "core/estimator/best/food_agreement.hpp"
 #include "core/estimator/best/uncertainty.hpp"
+#include "core/geometry/triangulation.hpp"
 #include "core/surface/known_dish.hpp"
 #include "core/surface/matched_share.hpp"
-#include "core/surface/triangulation.hpp"
 
 namespace traygauge {
 namespace {

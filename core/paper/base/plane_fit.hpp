@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <span>
 
-#include "core/base/geometry.hpp"
 #include "core/base/random.hpp"
+#include "core/geometry/geometry.hpp"
 
 namespace traygauge {
 

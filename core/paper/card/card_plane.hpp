@@ -4,9 +4,9 @@
 #include <cstdint>
 #include <span>
 
-#include "core/base/geometry.hpp"
 #include "core/base/random.hpp"
 #include "core/base/status.hpp"
+#include "core/geometry/geometry.hpp"
 #include "core/scale/card.hpp"
 
 namespace traygauge {

@@ -10,11 +10,11 @@
 #include "core/estimator/configuration.hpp"
 #include "core/estimator/measurement.hpp"
 #include "core/estimator/stage_clock.hpp"
+#include "core/geometry/triangulation.hpp"
 #include "core/paper/pipeline/view_preparation.hpp"
 #include "core/paper/pose/relative_pose.hpp"
 #include "core/paper/rectification/polar_rectification.hpp"
 #include "core/paper/stereo/stereo.hpp"
-#include "core/surface/triangulation.hpp"
 
 namespace traygauge {
 

@@ -6,12 +6,12 @@
 
 #include "core/base/arena.hpp"
 #include "core/base/bounded_list.hpp"
-#include "core/base/geometry.hpp"
 #include "core/base/random.hpp"
 #include "core/base/status.hpp"
 #include "core/estimator/configuration.hpp"
 #include "core/estimator/measurement.hpp"
 #include "core/estimator/stage_clock.hpp"
+#include "core/geometry/geometry.hpp"
 #include "core/paper/matching/matcher.hpp"
 #include "core/paper/pipeline/view_preparation.hpp"
 #include "core/paper/pose/motion_search.hpp"

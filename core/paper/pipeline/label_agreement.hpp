@@ -5,8 +5,8 @@
 #include <span>
 
 #include "core/base/status.hpp"
+#include "core/geometry/triangulation.hpp"
 #include "core/image_view/image_view.hpp"
-#include "core/surface/triangulation.hpp"
 
 namespace traygauge {
 

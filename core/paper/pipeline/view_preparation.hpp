@@ -12,7 +12,7 @@
 #include "core/base/status.hpp"
 #include "core/estimator/configuration.hpp"
 #include "core/estimator/view_checks.hpp"
-#include "core/image/camera.hpp"
+#include "core/geometry/camera.hpp"
 #include "core/image/resample.hpp"
 #include "core/image_view/image_view.hpp"
 #include "core/paper/features/keypoint.hpp"

@@ -9,7 +9,7 @@
 #include <limits>
 #include <span>
 
-#include "core/base/geometry.hpp"
+#include "core/geometry/geometry.hpp"
 #include "core/paper/pose/ray_match.hpp"
 
 namespace traygauge {

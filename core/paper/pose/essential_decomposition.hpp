@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <span>
 
-#include "core/base/geometry.hpp"
+#include "core/geometry/geometry.hpp"
 #include "core/paper/pose/match_table.hpp"
 
 namespace traygauge {

@@ -5,7 +5,7 @@
 #include <array>
 #include <span>
 
-#include "core/base/geometry.hpp"
+#include "core/geometry/geometry.hpp"
 #include "core/paper/pose/ray_match.hpp"
 
 namespace traygauge {

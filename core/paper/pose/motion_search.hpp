@@ -3,8 +3,8 @@
 
 #include <span>
 
-#include "core/base/geometry.hpp"
 #include "core/base/random.hpp"
+#include "core/geometry/geometry.hpp"
 #include "core/paper/pose/ray_match.hpp"
 
 namespace traygauge {

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "core/base/levenberg_marquardt.hpp"
+#include "core/geometry/levenberg_marquardt.hpp"
 #include "core/paper/pose/triangulation.hpp"
 
 namespace traygauge {

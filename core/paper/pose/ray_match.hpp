@@ -1,7 +1,7 @@
 // A point match as two viewing rays.
 #pragma once
 
-#include "core/base/geometry.hpp"
+#include "core/geometry/geometry.hpp"
 
 namespace traygauge {
 

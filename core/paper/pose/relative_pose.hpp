@@ -7,9 +7,9 @@
 
 #include "core/base/arena.hpp"
 #include "core/base/bounded_list.hpp"
-#include "core/base/geometry.hpp"
 #include "core/base/random.hpp"
 #include "core/base/status.hpp"
+#include "core/geometry/geometry.hpp"
 #include "core/paper/pose/inlier_threshold.hpp"
 #include "core/paper/pose/match_table.hpp"
 #include "core/paper/pose/ray_match.hpp"

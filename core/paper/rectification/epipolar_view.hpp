@@ -5,8 +5,8 @@
 // conditioned when the epipole moves to infinity and beyond.
 #pragma once
 
-#include "core/base/geometry.hpp"
-#include "core/image/camera.hpp"
+#include "core/geometry/camera.hpp"
+#include "core/geometry/geometry.hpp"
 
 namespace traygauge {
 

@@ -11,9 +11,9 @@
 #include <span>
 
 #include "core/base/arena.hpp"
-#include "core/base/geometry.hpp"
 #include "core/base/status.hpp"
-#include "core/image/camera.hpp"
+#include "core/geometry/camera.hpp"
+#include "core/geometry/geometry.hpp"
 #include "core/image_view/image_view.hpp"
 #include "core/paper/pose/relative_pose.hpp"
 #include "core/paper/rectification/epipolar_view.hpp"

@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "core/base/geometry.hpp"
+#include "core/geometry/geometry.hpp"
 #include "core/image_view/image_view.hpp"
 #include "core/paper/rectification/epipolar_view.hpp"
 

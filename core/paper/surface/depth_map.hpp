@@ -4,11 +4,11 @@
 #include <cstdint>
 #include <limits>
 
-#include "core/base/geometry.hpp"
+#include "core/geometry/geometry.hpp"
+#include "core/geometry/triangulation.hpp"  // IWYU pragma: export
 #include "core/image_view/image_view.hpp"
 #include "core/paper/surface/disparity_lookup.hpp"  // IWYU pragma: export
 #include "core/segmentation/label_regions.hpp"
-#include "core/surface/triangulation.hpp"  // IWYU pragma: export
 
 namespace traygauge {
 

@@ -5,8 +5,8 @@
 #include <span>
 
 #include "core/base/arena.hpp"
-#include "core/base/geometry.hpp"
 #include "core/base/status.hpp"
+#include "core/geometry/geometry.hpp"
 #include "core/paper/base/half_sample_mode.hpp"
 
 namespace traygauge {

@@ -6,13 +6,13 @@
 
 #include "core/base/arena.hpp"
 #include "core/base/bounded_list.hpp"
-#include "core/base/geometry.hpp"
 #include "core/base/random.hpp"
 #include "core/base/status.hpp"
+#include "core/geometry/geometry.hpp"
+#include "core/geometry/triangulation.hpp"
 #include "core/image_view/image_view.hpp"
 #include "core/paper/base/plane_fit.hpp"
 #include "core/surface/dish_contour.hpp"
-#include "core/surface/triangulation.hpp"
 
 namespace traygauge {
 

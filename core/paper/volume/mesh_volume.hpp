@@ -7,8 +7,8 @@
 #include <cstdint>
 #include <span>
 
-#include "core/base/geometry.hpp"
 #include "core/base/status.hpp"
+#include "core/geometry/geometry.hpp"
 #include "core/paper/surface/food_mesh.hpp"
 
 namespace traygauge {

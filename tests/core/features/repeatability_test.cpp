@@ -7,8 +7,8 @@
 #include <opencv2/imgcodecs.hpp>
 #include <string>
 
-#include "core/base/geometry.hpp"
-#include "core/image/camera.hpp"
+#include "core/geometry/camera.hpp"
+#include "core/geometry/geometry.hpp"
 #include "core/image/resample.hpp"
 #include "surf_on_picture.hpp"
 #include "tests/support/capture_truth.hpp"

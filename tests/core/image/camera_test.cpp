@@ -1,4 +1,4 @@
-#include "core/image/camera.hpp"
+#include "core/geometry/camera.hpp"
 
 #include <gtest/gtest.h>
 

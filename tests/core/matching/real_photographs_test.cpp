@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
 
-#include "core/base/geometry.hpp"
+#include "core/geometry/geometry.hpp"
 #include "core/paper/matching/matcher.hpp"
 #include "tests/core/matching/sift_features.hpp"
 #include "tests/core/matching/workspace_block.hpp"

@@ -1,4 +1,4 @@
-#include "core/base/levenberg_marquardt.hpp"
+#include "core/geometry/levenberg_marquardt.hpp"
 
 #include <gtest/gtest.h>
 

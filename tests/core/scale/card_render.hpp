@@ -10,8 +10,8 @@
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
-#include "core/base/geometry.hpp"
-#include "core/base/table_frame.hpp"
+#include "core/geometry/geometry.hpp"
+#include "core/geometry/table_frame.hpp"
 #include "core/scale/card_alignment.hpp"
 #include "core/segmentation/label_regions.hpp"
 #include "tests/support/pictures.hpp"

@@ -7,7 +7,7 @@
 #include <random>
 #include <vector>
 
-#include "core/base/geometry.hpp"
+#include "core/geometry/geometry.hpp"
 #include "core/scale/card.hpp"
 
 namespace traygauge {

@@ -5,7 +5,7 @@
 #include <numbers>
 #include <vector>
 
-#include "core/base/table_frame.hpp"
+#include "core/geometry/table_frame.hpp"
 #include "core/surface/rim_residual.hpp"
 #include "tests/support/cameras.hpp"
 

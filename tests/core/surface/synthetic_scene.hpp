@@ -6,8 +6,8 @@
 #include <numbers>
 #include <opencv2/core.hpp>
 
-#include "core/base/geometry.hpp"
-#include "core/image/camera.hpp"
+#include "core/geometry/camera.hpp"
+#include "core/geometry/geometry.hpp"
 #include "core/image_view/image_view.hpp"
 #include "tests/support/cameras.hpp"
 

@@ -4,8 +4,8 @@
 
 #include <opencv2/core/mat.hpp>
 
-#include "core/base/geometry.hpp"
-#include "core/image/camera.hpp"
+#include "core/geometry/camera.hpp"
+#include "core/geometry/geometry.hpp"
 
 namespace traygauge::tables {
 

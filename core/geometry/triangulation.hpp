@@ -1,8 +1,8 @@
 // Where two rays of a calibrated pair meet (paper III-B-3).
 #pragma once
 
-#include "core/base/geometry.hpp"
-#include "core/image/camera.hpp"
+#include "core/geometry/camera.hpp"
+#include "core/geometry/geometry.hpp"
 
 namespace traygauge {
 

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/base/geometry.hpp"
+#include "core/geometry/geometry.hpp"
 
 namespace traygauge {
 

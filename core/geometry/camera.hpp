@@ -1,8 +1,8 @@
 // The camera: pinhole with OpenCV's five-coefficient lens distortion.
 #pragma once
 
-#include "core/base/geometry.hpp"
 #include "core/base/status.hpp"
+#include "core/geometry/geometry.hpp"
 
 namespace traygauge {
 

@@ -1,7 +1,7 @@
 // The lens in single precision, for loops over pixels that run in SIMD lanes: error below 0.001 px.
 #pragma once
 
-#include "core/image/camera.hpp"
+#include "core/geometry/camera.hpp"
 
 namespace traygauge {
 
