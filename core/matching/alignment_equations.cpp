@@ -4,7 +4,7 @@
 #include <cstring>
 
 #include "core/base/lanes.hpp"
-#include "core/features/gaussian.hpp"
+#include "core/image/gaussian.hpp"
 #include "core/matching/patch_sampling.hpp"
 
 namespace traygauge {

@@ -3,7 +3,7 @@
 
 #include "core/estimator/best/food_agreement_params.hpp"
 #include "core/estimator/best/uncertainty.hpp"
-#include "core/image/matte.hpp"
+#include "core/image/specular_suppression.hpp"
 #include "core/matching/point_tracking.hpp"
 #include "core/pose/joint_refinement.hpp"
 #include "core/scale/card_alignment.hpp"

@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "core/features/gaussian.hpp"
+#include "core/image/gaussian.hpp"
 #include "core/paper/features/angle.hpp"
 #include "core/paper/features/haar.hpp"
 

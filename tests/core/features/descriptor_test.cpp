@@ -9,7 +9,7 @@
 
 #include "core/base/random.hpp"
 #include "core/features/descriptor_block.hpp"
-#include "core/features/gaussian.hpp"
+#include "core/image/gaussian.hpp"
 #include "core/paper/features/angle.hpp"
 #include "surf_on_picture.hpp"
 

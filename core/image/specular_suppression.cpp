@@ -1,4 +1,4 @@
-#include "core/image/matte.hpp"
+#include "core/image/specular_suppression.hpp"
 
 #include <algorithm>
 #include <cmath>
