@@ -8,8 +8,8 @@
 #include "core/estimator/view_input.hpp"
 #include "core/image/exposure.hpp"
 #include "core/image/resample.hpp"
+#include "core/labels/convex_fill.hpp"
 #include "core/scale/card_location.hpp"
-#include "core/segmentation/convex_fill.hpp"
 #include "core/surface/dish_profile.hpp"
 
 namespace traygauge {

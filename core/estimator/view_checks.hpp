@@ -10,9 +10,9 @@
 #include "core/geometry/camera.hpp"
 #include "core/image/edge_blur.hpp"
 #include "core/image_view/image_view.hpp"
+#include "core/labels/label_regions.hpp"
 #include "core/segmentation/card_silhouette.hpp"
 #include "core/segmentation/item_pixels.hpp"
-#include "core/segmentation/label_regions.hpp"
 #include "core/segmentation/region_colours.hpp"
 
 namespace traygauge {

@@ -9,7 +9,7 @@
 #include "core/estimator/measurement.hpp"
 #include "core/geometry/camera.hpp"
 #include "core/image_view/image_view.hpp"
-#include "core/segmentation/label_regions.hpp"
+#include "core/labels/label_regions.hpp"
 
 namespace traygauge {
 

@@ -11,7 +11,7 @@
 #include "core/base/random.hpp"
 #include "core/features/corner_response.hpp"
 #include "core/image_view/image_view.hpp"
-#include "core/segmentation/label_regions.hpp"
+#include "core/labels/label_regions.hpp"
 
 namespace traygauge {
 

@@ -7,8 +7,8 @@
 
 #include "core/geometry/geometry.hpp"
 #include "core/geometry/table_frame.hpp"
+#include "core/labels/label_regions.hpp"
 #include "core/pose/joint_refinement.hpp"
-#include "core/segmentation/label_regions.hpp"
 
 namespace traygauge {
 

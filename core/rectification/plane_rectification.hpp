@@ -16,8 +16,8 @@
 #include "core/geometry/geometry.hpp"
 #include "core/geometry/table_frame.hpp"
 #include "core/image_view/image_view.hpp"
-#include "core/segmentation/label_regions.hpp"
-#include "core/segmentation/label_set.hpp"
+#include "core/labels/label_regions.hpp"
+#include "core/labels/label_set.hpp"
 #include "core/surface/surface_grid.hpp"
 
 namespace traygauge {

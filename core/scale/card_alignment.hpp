@@ -8,11 +8,11 @@
 #include "core/base/status.hpp"
 #include "core/geometry/camera.hpp"
 #include "core/geometry/geometry.hpp"
+#include "core/labels/label_regions.hpp"
 #include "core/scale/card_outline.hpp"
 #include "core/scale/card_pattern.hpp"
 #include "core/scale/card_picture.hpp"
 #include "core/scale/card_refinement.hpp"
-#include "core/segmentation/label_regions.hpp"
 
 namespace traygauge {
 

@@ -4,10 +4,10 @@
 #include <cstddef>
 #include <span>
 
+#include "core/labels/convex_fill.hpp"
+#include "core/labels/label_regions.hpp"
 #include "core/scale/card_hypotheses.hpp"
 #include "core/scale/print_plane.hpp"
-#include "core/segmentation/convex_fill.hpp"
-#include "core/segmentation/label_regions.hpp"
 
 namespace traygauge {
 namespace {

@@ -9,7 +9,7 @@
 #include "core/base/status.hpp"
 #include "core/geometry/camera.hpp"
 #include "core/geometry/geometry.hpp"
-#include "core/segmentation/label_regions.hpp"
+#include "core/labels/label_regions.hpp"
 
 namespace traygauge {
 

@@ -10,7 +10,7 @@
 #include "core/geometry/camera.hpp"
 #include "core/geometry/geometry.hpp"
 #include "core/image_view/image_view.hpp"
-#include "core/segmentation/label_regions.hpp"
+#include "core/labels/label_regions.hpp"
 
 namespace traygauge {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "core/image/gray_weights.hpp"
-#include "core/segmentation/convex_fill.hpp"
+#include "core/labels/convex_fill.hpp"
 
 namespace traygauge {
 namespace {

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <limits>
 
+#include "core/labels/label_regions.hpp"
 #include "core/segmentation/colour_classes.hpp"
 #include "core/segmentation/colour_sum.hpp"
-#include "core/segmentation/label_regions.hpp"
 #include "core/segmentation/square_sums.hpp"
 
 namespace traygauge {

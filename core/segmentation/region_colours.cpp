@@ -5,7 +5,7 @@
 #include <span>
 
 #include "core/base/median.hpp"
-#include "core/segmentation/label_regions.hpp"
+#include "core/labels/label_regions.hpp"
 
 namespace traygauge {
 namespace {

@@ -5,7 +5,7 @@
 #include <cstring>
 #include <utility>
 
-#include "core/segmentation/label_regions.hpp"
+#include "core/labels/label_regions.hpp"
 
 namespace traygauge {
 namespace {

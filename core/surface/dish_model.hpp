@@ -7,7 +7,7 @@
 #include <span>
 
 #include "core/base/status.hpp"
-#include "core/segmentation/label_regions.hpp"
+#include "core/labels/label_regions.hpp"
 
 namespace traygauge {
 

@@ -9,7 +9,7 @@
 #include "core/geometry/camera.hpp"
 #include "core/geometry/geometry.hpp"
 #include "core/image_view/image_view.hpp"
-#include "core/segmentation/label_set.hpp"
+#include "core/labels/label_set.hpp"
 #include "core/surface/dish_contour.hpp"
 
 namespace traygauge {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include "core/segmentation/label_regions.hpp"
+#include "core/labels/label_regions.hpp"
 
 namespace traygauge {
 namespace {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/segmentation/label_regions.hpp"
+#include "core/labels/label_regions.hpp"
 
 namespace traygauge {
 namespace {

@@ -6,7 +6,7 @@
 #include <limits>
 #include <numbers>
 
-#include "core/segmentation/label_regions.hpp"
+#include "core/labels/label_regions.hpp"
 #include "core/surface/known_dish.hpp"
 
 namespace traygauge {

@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <span>
 
-#include "core/segmentation/label_set.hpp"
+#include "core/labels/label_set.hpp"
 #include "core/surface/body_samples.hpp"
 #include "core/surface/dish_profile.hpp"
 #include "core/surface/outline_rows.hpp"

@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "core/segmentation/label_regions.hpp"
+#include "core/labels/label_regions.hpp"
 
 namespace traygauge {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <span>
 
-#include "core/segmentation/label_set.hpp"
+#include "core/labels/label_set.hpp"
 #include "core/surface/height_map.hpp"
 #include "core/surface/surface_grid.hpp"
 #include "core/volume/height_volume.hpp"

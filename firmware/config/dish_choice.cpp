@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "core/segmentation/label_regions.hpp"
+#include "core/labels/label_regions.hpp"
 #include "firmware/config/config_folder.hpp"
 #include "firmware/config/dish_library.hpp"
 #include "firmware/config/station_file.hpp"

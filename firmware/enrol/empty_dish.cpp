@@ -3,7 +3,7 @@
 #include <cmath>
 #include <string>
 
-#include "core/segmentation/label_regions.hpp"
+#include "core/labels/label_regions.hpp"
 #include "firmware/measure/label_list.hpp"
 
 namespace traygauge {

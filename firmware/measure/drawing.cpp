@@ -7,7 +7,7 @@
 #include <sstream>
 #include <vector>
 
-#include "core/segmentation/label_regions.hpp"
+#include "core/labels/label_regions.hpp"
 #include "firmware/base/text.hpp"
 
 namespace traygauge {

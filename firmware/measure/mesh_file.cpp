@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/segmentation/label_regions.hpp"
+#include "core/labels/label_regions.hpp"
 #include "simulator/capture/png_writer.hpp"
 
 namespace traygauge {

@@ -4,7 +4,7 @@
 #include <opencv2/imgproc.hpp>
 #include <string>
 
-#include "core/segmentation/label_regions.hpp"
+#include "core/labels/label_regions.hpp"
 #include "firmware/base/text.hpp"
 #include "firmware/measure/drawing.hpp"
 #include "firmware/measure/panels.hpp"

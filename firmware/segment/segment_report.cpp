@@ -2,7 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "core/segmentation/label_regions.hpp"
+#include "core/labels/label_regions.hpp"
 #include "firmware/base/json_number.hpp"
 #include "firmware/base/text.hpp"
 #include "simulator/capture/input_error.hpp"

@@ -7,7 +7,7 @@
 
 #include "core/geometry/camera.hpp"
 #include "core/geometry/geometry.hpp"
-#include "core/segmentation/label_regions.hpp"
+#include "core/labels/label_regions.hpp"
 #include "tests/support/opencv_camera.hpp"
 
 namespace traygauge::bench {

@@ -6,7 +6,7 @@
 #include <limits>
 #include <opencv2/imgproc.hpp>
 
-#include "core/segmentation/label_regions.hpp"
+#include "core/labels/label_regions.hpp"
 #include "firmware/measure/pair_setup.hpp"
 #include "simulator/capture/capture.hpp"
 #include "simulator/capture/truth.hpp"

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "core/image/resample.hpp"
+#include "core/labels/label_regions.hpp"
 #include "core/paper/image/integral.hpp"
-#include "core/segmentation/label_regions.hpp"
 #include "tests/bench/workspace.hpp"
 
 namespace traygauge::bench {

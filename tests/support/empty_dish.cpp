@@ -8,7 +8,7 @@
 #include <opencv2/imgproc.hpp>
 #include <string>
 
-#include "core/segmentation/label_regions.hpp"
+#include "core/labels/label_regions.hpp"
 #include "firmware/config/dish_file.hpp"
 #include "firmware/measure/pair_setup.hpp"
 #include "tests/support/synthetic_scene.hpp"

@@ -14,8 +14,8 @@
 #include "core/geometry/camera.hpp"
 #include "core/image/gray_pyramid.hpp"
 #include "core/image_view/image_view.hpp"
+#include "core/labels/label_regions.hpp"
 #include "core/scale/card_alignment.hpp"
-#include "core/segmentation/label_regions.hpp"
 
 namespace traygauge {
 

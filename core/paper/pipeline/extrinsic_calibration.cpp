@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/labels/label_regions.hpp"
 #include "core/paper/card/card_plane.hpp"
 #include "core/paper/card/card_tracks.hpp"
 #include "core/paper/card/scale_estimation.hpp"
@@ -12,7 +13,6 @@
 #include "core/paper/pose/triangulation.hpp"
 #include "core/scale/card_pose.hpp"
 #include "core/scale/homography.hpp"
-#include "core/segmentation/label_regions.hpp"
 
 namespace traygauge {
 namespace {

@@ -15,9 +15,9 @@
 #include "core/geometry/camera.hpp"
 #include "core/image/resample.hpp"
 #include "core/image_view/image_view.hpp"
+#include "core/labels/label_regions.hpp"
 #include "core/paper/features/keypoint.hpp"
 #include "core/paper/features/surf.hpp"
-#include "core/segmentation/label_regions.hpp"
 
 namespace traygauge {
 

@@ -7,8 +7,8 @@
 #include "core/geometry/geometry.hpp"
 #include "core/geometry/triangulation.hpp"  // IWYU pragma: export
 #include "core/image_view/image_view.hpp"
+#include "core/labels/label_regions.hpp"
 #include "core/paper/surface/disparity_lookup.hpp"  // IWYU pragma: export
-#include "core/segmentation/label_regions.hpp"
 
 namespace traygauge {
 

@@ -5,7 +5,7 @@
 #include <span>
 
 #include "core/image_view/image_view.hpp"
-#include "core/segmentation/label_regions.hpp"
+#include "core/labels/label_regions.hpp"
 
 namespace traygauge {
 

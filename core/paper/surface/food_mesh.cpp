@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "core/labels/label_regions.hpp"
 #include "core/paper/surface/food_grid.hpp"
-#include "core/segmentation/label_regions.hpp"
 
 namespace traygauge {
 namespace {

@@ -9,7 +9,7 @@
 #include <random>
 #include <vector>
 
-#include "core/segmentation/label_regions.hpp"
+#include "core/labels/label_regions.hpp"
 #include "tests/core/estimator/measuring_bench.hpp"
 
 namespace traygauge {

@@ -4,7 +4,7 @@
 #include <numbers>
 #include <opencv2/imgproc.hpp>
 
-#include "core/segmentation/label_regions.hpp"
+#include "core/labels/label_regions.hpp"
 
 namespace traygauge {
 namespace {

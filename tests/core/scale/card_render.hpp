@@ -12,8 +12,8 @@
 
 #include "core/geometry/geometry.hpp"
 #include "core/geometry/table_frame.hpp"
+#include "core/labels/label_regions.hpp"
 #include "core/scale/card_alignment.hpp"
-#include "core/segmentation/label_regions.hpp"
 #include "tests/support/pictures.hpp"
 
 namespace traygauge {

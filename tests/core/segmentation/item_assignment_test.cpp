@@ -8,8 +8,8 @@
 #include <random>
 #include <vector>
 
+#include "core/labels/label_regions.hpp"
 #include "core/segmentation/geodesic.hpp"
-#include "core/segmentation/label_regions.hpp"
 #include "tests/core/matching/workspace_block.hpp"
 #include "tests/support/random_seed.hpp"
 

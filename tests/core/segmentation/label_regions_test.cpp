@@ -1,4 +1,4 @@
-#include "core/segmentation/label_regions.hpp"
+#include "core/labels/label_regions.hpp"
 
 #include <gtest/gtest.h>
 

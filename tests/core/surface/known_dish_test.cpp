@@ -9,7 +9,7 @@
 #include <random>
 #include <vector>
 
-#include "core/segmentation/label_regions.hpp"
+#include "core/labels/label_regions.hpp"
 #include "core/surface/matched_share.hpp"
 #include "tests/core/surface/solid_scene.hpp"
 

@@ -10,7 +10,7 @@
 #include <random>
 #include <vector>
 
-#include "core/segmentation/label_regions.hpp"
+#include "core/labels/label_regions.hpp"
 #include "tests/core/surface/block.hpp"
 #include "tests/core/surface/solid_scene.hpp"
 

@@ -8,7 +8,7 @@
 #include <cstdio>
 #include <vector>
 
-#include "core/segmentation/label_regions.hpp"
+#include "core/labels/label_regions.hpp"
 #include "core/surface/known_dish.hpp"
 #include "core/volume/level_liquid.hpp"
 #include "tests/core/surface/solid_scene.hpp"

@@ -6,7 +6,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "core/image/resample.hpp"
-#include "core/segmentation/label_regions.hpp"
+#include "core/labels/label_regions.hpp"
 #include "tests/evaluation/methods/stopwatch.hpp"
 
 namespace traygauge::tables {

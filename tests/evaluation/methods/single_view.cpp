@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "core/segmentation/label_regions.hpp"
+#include "core/labels/label_regions.hpp"
 #include "tests/evaluation/methods/stopwatch.hpp"
 
 namespace traygauge::tables {

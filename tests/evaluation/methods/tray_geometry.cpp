@@ -4,10 +4,10 @@
 #include <array>
 #include <opencv2/calib3d.hpp>
 
+#include "core/labels/label_regions.hpp"
 #include "core/paper/base/plane_fit.hpp"
 #include "core/paper/pose/epipolar.hpp"
 #include "core/paper/pose/triangulation.hpp"
-#include "core/segmentation/label_regions.hpp"
 #include "tests/evaluation/methods/given_measurement.hpp"
 
 namespace traygauge::tables {

@@ -6,7 +6,7 @@
 #include <map>
 #include <opencv2/core.hpp>
 
-#include "core/segmentation/label_regions.hpp"
+#include "core/labels/label_regions.hpp"
 #include "tests/simulator/capture/temporary_capture.hpp"
 
 namespace traygauge {

@@ -1,4 +1,4 @@
-#include "core/segmentation/dish_membership.hpp"
+#include "core/labels/dish_membership.hpp"
 
 #include <algorithm>
 #include <cstring>
