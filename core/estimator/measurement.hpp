@@ -76,7 +76,7 @@ inline constexpr std::size_t kMaxItems = 198;  // labels 2…199
 // ok when all items are, partial when some are, else the first one's status.
 Status summarise(std::span<const ItemResult> items);
 
-// What the pictures are like; see core/estimator/view_checks.hpp.
+// What the pictures are like; see core/quality/view_checks.hpp.
 struct PictureReport {
   std::array<double, 2> blur_px{};
   std::array<double, 2> visible_card_share{};

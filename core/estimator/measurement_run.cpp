@@ -4,8 +4,8 @@
 
 #include "core/estimator/best/best_run.hpp"
 #include "core/estimator/estimator_state.hpp"
-#include "core/estimator/view_input.hpp"
 #include "core/paper/pipeline/label_agreement.hpp"
+#include "core/quality/view_input.hpp"
 
 namespace traygauge {
 namespace {

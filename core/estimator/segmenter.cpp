@@ -5,10 +5,10 @@
 #include <numbers>
 
 #include "core/estimator/best/dish_views.hpp"
-#include "core/estimator/view_input.hpp"
-#include "core/image/exposure.hpp"
 #include "core/image/resample.hpp"
 #include "core/labels/convex_fill.hpp"
+#include "core/quality/exposure.hpp"
+#include "core/quality/view_input.hpp"
 #include "core/scale/card_location.hpp"
 #include "core/surface/dish_profile.hpp"
 

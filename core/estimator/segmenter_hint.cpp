@@ -4,7 +4,7 @@
 #include <span>
 
 #include "core/estimator/segmenter.hpp"
-#include "core/segmentation/region_colours.hpp"
+#include "core/quality/region_colours.hpp"
 
 namespace traygauge {
 namespace {

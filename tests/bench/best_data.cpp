@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "core/image/exposure.hpp"
 #include "core/image/resample.hpp"
+#include "core/quality/exposure.hpp"
 #include "tests/bench/stage_data.hpp"
 
 namespace traygauge::bench {

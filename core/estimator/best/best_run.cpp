@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "core/estimator/best/dish_views.hpp"
-#include "core/estimator/view_input.hpp"
+#include "core/quality/view_input.hpp"
 
 namespace traygauge {
 namespace {

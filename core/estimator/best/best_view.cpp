@@ -1,8 +1,8 @@
 #include "core/estimator/best/best_view.hpp"
 
-#include "core/estimator/view_input.hpp"
-#include "core/image/exposure.hpp"
 #include "core/image/resample.hpp"
+#include "core/quality/exposure.hpp"
+#include "core/quality/view_input.hpp"
 
 namespace traygauge {
 

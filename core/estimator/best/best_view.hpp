@@ -10,11 +10,11 @@
 #include "core/base/status.hpp"
 #include "core/estimator/configuration.hpp"
 #include "core/estimator/stage_clock.hpp"
-#include "core/estimator/view_checks.hpp"
 #include "core/geometry/camera.hpp"
 #include "core/image/gray_pyramid.hpp"
 #include "core/image_view/image_view.hpp"
 #include "core/labels/label_regions.hpp"
+#include "core/quality/view_checks.hpp"
 #include "core/scale/card_alignment.hpp"
 
 namespace traygauge {

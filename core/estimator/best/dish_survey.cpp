@@ -6,7 +6,7 @@
 
 #include "core/estimator/best/dish_views.hpp"
 #include "core/estimator/best/uncertainty.hpp"
-#include "core/estimator/view_input.hpp"
+#include "core/quality/view_input.hpp"
 
 namespace traygauge {
 namespace {

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/estimator/view_input.hpp"
-#include "core/image/exposure.hpp"
+#include "core/quality/exposure.hpp"
+#include "core/quality/view_input.hpp"
 
 namespace traygauge {
 namespace {

@@ -11,13 +11,13 @@
 #include "core/base/bounded_list.hpp"
 #include "core/base/status.hpp"
 #include "core/estimator/configuration.hpp"
-#include "core/estimator/view_checks.hpp"
 #include "core/geometry/camera.hpp"
 #include "core/image/resample.hpp"
 #include "core/image_view/image_view.hpp"
 #include "core/labels/label_regions.hpp"
 #include "core/paper/features/keypoint.hpp"
 #include "core/paper/features/surf.hpp"
+#include "core/quality/view_checks.hpp"
 
 namespace traygauge {
 

@@ -1,4 +1,4 @@
-#include "core/image/edge_blur.hpp"
+#include "core/quality/edge_blur.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "core/image/exposure.hpp"
+#include "core/quality/exposure.hpp"
 
 #include <gtest/gtest.h>
 

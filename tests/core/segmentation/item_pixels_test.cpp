@@ -1,4 +1,4 @@
-#include "core/segmentation/item_pixels.hpp"
+#include "core/quality/item_pixels.hpp"
 
 #include <gtest/gtest.h>
 

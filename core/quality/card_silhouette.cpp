@@ -1,4 +1,4 @@
-#include "core/segmentation/card_silhouette.hpp"
+#include "core/quality/card_silhouette.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "core/estimator/view_checks.hpp"
+#include "core/quality/view_checks.hpp"
 
 #include <algorithm>
 #include <cmath>

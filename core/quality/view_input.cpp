@@ -1,4 +1,4 @@
-#include "core/estimator/view_input.hpp"
+#include "core/quality/view_input.hpp"
 
 #include <cmath>
 

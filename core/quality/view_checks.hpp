@@ -8,12 +8,12 @@
 #include "core/base/status.hpp"
 #include "core/estimator/measurement.hpp"
 #include "core/geometry/camera.hpp"
-#include "core/image/edge_blur.hpp"
 #include "core/image_view/image_view.hpp"
 #include "core/labels/label_regions.hpp"
-#include "core/segmentation/card_silhouette.hpp"
-#include "core/segmentation/item_pixels.hpp"
-#include "core/segmentation/region_colours.hpp"
+#include "core/quality/card_silhouette.hpp"
+#include "core/quality/edge_blur.hpp"
+#include "core/quality/item_pixels.hpp"
+#include "core/quality/region_colours.hpp"
 
 namespace traygauge {
 

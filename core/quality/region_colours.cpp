@@ -1,4 +1,4 @@
-#include "core/segmentation/region_colours.hpp"
+#include "core/quality/region_colours.hpp"
 
 #include <algorithm>
 #include <cstddef>
