@@ -6,6 +6,7 @@
 #include <span>
 
 #include "core/base/status.hpp"
+#include "core/card/card.hpp"
 #include "core/estimator/best/best_params.hpp"
 #include "core/estimator/segmenter_params.hpp"
 #include "core/geometry/camera.hpp"
@@ -23,7 +24,6 @@
 #include "core/paper/volume/mesh_volume.hpp"
 #include "core/quality/exposure.hpp"
 #include "core/quality/view_checks.hpp"
-#include "core/scale/card.hpp"
 #include "core/surface/dish_model.hpp"
 #include "core/surface/rim_ellipse.hpp"
 

@@ -11,10 +11,10 @@
 #include <span>
 
 #include "core/base/status.hpp"
+#include "core/card/card_alignment.hpp"
 #include "core/estimator/configuration.hpp"
 #include "core/estimator/segmenter_memory.hpp"
 #include "core/estimator/stage_clock.hpp"
-#include "core/scale/card_alignment.hpp"
 
 namespace traygauge {
 

@@ -3,7 +3,7 @@
 
 #include <array>
 
-#include "core/scale/card_location.hpp"
+#include "core/card/card_location.hpp"
 #include "core/segmentation/dish_relief.hpp"
 #include "core/segmentation/food_outline.hpp"
 #include "core/surface/dish_search.hpp"

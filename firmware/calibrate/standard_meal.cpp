@@ -4,10 +4,10 @@
 #include <numbers>
 #include <vector>
 
+#include "core/card/card.hpp"
 #include "core/geometry/levenberg_marquardt.hpp"
 #include "core/geometry/table_frame.hpp"
 #include "core/paper/pose/triangulation.hpp"
-#include "core/scale/card.hpp"
 
 namespace traygauge {
 namespace {

@@ -5,9 +5,9 @@
 #include <optional>
 #include <span>
 
+#include "core/card/card_location.hpp"
 #include "core/estimator/configuration.hpp"
 #include "core/geometry/table_frame.hpp"
-#include "core/scale/card_location.hpp"
 #include "firmware/base/aligned_block.hpp"
 
 namespace traygauge {

@@ -4,9 +4,9 @@
 #include <array>
 #include <opencv2/core.hpp>
 
+#include "core/card/card_alignment.hpp"
 #include "core/image/gray_pyramid.hpp"
 #include "core/matching/point_tracking.hpp"
-#include "core/scale/card_alignment.hpp"
 #include "core/surface/two_view_surface.hpp"
 #include "tests/bench/scene.hpp"
 #include "tests/bench/workspace.hpp"

@@ -8,6 +8,7 @@
 
 #include "core/base/arena.hpp"
 #include "core/base/status.hpp"
+#include "core/card/card_alignment.hpp"
 #include "core/estimator/configuration.hpp"
 #include "core/estimator/stage_clock.hpp"
 #include "core/geometry/camera.hpp"
@@ -15,7 +16,6 @@
 #include "core/image_view/image_view.hpp"
 #include "core/labels/label_regions.hpp"
 #include "core/quality/view_checks.hpp"
-#include "core/scale/card_alignment.hpp"
 
 namespace traygauge {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/scale/card.hpp"
+#include "core/card/card.hpp"
 #include "core/surface/dish_outline.hpp"
 
 namespace traygauge {

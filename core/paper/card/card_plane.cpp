@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/card/card_pose.hpp"
+#include "core/card/homography.hpp"
 #include "core/paper/base/plane_fit.hpp"
-#include "core/scale/card_pose.hpp"
-#include "core/scale/homography.hpp"
 
 namespace traygauge {
 

@@ -6,8 +6,8 @@
 
 #include "core/base/random.hpp"
 #include "core/base/status.hpp"
+#include "core/card/card.hpp"
 #include "core/geometry/geometry.hpp"
-#include "core/scale/card.hpp"
 
 namespace traygauge {
 

@@ -5,8 +5,8 @@
 #include <span>
 
 #include "core/base/bounded_list.hpp"
+#include "core/card/card.hpp"
 #include "core/paper/matching/match.hpp"
-#include "core/scale/card.hpp"
 
 namespace traygauge {
 

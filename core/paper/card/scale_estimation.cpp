@@ -4,9 +4,9 @@
 #include <cmath>
 
 #include "core/base/ransac.hpp"
+#include "core/card/card_pose.hpp"
+#include "core/card/homography.hpp"
 #include "core/paper/base/half_sample_mode.hpp"
-#include "core/scale/card_pose.hpp"
-#include "core/scale/homography.hpp"
 
 namespace traygauge {
 

@@ -6,7 +6,7 @@
 
 #include "core/base/random.hpp"
 #include "core/base/status.hpp"
-#include "core/scale/card.hpp"
+#include "core/card/card.hpp"
 
 namespace traygauge {
 

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/card/card_pose.hpp"
+#include "core/card/homography.hpp"
 #include "core/labels/label_regions.hpp"
 #include "core/paper/card/card_plane.hpp"
 #include "core/paper/card/card_tracks.hpp"
@@ -11,8 +13,6 @@
 #include "core/paper/pose/epipolar.hpp"
 #include "core/paper/pose/model_search.hpp"
 #include "core/paper/pose/triangulation.hpp"
-#include "core/scale/card_pose.hpp"
-#include "core/scale/homography.hpp"
 
 namespace traygauge {
 namespace {

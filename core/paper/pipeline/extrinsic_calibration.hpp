@@ -8,6 +8,8 @@
 #include "core/base/bounded_list.hpp"
 #include "core/base/random.hpp"
 #include "core/base/status.hpp"
+#include "core/card/card.hpp"
+#include "core/card/card_detection.hpp"
 #include "core/estimator/configuration.hpp"
 #include "core/estimator/measurement.hpp"
 #include "core/estimator/stage_clock.hpp"
@@ -16,8 +18,6 @@
 #include "core/paper/pipeline/view_preparation.hpp"
 #include "core/paper/pose/motion_search.hpp"
 #include "core/paper/pose/relative_pose.hpp"
-#include "core/scale/card.hpp"
-#include "core/scale/card_detection.hpp"
 
 namespace traygauge {
 

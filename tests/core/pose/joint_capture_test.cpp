@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
+#include "core/card/card_alignment.hpp"
 #include "core/matching/point_tracking.hpp"
 #include "core/pose/joint_refinement.hpp"
-#include "core/scale/card_alignment.hpp"
 #include "core/surface/dish_outline.hpp"
 #include "tests/core/pose/joint_scene.hpp"
 #include "tests/core/surface/block.hpp"

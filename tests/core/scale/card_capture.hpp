@@ -8,9 +8,9 @@
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
+#include "core/card/card.hpp"
 #include "core/paper/card/card_tracks.hpp"
 #include "core/paper/matching/matcher.hpp"
-#include "core/scale/card.hpp"
 #include "tests/core/matching/sift_features.hpp"
 #include "tests/core/matching/workspace_block.hpp"
 #include "tests/core/scale/synthetic_card.hpp"

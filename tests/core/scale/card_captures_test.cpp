@@ -3,10 +3,10 @@
 
 #include <filesystem>
 
+#include "core/card/card_detection.hpp"
+#include "core/card/card_pose.hpp"
 #include "core/paper/card/card_plane.hpp"
 #include "core/paper/card/scale_estimation.hpp"
-#include "core/scale/card_detection.hpp"
-#include "core/scale/card_pose.hpp"
 #include "tests/core/scale/card_capture.hpp"
 
 namespace traygauge {

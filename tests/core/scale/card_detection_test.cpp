@@ -1,12 +1,12 @@
-#include "core/scale/card_detection.hpp"
+#include "core/card/card_detection.hpp"
 
 #include <gtest/gtest.h>
 
 #include <random>
 #include <vector>
 
-#include "core/scale/card_evidence.hpp"
-#include "core/scale/card_pose.hpp"
+#include "core/card/card_evidence.hpp"
+#include "core/card/card_pose.hpp"
 #include "tests/core/matching/workspace_block.hpp"
 #include "tests/core/scale/synthetic_card.hpp"
 

@@ -1,5 +1,5 @@
 // The card in a picture without labels, on pictures that OpenCV rendered with a known pose.
-#include "core/scale/card_location.hpp"
+#include "core/card/card_location.hpp"
 
 #include <gtest/gtest.h>
 

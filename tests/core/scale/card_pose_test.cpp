@@ -1,4 +1,4 @@
-#include "core/scale/card_pose.hpp"
+#include "core/card/card_pose.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <random>
 #include <vector>
 
-#include "core/scale/homography.hpp"
+#include "core/card/homography.hpp"
 #include "tests/core/scale/synthetic_card.hpp"
 
 namespace traygauge {

@@ -10,10 +10,10 @@
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
+#include "core/card/card_alignment.hpp"
 #include "core/geometry/geometry.hpp"
 #include "core/geometry/table_frame.hpp"
 #include "core/labels/label_regions.hpp"
-#include "core/scale/card_alignment.hpp"
 #include "tests/support/pictures.hpp"
 
 namespace traygauge {

@@ -6,9 +6,9 @@
 #include <random>
 #include <vector>
 
+#include "core/card/card_detection.hpp"
 #include "core/paper/card/card_plane.hpp"
 #include "core/paper/card/card_tracks.hpp"
-#include "core/scale/card_detection.hpp"
 #include "tests/core/matching/workspace_block.hpp"
 #include "tests/core/scale/synthetic_card.hpp"
 

@@ -7,8 +7,8 @@
 #include <random>
 #include <vector>
 
+#include "core/card/card.hpp"
 #include "core/geometry/geometry.hpp"
-#include "core/scale/card.hpp"
 
 namespace traygauge {
 

@@ -15,7 +15,7 @@
 #include <string>
 #include <vector>
 
-#include "core/scale/card_alignment.hpp"
+#include "core/card/card_alignment.hpp"
 #include "core/surface/round_body.hpp"
 #include "core/surface/two_view_surface.hpp"
 #include "tests/core/surface/capture_scene.hpp"

@@ -1,4 +1,4 @@
-#include "core/scale/card_pattern.hpp"
+#include "core/card/card_pattern.hpp"
 
 #include <cmath>
 

@@ -3,10 +3,10 @@
 
 #include <algorithm>
 
+#include "core/card/card_pattern.hpp"
+#include "core/card/card_picture.hpp"
 #include "core/geometry/camera.hpp"
 #include "core/geometry/geometry.hpp"
-#include "core/scale/card_pattern.hpp"
-#include "core/scale/card_picture.hpp"
 
 namespace traygauge {
 

@@ -1,4 +1,4 @@
-#include "core/scale/compared_corners.hpp"
+#include "core/card/compared_corners.hpp"
 
 #include <algorithm>
 #include <bit>

@@ -4,9 +4,9 @@
 #include <Eigen/LU>
 #include <utility>
 
+#include "core/card/card.hpp"
 #include "core/geometry/geometry.hpp"
 #include "core/geometry/table_frame.hpp"
-#include "core/scale/card.hpp"
 
 namespace traygauge {
 

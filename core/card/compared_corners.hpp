@@ -4,9 +4,9 @@
 #include <cstdint>
 #include <span>
 
+#include "core/card/card_search.hpp"
 #include "core/features/corners.hpp"
 #include "core/image_view/image_view.hpp"
-#include "core/scale/card_search.hpp"
 
 namespace traygauge {
 

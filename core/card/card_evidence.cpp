@@ -1,4 +1,4 @@
-#include "core/scale/card_evidence.hpp"
+#include "core/card/card_evidence.hpp"
 
 #include <Eigen/LU>
 #include <algorithm>
@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/scale/card_pose.hpp"
+#include "core/card/card_pose.hpp"
 
 namespace traygauge {
 

@@ -1,4 +1,4 @@
-#include "core/scale/card_alignment.hpp"
+#include "core/card/card_alignment.hpp"
 
 #include <algorithm>
 #include <array>
@@ -6,7 +6,7 @@
 #include <span>
 
 #include "core/base/bounded_list.hpp"
-#include "core/scale/card_hypotheses.hpp"
+#include "core/card/card_hypotheses.hpp"
 
 namespace traygauge {
 namespace {

@@ -5,8 +5,8 @@
 #include <cstdint>
 
 #include "core/base/lanes.hpp"
+#include "core/card/card_pattern.hpp"
 #include "core/geometry/geometry.hpp"
-#include "core/scale/card_pattern.hpp"
 
 namespace traygauge {
 

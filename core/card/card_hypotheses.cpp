@@ -1,9 +1,9 @@
-#include "core/scale/card_hypotheses.hpp"
+#include "core/card/card_hypotheses.hpp"
 
 #include <Eigen/LU>
 
-#include "core/scale/card_pose.hpp"
-#include "core/scale/homography.hpp"
+#include "core/card/card_pose.hpp"
+#include "core/card/homography.hpp"
 
 namespace traygauge {
 namespace {

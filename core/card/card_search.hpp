@@ -11,14 +11,14 @@
 #include "core/base/arena.hpp"
 #include "core/base/bounded_list.hpp"
 #include "core/base/status.hpp"
+#include "core/card/card.hpp"
+#include "core/card/card_pattern.hpp"
 #include "core/features/binary_descriptor.hpp"
 #include "core/features/corners.hpp"
 #include "core/features/descriptor_block.hpp"
 #include "core/geometry/camera.hpp"
 #include "core/geometry/geometry.hpp"
 #include "core/image_view/image_view.hpp"
-#include "core/scale/card.hpp"
-#include "core/scale/card_pattern.hpp"
 
 namespace traygauge {
 

@@ -5,9 +5,9 @@
 #include <span>
 
 #include "core/base/bounded_list.hpp"
+#include "core/card/card.hpp"
+#include "core/card/card_outline.hpp"
 #include "core/geometry/geometry.hpp"
-#include "core/scale/card.hpp"
-#include "core/scale/card_outline.hpp"
 
 namespace traygauge {
 

@@ -6,13 +6,13 @@
 #include <cstdint>
 
 #include "core/base/status.hpp"
+#include "core/card/card_outline.hpp"
+#include "core/card/card_pattern.hpp"
+#include "core/card/card_picture.hpp"
+#include "core/card/card_refinement.hpp"
 #include "core/geometry/camera.hpp"
 #include "core/geometry/geometry.hpp"
 #include "core/labels/label_regions.hpp"
-#include "core/scale/card_outline.hpp"
-#include "core/scale/card_pattern.hpp"
-#include "core/scale/card_picture.hpp"
-#include "core/scale/card_refinement.hpp"
 
 namespace traygauge {
 

@@ -1,4 +1,4 @@
-#include "core/scale/card_outline.hpp"
+#include "core/card/card_outline.hpp"
 
 #include <algorithm>
 #include <bit>

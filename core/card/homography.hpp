@@ -6,8 +6,8 @@
 #include <cstdint>
 #include <span>
 
+#include "core/card/card.hpp"
 #include "core/geometry/geometry.hpp"
-#include "core/scale/card.hpp"
 
 namespace traygauge {
 

@@ -1,13 +1,13 @@
-#include "core/scale/card_detection.hpp"
+#include "core/card/card_detection.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 
 #include "core/base/ransac.hpp"
-#include "core/scale/card_evidence.hpp"
-#include "core/scale/card_pose.hpp"
-#include "core/scale/homography.hpp"
+#include "core/card/card_evidence.hpp"
+#include "core/card/card_pose.hpp"
+#include "core/card/homography.hpp"
 
 namespace traygauge {
 

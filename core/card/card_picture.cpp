@@ -1,12 +1,12 @@
-#include "core/scale/card_picture.hpp"
+#include "core/card/card_picture.hpp"
 
 #include <algorithm>
 #include <bit>
 #include <cmath>
 
 #include "core/base/median.hpp"
-#include "core/scale/print_lanes.hpp"
-#include "core/scale/print_plane.hpp"
+#include "core/card/print_lanes.hpp"
+#include "core/card/print_plane.hpp"
 
 namespace traygauge {
 namespace {

@@ -1,4 +1,4 @@
-#include "core/scale/card_pose.hpp"
+#include "core/card/card_pose.hpp"
 
 #include <Eigen/LU>
 #include <cmath>

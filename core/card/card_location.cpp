@@ -1,13 +1,13 @@
-#include "core/scale/card_location.hpp"
+#include "core/card/card_location.hpp"
 
 #include <algorithm>
 #include <cstddef>
 #include <span>
 
+#include "core/card/card_hypotheses.hpp"
+#include "core/card/print_plane.hpp"
 #include "core/labels/convex_fill.hpp"
 #include "core/labels/label_regions.hpp"
-#include "core/scale/card_hypotheses.hpp"
-#include "core/scale/print_plane.hpp"
 
 namespace traygauge {
 namespace {

@@ -1,15 +1,15 @@
-#include "core/scale/card_search.hpp"
+#include "core/card/card_search.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 #include <Eigen/LU>
 
+#include "core/card/card_detection.hpp"
+#include "core/card/card_hypotheses.hpp"
+#include "core/card/compared_corners.hpp"
+#include "core/card/homography.hpp"
 #include "core/image/resample.hpp"
-#include "core/scale/card_detection.hpp"
-#include "core/scale/card_hypotheses.hpp"
-#include "core/scale/compared_corners.hpp"
-#include "core/scale/homography.hpp"
 
 namespace traygauge {
 namespace {

@@ -1,4 +1,4 @@
-#include "core/scale/homography.hpp"
+#include "core/card/homography.hpp"
 
 #include <Eigen/Cholesky>
 #include <Eigen/LU>

@@ -7,12 +7,12 @@
 #include <cstdint>
 
 #include "core/base/status.hpp"
+#include "core/card/card.hpp"
+#include "core/card/card_alignment.hpp"
+#include "core/card/card_pattern.hpp"
+#include "core/card/card_search.hpp"
 #include "core/geometry/camera.hpp"
 #include "core/geometry/geometry.hpp"
-#include "core/scale/card.hpp"
-#include "core/scale/card_alignment.hpp"
-#include "core/scale/card_pattern.hpp"
-#include "core/scale/card_search.hpp"
 
 namespace traygauge {
 

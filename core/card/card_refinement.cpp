@@ -1,11 +1,11 @@
-#include "core/scale/card_refinement.hpp"
+#include "core/card/card_refinement.hpp"
 
 #include <algorithm>
 #include <cmath>
 
+#include "core/card/card_hypotheses.hpp"
 #include "core/geometry/levenberg_marquardt.hpp"
 #include "core/geometry/table_frame.hpp"
-#include "core/scale/card_hypotheses.hpp"
 
 namespace traygauge {
 namespace {

@@ -8,11 +8,11 @@
 
 #include "core/base/arena.hpp"
 #include "core/base/status.hpp"
+#include "core/card/card_pattern.hpp"
 #include "core/geometry/camera.hpp"
 #include "core/geometry/geometry.hpp"
 #include "core/geometry/levenberg_marquardt.hpp"
 #include "core/labels/label_regions.hpp"
-#include "core/scale/card_pattern.hpp"
 
 namespace traygauge {
 

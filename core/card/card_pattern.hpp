@@ -9,9 +9,9 @@
 
 #include "core/base/arena.hpp"
 #include "core/base/status.hpp"
+#include "core/card/card.hpp"
 #include "core/geometry/geometry.hpp"
 #include "core/image_view/image_view.hpp"
-#include "core/scale/card.hpp"
 
 namespace traygauge {
 
