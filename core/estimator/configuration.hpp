@@ -7,6 +7,8 @@
 
 #include "core/base/status.hpp"
 #include "core/card/card.hpp"
+#include "core/dish/dish_model.hpp"
+#include "core/dish/rim_ellipse.hpp"
 #include "core/estimator/best/best_params.hpp"
 #include "core/estimator/segmenter_params.hpp"
 #include "core/geometry/camera.hpp"
@@ -24,8 +26,6 @@
 #include "core/paper/volume/mesh_volume.hpp"
 #include "core/quality/exposure.hpp"
 #include "core/quality/view_checks.hpp"
-#include "core/surface/dish_model.hpp"
-#include "core/surface/rim_ellipse.hpp"
 
 namespace traygauge {
 

@@ -5,12 +5,12 @@
 #include <numbers>
 
 #include "core/card/card_location.hpp"
+#include "core/dish/dish_profile.hpp"
 #include "core/estimator/best/dish_views.hpp"
 #include "core/image/resample.hpp"
 #include "core/labels/convex_fill.hpp"
 #include "core/quality/exposure.hpp"
 #include "core/quality/view_input.hpp"
-#include "core/surface/dish_profile.hpp"
 
 namespace traygauge {
 namespace {

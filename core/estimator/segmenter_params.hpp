@@ -4,9 +4,9 @@
 #include <array>
 
 #include "core/card/card_location.hpp"
+#include "core/dish/dish_search.hpp"
 #include "core/segmentation/dish_relief.hpp"
 #include "core/segmentation/food_outline.hpp"
-#include "core/surface/dish_search.hpp"
 
 namespace traygauge {
 

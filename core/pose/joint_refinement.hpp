@@ -9,14 +9,14 @@
 #include <span>
 
 #include "core/base/status.hpp"
+#include "core/dish/dish_model.hpp"
+#include "core/dish/dish_pose.hpp"
 #include "core/geometry/geometry.hpp"
 #include "core/geometry/table_frame.hpp"
 #include "core/matching/point_track.hpp"
 #include "core/pose/card_prior.hpp"
 #include "core/pose/joint_problem.hpp"
 #include "core/pose/table_consensus.hpp"
-#include "core/surface/dish_model.hpp"
-#include "core/surface/dish_placement.hpp"
 
 namespace traygauge {
 

@@ -8,9 +8,9 @@
 
 #include "core/base/arena.hpp"
 #include "core/base/status.hpp"
+#include "core/dish/dish_profile.hpp"
 #include "core/segmentation/dish_raster.hpp"
 #include "core/segmentation/relief_sample.hpp"
-#include "core/surface/dish_profile.hpp"
 #include "core/surface/two_view_surface.hpp"
 
 namespace traygauge {

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/base/status.hpp"
-#include "core/surface/dish_placement.hpp"
+#include "core/dish/dish_pose.hpp"
 
 namespace traygauge {
 

@@ -8,8 +8,8 @@
 
 #include "core/base/arena.hpp"
 #include "core/base/status.hpp"
+#include "core/dish/dish_profile.hpp"
 #include "core/image_view/image_view.hpp"
-#include "core/surface/dish_profile.hpp"
 #include "core/surface/surface_grid.hpp"
 
 namespace traygauge {

@@ -8,7 +8,7 @@
 
 #include "core/base/arena.hpp"
 #include "core/base/status.hpp"
-#include "core/surface/dish_profile.hpp"
+#include "core/dish/dish_profile.hpp"
 #include "core/surface/inset_heights.hpp"
 
 namespace traygauge {

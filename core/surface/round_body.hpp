@@ -7,9 +7,9 @@
 #include <cstdint>
 #include <span>
 
+#include "core/dish/dish_profile.hpp"
 #include "core/labels/label_set.hpp"
 #include "core/surface/body_samples.hpp"
-#include "core/surface/dish_profile.hpp"
 #include "core/surface/outline_rows.hpp"
 
 namespace traygauge {

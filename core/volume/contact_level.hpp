@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <span>
 
-#include "core/surface/dish_profile.hpp"
+#include "core/dish/dish_profile.hpp"
 #include "core/surface/surface_grid.hpp"
 
 namespace traygauge {

@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
+#include "core/dish/dish_model.hpp"
+#include "core/dish/dish_outline.hpp"
+#include "core/dish/rim_residual.hpp"
 #include "core/geometry/table_frame.hpp"
-#include "core/surface/dish_model.hpp"
-#include "core/surface/dish_outline.hpp"
-#include "core/surface/rim_residual.hpp"
 #include "tests/support/capture_truth.hpp"
 
 namespace traygauge::testing {

@@ -7,8 +7,8 @@
 #include <filesystem>
 #include <opencv2/core.hpp>
 
+#include "core/dish/dish_profile.hpp"
 #include "core/geometry/geometry.hpp"
-#include "core/surface/dish_profile.hpp"
 #include "tests/simulator/capture/temporary_capture.hpp"
 
 namespace traygauge::testing {

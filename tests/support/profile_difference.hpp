@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/surface/dish_profile.hpp"
+#include "core/dish/dish_profile.hpp"
 
 namespace traygauge::testing {
 

@@ -2,13 +2,13 @@
 #pragma once
 
 #include "core/card/card_alignment.hpp"
+#include "core/dish/dish_outline.hpp"
 #include "core/estimator/best/food_agreement_params.hpp"
 #include "core/estimator/best/uncertainty.hpp"
 #include "core/image/specular_suppression.hpp"
 #include "core/labels/dish_membership.hpp"
 #include "core/matching/point_tracking.hpp"
 #include "core/pose/joint_refinement.hpp"
-#include "core/surface/dish_outline.hpp"
 #include "core/surface/height_map.hpp"
 #include "core/surface/round_body.hpp"
 #include "core/surface/two_view_surface.hpp"

@@ -3,12 +3,12 @@
 
 #include <array>
 
+#include "core/dish/dish_profile.hpp"
+#include "core/dish/rim_residual.hpp"
 #include "core/estimator/best/best_view.hpp"
 #include "core/estimator/best/scene_geometry.hpp"
 #include "core/image/specular_suppression.hpp"
 #include "core/rectification/plane_rectification.hpp"
-#include "core/surface/dish_profile.hpp"
-#include "core/surface/rim_residual.hpp"
 
 namespace traygauge {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "core/card/card.hpp"
-#include "core/surface/dish_outline.hpp"
+#include "core/dish/dish_outline.hpp"
 
 namespace traygauge {
 namespace {

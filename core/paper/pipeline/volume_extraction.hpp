@@ -9,6 +9,7 @@
 #include "core/base/bounded_list.hpp"
 #include "core/base/random.hpp"
 #include "core/base/status.hpp"
+#include "core/dish/rim_ellipse.hpp"
 #include "core/estimator/configuration.hpp"
 #include "core/estimator/measurement.hpp"
 #include "core/estimator/stage_clock.hpp"
@@ -17,7 +18,6 @@
 #include "core/paper/surface/food_mesh.hpp"
 #include "core/paper/surface/rim.hpp"
 #include "core/paper/volume/mesh_volume.hpp"
-#include "core/surface/rim_ellipse.hpp"
 
 namespace traygauge {
 

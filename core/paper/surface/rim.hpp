@@ -8,11 +8,11 @@
 #include "core/base/bounded_list.hpp"
 #include "core/base/random.hpp"
 #include "core/base/status.hpp"
+#include "core/dish/dish_contour.hpp"
 #include "core/geometry/geometry.hpp"
 #include "core/geometry/triangulation.hpp"
 #include "core/image_view/image_view.hpp"
 #include "core/paper/base/plane_fit.hpp"
-#include "core/surface/dish_contour.hpp"
 
 namespace traygauge {
 

@@ -5,9 +5,9 @@
 #include <cstdio>
 #include <random>
 
+#include "core/dish/rim_ellipse.hpp"
 #include "core/paper/surface/dish_surface.hpp"
 #include "core/paper/surface/rim.hpp"
-#include "core/surface/rim_ellipse.hpp"
 #include "tests/core/surface/block.hpp"
 #include "tests/core/surface/capture_scene.hpp"
 

@@ -1,5 +1,5 @@
 // Dishes placed by their outlines, in closed form and by rendered label pictures.
-#include "core/surface/dish_placement.hpp"
+#include "core/dish/dish_pose.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <numbers>
 #include <vector>
 
-#include "core/surface/dish_outline.hpp"
+#include "core/dish/dish_outline.hpp"
 #include "tests/core/surface/block.hpp"
 #include "tests/core/surface/capture_scene.hpp"
 #include "tests/core/surface/edge_outlines.hpp"

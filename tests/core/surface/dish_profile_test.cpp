@@ -1,5 +1,5 @@
 // The dish's inner surface against SciPy: PchipInterpolator for the profile, brentq for the inset.
-#include "core/surface/dish_profile.hpp"
+#include "core/dish/dish_profile.hpp"
 
 #include <gtest/gtest.h>
 

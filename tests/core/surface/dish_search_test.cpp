@@ -1,5 +1,5 @@
 // Dishes drawn by intersecting every pixel's ray with the plane of their edge: where they stand is known.
-#include "core/surface/dish_search.hpp"
+#include "core/dish/dish_search.hpp"
 
 #include <gtest/gtest.h>
 

@@ -5,7 +5,7 @@
 #include <random>
 #include <vector>
 
-#include "core/surface/rim_ellipse.hpp"
+#include "core/dish/rim_ellipse.hpp"
 #include "tests/core/surface/block.hpp"
 
 namespace traygauge {

@@ -5,8 +5,8 @@
 #include <numbers>
 #include <vector>
 
+#include "core/dish/rim_residual.hpp"
 #include "core/geometry/table_frame.hpp"
-#include "core/surface/rim_residual.hpp"
 #include "tests/support/cameras.hpp"
 
 namespace traygauge::testing {

@@ -5,7 +5,7 @@
 #include <opencv2/imgproc.hpp>
 #include <random>
 
-#include "core/surface/rim_ellipse.hpp"
+#include "core/dish/rim_ellipse.hpp"
 #include "tests/core/surface/block.hpp"
 #include "tests/core/surface/capture_scene.hpp"
 #include "tests/core/surface/synthetic_scene.hpp"

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "core/surface/dish_profile.hpp"
+#include "core/dish/dish_profile.hpp"
 #include "tests/core/surface/true_grid.hpp"
 
 namespace traygauge::testing {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "core/surface/dish_profile.hpp"
+#include "core/dish/dish_profile.hpp"
 #include "core/surface/surface_grid.hpp"
 #include "tests/support/capture_truth.hpp"
 

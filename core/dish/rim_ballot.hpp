@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <span>
 
-#include "core/surface/dish_search.hpp"
+#include "core/dish/dish_search.hpp"
 
 namespace traygauge {
 

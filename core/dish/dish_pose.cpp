@@ -1,4 +1,4 @@
-#include "core/surface/dish_placement.hpp"
+#include "core/dish/dish_pose.hpp"
 
 #include <algorithm>
 #include <cmath>

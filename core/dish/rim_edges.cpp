@@ -1,4 +1,4 @@
-#include "core/surface/rim_edges.hpp"
+#include "core/dish/rim_edges.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,4 +1,4 @@
-#include "core/surface/dish_model.hpp"
+#include "core/dish/dish_model.hpp"
 
 #include <algorithm>
 #include <array>

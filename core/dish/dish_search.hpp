@@ -12,12 +12,12 @@
 #include "core/base/arena.hpp"
 #include "core/base/bounded_list.hpp"
 #include "core/base/status.hpp"
+#include "core/dish/dish_pose.hpp"
+#include "core/dish/rim_edges.hpp"
 #include "core/geometry/camera.hpp"
 #include "core/geometry/geometry.hpp"
 #include "core/geometry/table_frame.hpp"
 #include "core/image_view/image_view.hpp"
-#include "core/surface/dish_placement.hpp"
-#include "core/surface/rim_edges.hpp"
 
 namespace traygauge {
 

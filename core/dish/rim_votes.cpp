@@ -1,9 +1,9 @@
-#include "core/surface/rim_votes.hpp"
+#include "core/dish/rim_votes.hpp"
 
 #include <algorithm>
 #include <numbers>
 
-#include "core/surface/rim_ballot.hpp"
+#include "core/dish/rim_ballot.hpp"
 
 namespace traygauge {
 namespace {

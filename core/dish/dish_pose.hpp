@@ -8,12 +8,12 @@
 
 #include "core/base/bounded_list.hpp"
 #include "core/base/status.hpp"
+#include "core/dish/dish_model.hpp"
+#include "core/dish/dish_pose_problem.hpp"
+#include "core/dish/rim_ellipse.hpp"
+#include "core/dish/rim_residual.hpp"
 #include "core/geometry/geometry.hpp"
 #include "core/geometry/table_frame.hpp"
-#include "core/surface/dish_model.hpp"
-#include "core/surface/placement_problem.hpp"
-#include "core/surface/rim_ellipse.hpp"
-#include "core/surface/rim_residual.hpp"
 
 namespace traygauge {
 

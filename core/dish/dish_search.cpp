@@ -1,11 +1,11 @@
-#include "core/surface/dish_search.hpp"
+#include "core/dish/dish_search.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
-#include "core/surface/rim_reader.hpp"
-#include "core/surface/rim_votes.hpp"
+#include "core/dish/rim_reader.hpp"
+#include "core/dish/rim_votes.hpp"
 
 namespace traygauge {
 namespace {

@@ -8,8 +8,8 @@
 #include <cstdint>
 #include <span>
 
+#include "core/dish/dish_search.hpp"
 #include "core/image/gray_weights.hpp"
-#include "core/surface/dish_search.hpp"
 
 namespace traygauge {
 

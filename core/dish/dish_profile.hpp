@@ -6,8 +6,8 @@
 #include <span>
 
 #include "core/base/status.hpp"
+#include "core/dish/dish_model.hpp"
 #include "core/geometry/geometry.hpp"
-#include "core/surface/dish_model.hpp"
 
 namespace traygauge {
 

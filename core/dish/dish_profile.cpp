@@ -1,4 +1,4 @@
-#include "core/surface/dish_profile.hpp"
+#include "core/dish/dish_profile.hpp"
 
 #include <algorithm>
 #include <cmath>

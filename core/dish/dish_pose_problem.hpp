@@ -5,10 +5,10 @@
 #include <cstddef>
 #include <span>
 
+#include "core/dish/rim_residual.hpp"
 #include "core/geometry/geometry.hpp"
 #include "core/geometry/levenberg_marquardt.hpp"
 #include "core/geometry/table_frame.hpp"
-#include "core/surface/rim_residual.hpp"
 
 namespace traygauge {
 

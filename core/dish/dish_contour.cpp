@@ -1,4 +1,4 @@
-#include "core/surface/dish_contour.hpp"
+#include "core/dish/dish_contour.hpp"
 
 #include <Eigen/Cholesky>
 #include <array>

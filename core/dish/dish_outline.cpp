@@ -1,4 +1,4 @@
-#include "core/surface/dish_outline.hpp"
+#include "core/dish/dish_outline.hpp"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include "core/surface/rim_ellipse.hpp"
+#include "core/dish/rim_ellipse.hpp"
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>

@@ -6,11 +6,11 @@
 
 #include "core/base/bounded_list.hpp"
 #include "core/base/status.hpp"
+#include "core/dish/dish_contour.hpp"
 #include "core/geometry/camera.hpp"
 #include "core/geometry/geometry.hpp"
 #include "core/image_view/image_view.hpp"
 #include "core/labels/label_set.hpp"
-#include "core/surface/dish_contour.hpp"
 
 namespace traygauge {
 

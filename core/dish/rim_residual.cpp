@@ -1,4 +1,4 @@
-#include "core/surface/rim_residual.hpp"
+#include "core/dish/rim_residual.hpp"
 
 #include <algorithm>
 #include <cmath>

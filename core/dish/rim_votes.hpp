@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <span>
 
-#include "core/surface/dish_search.hpp"
+#include "core/dish/dish_search.hpp"
 
 namespace traygauge {
 
