@@ -13,9 +13,9 @@
 #include "core/geometry/geometry.hpp"
 #include "core/geometry/levenberg_marquardt.hpp"
 #include "core/geometry/table_frame.hpp"
-#include "core/matching/point_track.hpp"
 #include "core/pose/card_prior.hpp"
 #include "core/pose/track_residuals.hpp"
+#include "core/tracking/point_track.hpp"
 
 namespace traygauge {
 

@@ -13,10 +13,10 @@
 #include "core/dish/dish_pose.hpp"
 #include "core/geometry/geometry.hpp"
 #include "core/geometry/table_frame.hpp"
-#include "core/matching/point_track.hpp"
 #include "core/pose/card_prior.hpp"
 #include "core/pose/joint_problem.hpp"
 #include "core/pose/table_consensus.hpp"
+#include "core/tracking/point_track.hpp"
 
 namespace traygauge {
 

@@ -10,7 +10,7 @@
 #include "core/geometry/geometry.hpp"
 #include "core/geometry/levenberg_marquardt.hpp"
 #include "core/geometry/table_frame.hpp"
-#include "core/matching/point_track.hpp"
+#include "core/tracking/point_track.hpp"
 
 namespace traygauge {
 

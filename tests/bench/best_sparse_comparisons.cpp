@@ -4,7 +4,7 @@
 #include <opencv2/imgproc.hpp>
 #include <opencv2/video/tracking.hpp>
 
-#include "core/matching/pose_correction.hpp"
+#include "core/tracking/pose_correction.hpp"
 #include "tests/bench/comparisons.hpp"
 #include "tests/bench/opencv_measurement.hpp"
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-#include "core/matching/pose_correction.hpp"
+#include "core/tracking/pose_correction.hpp"
 #include "tests/core/pose/scenes.hpp"
 #include "tests/core/surface/capture_scene.hpp"
 

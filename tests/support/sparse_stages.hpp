@@ -5,9 +5,9 @@
 #include <cstdint>
 #include <span>
 
-#include "core/matching/point_tracking.hpp"
 #include "core/paper/pose/ray_match.hpp"
 #include "core/pose/joint_refinement.hpp"
+#include "core/tracking/point_tracking.hpp"
 #include "tests/core/surface/block.hpp"
 #include "tests/support/photograph_scene.hpp"
 

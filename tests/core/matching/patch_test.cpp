@@ -7,8 +7,8 @@
 #include <random>
 #include <vector>
 
-#include "core/matching/patch_alignment.hpp"
-#include "core/matching/patch_search.hpp"
+#include "core/tracking/patch_alignment.hpp"
+#include "core/tracking/patch_search.hpp"
 #include "tests/core/matching/workspace_block.hpp"
 #include "tests/support/pictures.hpp"
 

@@ -8,7 +8,7 @@
 #include <random>
 #include <vector>
 
-#include "core/matching/point_tracking.hpp"
+#include "core/tracking/point_tracking.hpp"
 #include "tests/core/matching/workspace_block.hpp"
 #include "tests/support/cameras.hpp"
 #include "tests/support/capture_joint.hpp"

@@ -11,8 +11,8 @@
 
 #include "core/card/card_alignment.hpp"
 #include "core/dish/dish_outline.hpp"
-#include "core/matching/point_tracking.hpp"
 #include "core/pose/joint_refinement.hpp"
+#include "core/tracking/point_tracking.hpp"
 #include "tests/core/pose/joint_scene.hpp"
 #include "tests/core/surface/block.hpp"
 #include "tests/core/surface/capture_scene.hpp"

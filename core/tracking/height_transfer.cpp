@@ -1,4 +1,4 @@
-#include "core/matching/height_transfer.hpp"
+#include "core/tracking/height_transfer.hpp"
 
 namespace traygauge {
 namespace {

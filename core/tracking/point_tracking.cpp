@@ -1,10 +1,10 @@
-#include "core/matching/point_tracking.hpp"
+#include "core/tracking/point_tracking.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 
-#include "core/matching/height_transfer.hpp"
+#include "core/tracking/height_transfer.hpp"
 
 namespace traygauge {
 namespace {

@@ -1,10 +1,10 @@
-#include "core/matching/patch_search.hpp"
+#include "core/tracking/patch_search.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <cstring>
 
-#include "core/matching/patch_sampling.hpp"
+#include "core/tracking/patch_sampling.hpp"
 
 namespace traygauge {
 namespace {

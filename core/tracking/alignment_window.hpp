@@ -6,7 +6,7 @@
 #include "core/base/lanes.hpp"
 #include "core/geometry/geometry.hpp"
 #include "core/image_view/image_view.hpp"
-#include "core/matching/alignment_equations.hpp"
+#include "core/tracking/alignment_equations.hpp"
 
 namespace traygauge {
 

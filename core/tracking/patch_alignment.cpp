@@ -1,9 +1,9 @@
-#include "core/matching/patch_alignment.hpp"
+#include "core/tracking/patch_alignment.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "core/matching/alignment_window.hpp"
+#include "core/tracking/alignment_window.hpp"
 
 namespace traygauge {
 namespace {

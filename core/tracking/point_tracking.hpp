@@ -13,10 +13,10 @@
 #include "core/geometry/camera.hpp"
 #include "core/geometry/table_frame.hpp"
 #include "core/image/gray_pyramid.hpp"
-#include "core/matching/patch_alignment.hpp"
-#include "core/matching/patch_search.hpp"
-#include "core/matching/point_track.hpp"
-#include "core/matching/pose_correction.hpp"
+#include "core/tracking/patch_alignment.hpp"
+#include "core/tracking/patch_search.hpp"
+#include "core/tracking/point_track.hpp"
+#include "core/tracking/pose_correction.hpp"
 
 namespace traygauge {
 

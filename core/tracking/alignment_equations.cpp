@@ -1,11 +1,11 @@
-#include "core/matching/alignment_equations.hpp"
+#include "core/tracking/alignment_equations.hpp"
 
 #include <array>
 #include <cstring>
 
 #include "core/base/lanes.hpp"
 #include "core/image/gaussian.hpp"
-#include "core/matching/patch_sampling.hpp"
+#include "core/tracking/patch_sampling.hpp"
 
 namespace traygauge {
 namespace {

@@ -1,4 +1,4 @@
-#include "core/matching/pose_correction.hpp"
+#include "core/tracking/pose_correction.hpp"
 
 #include <algorithm>
 #include <cmath>
