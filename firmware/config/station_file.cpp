@@ -4,8 +4,8 @@
 #include <cmath>
 #include <string_view>
 
+#include "core/adjustment/bundle_problem.hpp"
 #include "core/estimator/measurement.hpp"
-#include "core/pose/joint_problem.hpp"
 #include "drivers/v4l2/device_finder.hpp"
 #include "firmware/base/text.hpp"
 #include "simulator/capture/json_node.hpp"

@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <span>
 
+#include "core/adjustment/bundle_adjustment.hpp"
 #include "core/paper/pose/ray_match.hpp"
-#include "core/pose/joint_refinement.hpp"
 #include "core/tracking/point_tracking.hpp"
 #include "tests/core/surface/block.hpp"
 #include "tests/support/photograph_scene.hpp"

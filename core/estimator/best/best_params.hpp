@@ -1,13 +1,13 @@
 // The parameters of profile `best`, stage by stage.
 #pragma once
 
+#include "core/adjustment/bundle_adjustment.hpp"
 #include "core/card/card_alignment.hpp"
 #include "core/dish/dish_outline.hpp"
 #include "core/estimator/best/food_agreement_params.hpp"
 #include "core/estimator/best/uncertainty.hpp"
 #include "core/image/specular_suppression.hpp"
 #include "core/labels/dish_membership.hpp"
-#include "core/pose/joint_refinement.hpp"
 #include "core/surface/height_map.hpp"
 #include "core/surface/round_body.hpp"
 #include "core/surface/two_view_surface.hpp"

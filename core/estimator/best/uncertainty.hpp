@@ -1,7 +1,7 @@
 // How sure a volume is, from what was measured.
 #pragma once
 
-#include "core/pose/joint_refinement.hpp"
+#include "core/adjustment/bundle_adjustment.hpp"
 #include "core/volume/height_volume.hpp"
 
 namespace traygauge {

@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
+#include "core/adjustment/bundle_adjustment.hpp"
 #include "core/card/card_alignment.hpp"
 #include "core/dish/dish_outline.hpp"
-#include "core/pose/joint_refinement.hpp"
 #include "core/tracking/point_tracking.hpp"
 #include "tests/core/pose/joint_scene.hpp"
 #include "tests/core/surface/block.hpp"

@@ -1,6 +1,6 @@
 // The joint refinement on closed-form trays: its errors are those that it states, and what is wrong in the
 // scene does no harm.
-#include "core/pose/joint_refinement.hpp"
+#include "core/adjustment/bundle_adjustment.hpp"
 
 #include <gtest/gtest.h>
 

@@ -7,7 +7,7 @@
 #include <numbers>
 #include <vector>
 
-#include "core/pose/joint_refinement.hpp"
+#include "core/adjustment/bundle_adjustment.hpp"
 #include "tests/core/pose/scenes.hpp"
 
 namespace traygauge::testing {

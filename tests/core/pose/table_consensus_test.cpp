@@ -1,5 +1,5 @@
 // Which points lie on the table, among levels that hold more of them.
-#include "core/pose/table_consensus.hpp"
+#include "core/adjustment/table_consensus.hpp"
 
 #include <gtest/gtest.h>
 

@@ -9,12 +9,12 @@
 #include <cstddef>
 #include <span>
 
+#include "core/adjustment/card_prior.hpp"
+#include "core/adjustment/track_residuals.hpp"
 #include "core/dish/dish_pose.hpp"
 #include "core/geometry/geometry.hpp"
 #include "core/geometry/levenberg_marquardt.hpp"
 #include "core/geometry/table_frame.hpp"
-#include "core/pose/card_prior.hpp"
-#include "core/pose/track_residuals.hpp"
 #include "core/tracking/point_track.hpp"
 
 namespace traygauge {

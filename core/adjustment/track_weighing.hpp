@@ -5,10 +5,10 @@
 #include <cstdint>
 #include <span>
 
+#include "core/adjustment/bundle_adjustment.hpp"
 #include "core/geometry/geometry.hpp"
 #include "core/geometry/table_frame.hpp"
 #include "core/labels/label_regions.hpp"
-#include "core/pose/joint_refinement.hpp"
 
 namespace traygauge {
 

@@ -1,10 +1,10 @@
-#include "core/pose/joint_refinement.hpp"
+#include "core/adjustment/bundle_adjustment.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
-#include "core/pose/track_weighing.hpp"
+#include "core/adjustment/track_weighing.hpp"
 
 namespace traygauge {
 namespace {

@@ -1,4 +1,4 @@
-#include "core/pose/joint_problem.hpp"
+#include "core/adjustment/bundle_problem.hpp"
 
 namespace traygauge {
 namespace {

@@ -1,4 +1,4 @@
-#include "core/pose/track_residuals.hpp"
+#include "core/adjustment/track_residuals.hpp"
 
 #include <cmath>
 

@@ -1,4 +1,4 @@
-#include "core/pose/track_weighing.hpp"
+#include "core/adjustment/track_weighing.hpp"
 
 #include <algorithm>
 #include <cmath>

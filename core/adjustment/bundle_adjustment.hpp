@@ -8,14 +8,14 @@
 #include <cstdint>
 #include <span>
 
+#include "core/adjustment/bundle_problem.hpp"
+#include "core/adjustment/card_prior.hpp"
+#include "core/adjustment/table_consensus.hpp"
 #include "core/base/status.hpp"
 #include "core/dish/dish_model.hpp"
 #include "core/dish/dish_pose.hpp"
 #include "core/geometry/geometry.hpp"
 #include "core/geometry/table_frame.hpp"
-#include "core/pose/card_prior.hpp"
-#include "core/pose/joint_problem.hpp"
-#include "core/pose/table_consensus.hpp"
 #include "core/tracking/point_track.hpp"
 
 namespace traygauge {

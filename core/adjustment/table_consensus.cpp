@@ -1,4 +1,4 @@
-#include "core/pose/table_consensus.hpp"
+#include "core/adjustment/table_consensus.hpp"
 
 #include <algorithm>
 #include <cmath>
