@@ -8,8 +8,8 @@
 #include <cstring>
 
 #include "core/base/parameter_range.hpp"
+#include "core/stereo/dense_stereo.hpp"
 #include "core/stereo/median.hpp"
-#include "core/surface/two_view_surface.hpp"
 
 namespace traygauge {
 

@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "core/segmentation/square_sums.hpp"
+#include "core/stereo/dish_projection.hpp"
 #include "core/stereo/symmetric_census.hpp"
-#include "core/surface/known_dish.hpp"
 
 namespace traygauge {
 namespace {

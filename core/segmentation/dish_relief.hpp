@@ -11,7 +11,7 @@
 #include "core/dish/dish_profile.hpp"
 #include "core/segmentation/dish_raster.hpp"
 #include "core/segmentation/relief_sample.hpp"
-#include "core/surface/two_view_surface.hpp"
+#include "core/stereo/dense_stereo.hpp"
 
 namespace traygauge {
 

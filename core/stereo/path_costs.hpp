@@ -9,7 +9,7 @@
 #include <limits>
 
 #include "core/stereo/row_lanes.hpp"
-#include "core/stereo/semi_global.hpp"
+#include "core/stereo/sgm.hpp"
 
 namespace traygauge {
 

@@ -11,7 +11,7 @@
 #include "core/dish/dish_profile.hpp"
 #include "core/geometry/geometry.hpp"
 #include "core/image_view/image_view.hpp"
-#include "core/surface/surface_grid.hpp"
+#include "core/stereo/surface_grid.hpp"
 
 namespace traygauge {
 

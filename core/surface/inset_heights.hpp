@@ -10,7 +10,7 @@
 #include "core/base/status.hpp"
 #include "core/dish/dish_profile.hpp"
 #include "core/image_view/image_view.hpp"
-#include "core/surface/surface_grid.hpp"
+#include "core/stereo/surface_grid.hpp"
 
 namespace traygauge {
 

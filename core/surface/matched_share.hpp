@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <span>
 
-#include "core/surface/surface_grid.hpp"
+#include "core/stereo/surface_grid.hpp"
 
 namespace traygauge {
 

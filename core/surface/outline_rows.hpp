@@ -7,7 +7,7 @@
 #include <span>
 
 #include "core/geometry/geometry.hpp"
-#include "core/surface/surface_grid.hpp"
+#include "core/stereo/surface_grid.hpp"
 
 namespace traygauge {
 

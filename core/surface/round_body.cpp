@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "core/labels/label_regions.hpp"
-#include "core/surface/known_dish.hpp"
+#include "core/stereo/dish_projection.hpp"
 
 namespace traygauge {
 namespace {

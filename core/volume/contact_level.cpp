@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "core/labels/label_regions.hpp"
-#include "core/surface/known_dish.hpp"
+#include "core/stereo/dish_projection.hpp"
 #include "core/volume/densest_window.hpp"
 
 namespace traygauge {

@@ -4,8 +4,8 @@
 #include <span>
 
 #include "core/labels/label_set.hpp"
+#include "core/stereo/surface_grid.hpp"
 #include "core/surface/height_map.hpp"
-#include "core/surface/surface_grid.hpp"
 #include "core/volume/height_volume.hpp"
 
 namespace traygauge {

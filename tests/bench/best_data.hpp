@@ -6,7 +6,7 @@
 
 #include "core/card/card_alignment.hpp"
 #include "core/image/gray_pyramid.hpp"
-#include "core/surface/two_view_surface.hpp"
+#include "core/stereo/dense_stereo.hpp"
 #include "core/tracking/point_tracking.hpp"
 #include "tests/bench/scene.hpp"
 #include "tests/bench/workspace.hpp"

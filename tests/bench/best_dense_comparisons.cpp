@@ -3,7 +3,7 @@
 #include <opencv2/calib3d.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "core/stereo/semi_global.hpp"
+#include "core/stereo/sgm.hpp"
 #include "core/stereo/symmetric_census.hpp"
 #include "tests/bench/comparisons.hpp"
 #include "tests/bench/opencv_stereo.hpp"

@@ -5,8 +5,8 @@
 #include <opencv2/core.hpp>
 #include <vector>
 
-#include "core/rectification/plane_rectification.hpp"
-#include "core/surface/surface_grid.hpp"
+#include "core/stereo/plane_rectification.hpp"
+#include "core/stereo/surface_grid.hpp"
 #include "tests/support/capture_truth.hpp"
 
 namespace traygauge::testing {

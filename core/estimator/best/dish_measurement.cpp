@@ -7,7 +7,7 @@
 #include "core/estimator/best/food_agreement.hpp"
 #include "core/estimator/best/uncertainty.hpp"
 #include "core/geometry/triangulation.hpp"
-#include "core/surface/known_dish.hpp"
+#include "core/stereo/dish_projection.hpp"
 #include "core/surface/matched_share.hpp"
 
 namespace traygauge {

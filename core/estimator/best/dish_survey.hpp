@@ -13,10 +13,10 @@
 #include "core/estimator/best/scene_geometry.hpp"
 #include "core/estimator/configuration.hpp"
 #include "core/estimator/estimator.hpp"
+#include "core/stereo/dense_stereo.hpp"
 #include "core/surface/dish_edge.hpp"
 #include "core/surface/inset_heights.hpp"
 #include "core/surface/profile_fit.hpp"
-#include "core/surface/two_view_surface.hpp"
 
 namespace traygauge {
 

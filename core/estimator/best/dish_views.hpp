@@ -8,7 +8,7 @@
 #include "core/estimator/best/best_view.hpp"
 #include "core/estimator/best/scene_geometry.hpp"
 #include "core/image/specular_suppression.hpp"
-#include "core/rectification/plane_rectification.hpp"
+#include "core/stereo/plane_rectification.hpp"
 
 namespace traygauge {
 

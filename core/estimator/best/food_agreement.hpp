@@ -6,7 +6,7 @@
 #include "core/estimator/best/best_view.hpp"
 #include "core/estimator/best/food_agreement_params.hpp"
 #include "core/geometry/table_frame.hpp"
-#include "core/surface/surface_grid.hpp"
+#include "core/stereo/surface_grid.hpp"
 
 namespace traygauge {
 

@@ -5,7 +5,7 @@
 #include <array>
 
 #include "core/estimator/best/scene_geometry.hpp"
-#include "core/surface/surface_grid.hpp"
+#include "core/stereo/surface_grid.hpp"
 
 namespace traygauge {
 

@@ -8,7 +8,7 @@
 #include <random>
 #include <vector>
 
-#include "core/rectification/plane_rectification.hpp"
+#include "core/stereo/plane_rectification.hpp"
 #include "tests/support/cameras.hpp"
 #include "tests/support/opencv_camera.hpp"
 #include "tests/support/random_seed.hpp"

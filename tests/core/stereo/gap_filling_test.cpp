@@ -1,5 +1,5 @@
 // What fills the gaps of rows whose every value is known.
-#include "core/stereo/gap_filling.hpp"
+#include "core/stereo/occlusion_filling.hpp"
 
 #include <gtest/gtest.h>
 

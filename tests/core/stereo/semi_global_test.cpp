@@ -1,6 +1,6 @@
 // Banded semi-global matching on stereograms whose disparities are known, and on photographs with
 // structured-light truth (Scharstein & Szeliski 2003).
-#include "core/stereo/semi_global.hpp"
+#include "core/stereo/sgm.hpp"
 
 #include <gtest/gtest.h>
 

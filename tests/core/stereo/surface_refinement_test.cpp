@@ -1,5 +1,5 @@
 // Subpixel refinement on pictures of a known function, so that every disparity is known exactly.
-#include "core/stereo/surface_refinement.hpp"
+#include "core/stereo/subpixel_refinement.hpp"
 
 #include <gtest/gtest.h>
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "core/paper/base/plane_fit.hpp"
-#include "core/surface/two_view_surface.hpp"
+#include "core/stereo/dense_stereo.hpp"
 #include "tests/core/pose/photographs.hpp"
 #include "tests/core/pose/scenes.hpp"
 #include "tests/support/sparse_stages.hpp"

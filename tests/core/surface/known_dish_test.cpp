@@ -1,5 +1,5 @@
 // Lines of sight down to a known dish, against closed form, marching, and the ray caster of the scenes.
-#include "core/surface/known_dish.hpp"
+#include "core/stereo/dish_projection.hpp"
 
 #include <gtest/gtest.h>
 

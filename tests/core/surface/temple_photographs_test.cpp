@@ -8,7 +8,7 @@
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
-#include "core/surface/two_view_surface.hpp"
+#include "core/stereo/dense_stereo.hpp"
 #include "tests/core/surface/block.hpp"
 #include "tests/support/photograph_scene.hpp"
 

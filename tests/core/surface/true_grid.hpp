@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/dish/dish_profile.hpp"
-#include "core/surface/surface_grid.hpp"
+#include "core/stereo/surface_grid.hpp"
 #include "tests/support/capture_truth.hpp"
 
 namespace traygauge::testing {

@@ -1,6 +1,6 @@
 // The dense surface of the captures' dishes at their true poses: what dense matching alone does to heights
 // and volumes of food, with either view as the one that has true depth.
-#include "core/surface/two_view_surface.hpp"
+#include "core/stereo/dense_stereo.hpp"
 
 #include <gtest/gtest.h>
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "core/labels/label_regions.hpp"
-#include "core/surface/known_dish.hpp"
+#include "core/stereo/dish_projection.hpp"
 #include "core/volume/level_liquid.hpp"
 #include "tests/core/surface/solid_scene.hpp"
 #include "tests/core/volume/height_measurement.hpp"

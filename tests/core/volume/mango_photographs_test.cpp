@@ -16,8 +16,8 @@
 #include <vector>
 
 #include "core/card/card_alignment.hpp"
+#include "core/stereo/dense_stereo.hpp"
 #include "core/surface/round_body.hpp"
-#include "core/surface/two_view_surface.hpp"
 #include "tests/core/surface/capture_scene.hpp"
 #include "tests/core/volume/height_measurement.hpp"
 #include "tests/support/sparse_stages.hpp"

@@ -1,4 +1,4 @@
-#include "core/surface/outline_lean.hpp"
+#include "core/stereo/view_slope.hpp"
 
 #include <algorithm>
 #include <array>

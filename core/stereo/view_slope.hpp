@@ -5,8 +5,8 @@
 
 #include "core/geometry/geometry.hpp"
 #include "core/image_view/image_view.hpp"
-#include "core/rectification/plane_rectification.hpp"
-#include "core/stereo/gap_filling.hpp"
+#include "core/stereo/occlusion_filling.hpp"
+#include "core/stereo/plane_rectification.hpp"
 
 namespace traygauge {
 

@@ -1,4 +1,4 @@
-#include "core/stereo/surface_refinement.hpp"
+#include "core/stereo/subpixel_refinement.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "core/stereo/gap_filling.hpp"
+#include "core/stereo/occlusion_filling.hpp"
 
 #include <algorithm>
 #include <cmath>

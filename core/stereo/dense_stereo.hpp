@@ -10,12 +10,12 @@
 #include "core/base/arena.hpp"
 #include "core/base/status.hpp"
 #include "core/image/pyramid.hpp"
-#include "core/rectification/plane_rectification.hpp"
 #include "core/stereo/consistency.hpp"
-#include "core/stereo/gap_filling.hpp"
-#include "core/stereo/semi_global.hpp"
-#include "core/stereo/surface_refinement.hpp"
-#include "core/surface/surface_grid.hpp"
+#include "core/stereo/occlusion_filling.hpp"
+#include "core/stereo/plane_rectification.hpp"
+#include "core/stereo/sgm.hpp"
+#include "core/stereo/subpixel_refinement.hpp"
+#include "core/stereo/surface_grid.hpp"
 
 namespace traygauge {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "core/geometry/lens_lanes.hpp"
-#include "core/rectification/plane_rectification.hpp"
+#include "core/stereo/plane_rectification.hpp"
 
 namespace traygauge {
 namespace {

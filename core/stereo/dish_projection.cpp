@@ -1,4 +1,4 @@
-#include "core/surface/known_dish.hpp"
+#include "core/stereo/dish_projection.hpp"
 
 #include <cmath>
 

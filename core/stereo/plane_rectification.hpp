@@ -18,7 +18,7 @@
 #include "core/image_view/image_view.hpp"
 #include "core/labels/label_regions.hpp"
 #include "core/labels/label_set.hpp"
-#include "core/surface/surface_grid.hpp"
+#include "core/stereo/surface_grid.hpp"
 
 namespace traygauge {
 

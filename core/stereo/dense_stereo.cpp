@@ -1,11 +1,11 @@
-#include "core/surface/two_view_surface.hpp"
+#include "core/stereo/dense_stereo.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 #include "core/stereo/median.hpp"
 #include "core/stereo/symmetric_census.hpp"
-#include "core/surface/outline_lean.hpp"
+#include "core/stereo/view_slope.hpp"
 
 namespace traygauge {
 namespace {

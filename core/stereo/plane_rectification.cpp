@@ -1,4 +1,4 @@
-#include "core/rectification/plane_rectification.hpp"
+#include "core/stereo/plane_rectification.hpp"
 
 #include <algorithm>
 #include <cmath>

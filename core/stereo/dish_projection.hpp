@@ -5,7 +5,7 @@
 #include <span>
 
 #include "core/dish/dish_profile.hpp"
-#include "core/surface/surface_grid.hpp"
+#include "core/stereo/surface_grid.hpp"
 
 namespace traygauge {
 

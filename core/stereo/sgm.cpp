@@ -1,4 +1,4 @@
-#include "core/stereo/semi_global.hpp"
+#include "core/stereo/sgm.hpp"
 
 #include <algorithm>
 #include <cmath>
