@@ -13,7 +13,7 @@
 #include "core/image_view/image_view.hpp"
 #include "core/paper/surface/food_mesh.hpp"
 #include "core/stereo/disparity.hpp"
-#include "core/surface/height_map.hpp"
+#include "core/volume/height_map.hpp"
 
 namespace traygauge {
 

@@ -6,7 +6,7 @@
 
 #include "core/base/status.hpp"
 #include "core/geometry/geometry.hpp"
-#include "core/surface/height_map.hpp"
+#include "core/volume/height_map.hpp"
 
 namespace traygauge {
 

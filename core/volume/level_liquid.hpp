@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <span>
 
-#include "core/surface/height_map.hpp"
+#include "core/volume/height_map.hpp"
 
 namespace traygauge {
 

@@ -5,7 +5,7 @@
 
 #include "core/labels/label_set.hpp"
 #include "core/stereo/surface_grid.hpp"
-#include "core/surface/height_map.hpp"
+#include "core/volume/height_map.hpp"
 #include "core/volume/height_volume.hpp"
 
 namespace traygauge {

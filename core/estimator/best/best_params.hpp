@@ -5,16 +5,16 @@
 #include "core/card/card_alignment.hpp"
 #include "core/dish/dish_outline.hpp"
 #include "core/estimator/best/food_agreement_params.hpp"
-#include "core/estimator/best/uncertainty.hpp"
 #include "core/image/specular_suppression.hpp"
 #include "core/labels/dish_membership.hpp"
 #include "core/stereo/dense_stereo.hpp"
-#include "core/surface/height_map.hpp"
-#include "core/surface/round_body.hpp"
 #include "core/tracking/point_tracking.hpp"
+#include "core/volume/height_map.hpp"
 #include "core/volume/height_volume.hpp"
 #include "core/volume/level_liquid.hpp"
 #include "core/volume/overhang.hpp"
+#include "core/volume/round_body.hpp"
+#include "core/volume/uncertainty.hpp"
 
 namespace traygauge {
 

@@ -5,10 +5,10 @@
 
 #include "core/estimator/best/dish_views.hpp"
 #include "core/estimator/best/food_agreement.hpp"
-#include "core/estimator/best/uncertainty.hpp"
 #include "core/geometry/triangulation.hpp"
 #include "core/stereo/dish_projection.hpp"
-#include "core/surface/matched_share.hpp"
+#include "core/volume/matched_fraction.hpp"
+#include "core/volume/uncertainty.hpp"
 
 namespace traygauge {
 namespace {

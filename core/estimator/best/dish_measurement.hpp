@@ -12,7 +12,7 @@
 #include "core/estimator/best/scene_geometry.hpp"
 #include "core/estimator/best/stage_tap.hpp"
 #include "core/estimator/measurement.hpp"
-#include "core/surface/round_body.hpp"
+#include "core/volume/round_body.hpp"
 
 namespace traygauge {
 

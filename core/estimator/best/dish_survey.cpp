@@ -5,8 +5,8 @@
 #include <numbers>
 
 #include "core/estimator/best/dish_views.hpp"
-#include "core/estimator/best/uncertainty.hpp"
 #include "core/quality/view_input.hpp"
+#include "core/volume/uncertainty.hpp"
 
 namespace traygauge {
 namespace {

@@ -1,5 +1,5 @@
 // Sigma's terms against what they are said to be, for cameras that are known exactly.
-#include "core/estimator/best/uncertainty.hpp"
+#include "core/volume/uncertainty.hpp"
 
 #include <gtest/gtest.h>
 

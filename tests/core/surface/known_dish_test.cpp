@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "core/labels/label_regions.hpp"
-#include "core/surface/matched_share.hpp"
+#include "core/volume/matched_fraction.hpp"
 #include "tests/core/surface/solid_scene.hpp"
 
 namespace traygauge {

@@ -1,5 +1,5 @@
 // Pieces and holes of random blots, against OpenCV's connected components.
-#include "core/surface/outline_rows.hpp"
+#include "core/volume/outline_rows.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // Round bodies from their outlines, against solids ray cast from two cameras: what is matched on them lies
 // too low, as shine does.
-#include "core/surface/round_body.hpp"
+#include "core/volume/round_body.hpp"
 
 #include <gtest/gtest.h>
 

@@ -17,7 +17,7 @@
 
 #include "core/card/card_alignment.hpp"
 #include "core/stereo/dense_stereo.hpp"
-#include "core/surface/round_body.hpp"
+#include "core/volume/round_body.hpp"
 #include "tests/core/surface/capture_scene.hpp"
 #include "tests/core/volume/height_measurement.hpp"
 #include "tests/support/sparse_stages.hpp"

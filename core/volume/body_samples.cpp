@@ -1,4 +1,4 @@
-#include "core/surface/body_samples.hpp"
+#include "core/volume/body_samples.hpp"
 
 namespace traygauge {
 

@@ -3,7 +3,7 @@
 
 #include <span>
 
-#include "core/surface/height_map.hpp"
+#include "core/volume/height_map.hpp"
 
 namespace traygauge {
 

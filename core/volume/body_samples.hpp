@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <span>
 
-#include "core/surface/outline_rows.hpp"
+#include "core/volume/outline_rows.hpp"
 
 namespace traygauge {
 

@@ -1,4 +1,4 @@
-#include "core/surface/hidden_cells.hpp"
+#include "core/volume/occluded_cells.hpp"
 
 #include <algorithm>
 #include <array>

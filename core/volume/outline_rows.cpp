@@ -1,4 +1,4 @@
-#include "core/surface/outline_rows.hpp"
+#include "core/volume/outline_rows.hpp"
 
 #include <algorithm>
 #include <cmath>

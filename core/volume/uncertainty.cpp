@@ -1,4 +1,4 @@
-#include "core/estimator/best/uncertainty.hpp"
+#include "core/volume/uncertainty.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,10 +1,10 @@
-#include "core/surface/height_map.hpp"
+#include "core/volume/height_map.hpp"
 
 #include <algorithm>
 #include <limits>
 
-#include "core/surface/hidden_cells.hpp"
-#include "core/surface/view_splat.hpp"
+#include "core/volume/occluded_cells.hpp"
+#include "core/volume/view_splat.hpp"
 
 namespace traygauge {
 namespace {

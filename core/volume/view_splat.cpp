@@ -1,4 +1,4 @@
-#include "core/surface/view_splat.hpp"
+#include "core/volume/view_splat.hpp"
 
 #include <algorithm>
 #include <array>

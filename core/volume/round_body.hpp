@@ -9,8 +9,8 @@
 
 #include "core/dish/dish_profile.hpp"
 #include "core/labels/label_set.hpp"
-#include "core/surface/body_samples.hpp"
-#include "core/surface/outline_rows.hpp"
+#include "core/volume/body_samples.hpp"
+#include "core/volume/outline_rows.hpp"
 
 namespace traygauge {
 

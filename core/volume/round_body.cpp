@@ -1,4 +1,4 @@
-#include "core/surface/round_body.hpp"
+#include "core/volume/round_body.hpp"
 
 #include <algorithm>
 #include <array>
