@@ -5,8 +5,8 @@
 
 #include "core/card/card_location.hpp"
 #include "core/dish/dish_search.hpp"
-#include "core/segmentation/dish_relief.hpp"
 #include "core/segmentation/food_outline.hpp"
+#include "core/segmentation/height_evidence.hpp"
 
 namespace traygauge {
 

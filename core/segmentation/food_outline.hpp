@@ -6,11 +6,11 @@
 
 #include "core/base/arena.hpp"
 #include "core/segmentation/dish_raster.hpp"
-#include "core/segmentation/food_field.hpp"
 #include "core/segmentation/geodesic.hpp"
 #include "core/segmentation/glaze.hpp"
 #include "core/segmentation/item_assignment.hpp"
 #include "core/segmentation/item_split.hpp"
+#include "core/segmentation/tv_segmentation.hpp"
 
 namespace traygauge {
 

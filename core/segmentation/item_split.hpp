@@ -11,8 +11,8 @@
 #include "core/image_view/image_view.hpp"
 #include "core/segmentation/dish_raster.hpp"
 #include "core/segmentation/food_parts.hpp"
+#include "core/segmentation/height_sample.hpp"
 #include "core/segmentation/part_joining.hpp"
-#include "core/segmentation/relief_sample.hpp"
 
 namespace traygauge {
 

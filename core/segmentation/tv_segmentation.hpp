@@ -11,7 +11,7 @@
 #include "core/image_view/image_view.hpp"
 #include "core/segmentation/dish_raster.hpp"
 #include "core/segmentation/glaze.hpp"
-#include "core/segmentation/relief_sample.hpp"
+#include "core/segmentation/height_sample.hpp"
 
 namespace traygauge {
 

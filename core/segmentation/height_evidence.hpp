@@ -10,7 +10,7 @@
 #include "core/base/status.hpp"
 #include "core/dish/dish_profile.hpp"
 #include "core/segmentation/dish_raster.hpp"
-#include "core/segmentation/relief_sample.hpp"
+#include "core/segmentation/height_sample.hpp"
 #include "core/stereo/dense_stereo.hpp"
 
 namespace traygauge {

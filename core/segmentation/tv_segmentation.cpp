@@ -1,4 +1,4 @@
-#include "core/segmentation/food_field.hpp"
+#include "core/segmentation/tv_segmentation.hpp"
 
 #include <algorithm>
 #include <array>

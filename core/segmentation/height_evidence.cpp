@@ -1,4 +1,4 @@
-#include "core/segmentation/dish_relief.hpp"
+#include "core/segmentation/height_evidence.hpp"
 
 #include <algorithm>
 #include <bit>
