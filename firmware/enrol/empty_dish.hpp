@@ -4,7 +4,7 @@
 #include <array>
 #include <cstdint>
 
-#include "core/estimator/best/dish_survey.hpp"
+#include "core/enrolment/dish_survey.hpp"
 #include "firmware/base/aligned_block.hpp"
 #include "firmware/measure/pair_setup.hpp"
 #include "simulator/capture/capture.hpp"

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <string>
 
-#include "core/estimator/best/dish_survey.hpp"
+#include "core/enrolment/dish_survey.hpp"
 #include "simulator/capture/dish_description.hpp"
 
 namespace traygauge {

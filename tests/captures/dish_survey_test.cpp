@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "core/estimator/best/dish_survey.hpp"
+#include "core/enrolment/dish_survey.hpp"
 #include "firmware/base/aligned_block.hpp"
 #include "firmware/config/dish_file.hpp"
 #include "firmware/measure/capture_session.hpp"

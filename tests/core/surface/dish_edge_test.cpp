@@ -1,5 +1,5 @@
 // The edge of a dish that nothing is known of, in closed form.
-#include "core/surface/dish_edge.hpp"
+#include "core/enrolment/dish_edge.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // Profiles through ring heights, and ring heights of surfaces in closed form.
-#include "core/surface/profile_fit.hpp"
+#include "core/enrolment/profile_fit.hpp"
 
 #include <gtest/gtest.h>
 

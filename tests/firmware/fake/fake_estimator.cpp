@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "core/estimator/best/dish_survey.hpp"
+#include "core/enrolment/dish_survey.hpp"
 #include "core/estimator/memory_report.hpp"
 
 // Weak: a test program may link core beside it, for what is not played here.

@@ -1,4 +1,4 @@
-#include "core/surface/dish_edge.hpp"
+#include "core/enrolment/dish_edge.hpp"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include "core/estimator/best/dish_survey.hpp"
+#include "core/enrolment/dish_survey.hpp"
 
 #include <algorithm>
 #include <cmath>

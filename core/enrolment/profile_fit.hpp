@@ -9,7 +9,7 @@
 #include "core/base/arena.hpp"
 #include "core/base/status.hpp"
 #include "core/dish/dish_profile.hpp"
-#include "core/surface/inset_heights.hpp"
+#include "core/enrolment/inset_heights.hpp"
 
 namespace traygauge {
 

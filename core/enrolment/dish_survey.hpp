@@ -9,14 +9,14 @@
 
 #include "core/base/arena.hpp"
 #include "core/base/status.hpp"
+#include "core/enrolment/dish_edge.hpp"
+#include "core/enrolment/inset_heights.hpp"
+#include "core/enrolment/profile_fit.hpp"
 #include "core/estimator/best/best_view.hpp"
 #include "core/estimator/best/scene_geometry.hpp"
 #include "core/estimator/configuration.hpp"
 #include "core/estimator/estimator.hpp"
 #include "core/stereo/dense_stereo.hpp"
-#include "core/surface/dish_edge.hpp"
-#include "core/surface/inset_heights.hpp"
-#include "core/surface/profile_fit.hpp"
 
 namespace traygauge {
 

@@ -1,4 +1,4 @@
-#include "core/surface/inset_heights.hpp"
+#include "core/enrolment/inset_heights.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "core/surface/profile_fit.hpp"
+#include "core/enrolment/profile_fit.hpp"
 
 #include <algorithm>
 #include <array>
