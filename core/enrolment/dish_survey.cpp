@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/estimator/best/dish_views.hpp"
+#include "core/pipeline/dish_observation.hpp"
 #include "core/quality/view_input.hpp"
 #include "core/volume/uncertainty.hpp"
 

@@ -12,10 +12,10 @@
 #include "core/enrolment/dish_edge.hpp"
 #include "core/enrolment/inset_heights.hpp"
 #include "core/enrolment/profile_fit.hpp"
-#include "core/estimator/best/best_view.hpp"
-#include "core/estimator/best/scene_geometry.hpp"
-#include "core/estimator/configuration.hpp"
-#include "core/estimator/estimator.hpp"
+#include "core/pipeline/best_view.hpp"
+#include "core/pipeline/configuration.hpp"
+#include "core/pipeline/estimator.hpp"
+#include "core/pipeline/scene_geometry.hpp"
 #include "core/stereo/dense_stereo.hpp"
 
 namespace traygauge {

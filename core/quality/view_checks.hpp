@@ -6,10 +6,10 @@
 #include <cstdint>
 
 #include "core/base/status.hpp"
-#include "core/estimator/measurement.hpp"
 #include "core/geometry/camera.hpp"
 #include "core/image_view/image_view.hpp"
 #include "core/labels/label_regions.hpp"
+#include "core/pipeline/measurement.hpp"
 #include "core/quality/card_silhouette.hpp"
 #include "core/quality/edge_blur.hpp"
 #include "core/quality/item_pixels.hpp"

@@ -5,11 +5,11 @@
 #include <optional>
 
 #include "core/base/status.hpp"
-#include "core/estimator/configuration.hpp"
-#include "core/estimator/measurement.hpp"
 #include "core/geometry/camera.hpp"
 #include "core/image_view/image_view.hpp"
 #include "core/labels/label_regions.hpp"
+#include "core/pipeline/configuration.hpp"
+#include "core/pipeline/measurement.hpp"
 
 namespace traygauge {
 

@@ -6,8 +6,8 @@
 #include <span>
 
 #include "core/card/card_location.hpp"
-#include "core/estimator/configuration.hpp"
 #include "core/geometry/table_frame.hpp"
+#include "core/pipeline/configuration.hpp"
 #include "firmware/base/aligned_block.hpp"
 
 namespace traygauge {

@@ -3,8 +3,8 @@
 
 #include <optional>
 
-#include "core/estimator/configuration.hpp"
 #include "core/geometry/geometry.hpp"
+#include "core/pipeline/configuration.hpp"
 #include "firmware/check/device_check.hpp"
 #include "firmware/config/station_file.hpp"
 

@@ -6,7 +6,7 @@
 #include <functional>
 #include <type_traits>
 
-#include "core/estimator/parameters.hpp"
+#include "core/pipeline/parameters.hpp"
 #include "firmware/base/exit_status.hpp"
 #include "firmware/base/text.hpp"
 #include "firmware/config/profile.hpp"

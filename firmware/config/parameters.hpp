@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "core/estimator/configuration.hpp"
+#include "core/pipeline/configuration.hpp"
 
 namespace traygauge {
 

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "core/estimator/configuration.hpp"
+#include "core/pipeline/configuration.hpp"
 
 namespace traygauge {
 

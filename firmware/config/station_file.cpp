@@ -5,7 +5,7 @@
 #include <string_view>
 
 #include "core/adjustment/bundle_problem.hpp"
-#include "core/estimator/measurement.hpp"
+#include "core/pipeline/measurement.hpp"
 #include "drivers/v4l2/device_finder.hpp"
 #include "firmware/base/text.hpp"
 #include "simulator/capture/json_node.hpp"

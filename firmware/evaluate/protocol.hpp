@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "core/estimator/configuration.hpp"
-#include "core/estimator/measurement.hpp"
+#include "core/pipeline/configuration.hpp"
+#include "core/pipeline/measurement.hpp"
 #include "firmware/evaluate/outline_figures.hpp"
 #include "firmware/evaluate/pair_tasks.hpp"
 #include "firmware/evaluate/profile_abilities.hpp"

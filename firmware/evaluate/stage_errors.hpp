@@ -1,8 +1,8 @@
 // How far each stage lies from the truth that a capture carries.
 #pragma once
 
-#include "core/estimator/measurement.hpp"
 #include "core/geometry/geometry.hpp"
+#include "core/pipeline/measurement.hpp"
 
 namespace traygauge {
 

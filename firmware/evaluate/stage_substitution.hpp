@@ -7,7 +7,7 @@
 #include <optional>
 #include <vector>
 
-#include "core/estimator/best/stage_tap.hpp"
+#include "core/pipeline/stage_observer.hpp"
 #include "firmware/evaluate/stage_errors.hpp"
 #include "firmware/evaluate/true_scene.hpp"
 

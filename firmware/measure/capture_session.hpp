@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "core/estimator/estimator.hpp"
+#include "core/pipeline/estimator.hpp"
 #include "firmware/base/aligned_block.hpp"
 #include "firmware/measure/pair_setup.hpp"
 #include "firmware/segment/pair_labels.hpp"

@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <system_error>
 
-#include "core/estimator/measurement.hpp"
+#include "core/pipeline/measurement.hpp"
 #include "firmware/base/exit_status.hpp"
 #include "firmware/command/program.hpp"
 #include "simulator/capture/input_error.hpp"

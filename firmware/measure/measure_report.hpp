@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "core/estimator/measurement.hpp"
+#include "core/pipeline/measurement.hpp"
 
 namespace traygauge {
 

@@ -4,8 +4,8 @@
 #include <filesystem>
 #include <string>
 
-#include "core/estimator/measurement.hpp"
 #include "core/geometry/camera.hpp"
+#include "core/pipeline/measurement.hpp"
 #include "simulator/capture/picture.hpp"
 
 namespace traygauge {

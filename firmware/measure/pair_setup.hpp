@@ -4,7 +4,7 @@
 #include <array>
 #include <vector>
 
-#include "core/estimator/configuration.hpp"
+#include "core/pipeline/configuration.hpp"
 #include "simulator/capture/capture.hpp"
 
 namespace traygauge {

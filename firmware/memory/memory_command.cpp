@@ -5,9 +5,9 @@
 #include <span>
 #include <string>
 
-#include "core/estimator/estimator.hpp"
-#include "core/estimator/memory_report.hpp"
-#include "core/estimator/segmenter_memory.hpp"
+#include "core/pipeline/estimator.hpp"
+#include "core/pipeline/memory_report.hpp"
+#include "core/pipeline/segmenter_memory.hpp"
 #include "firmware/base/exit_status.hpp"
 #include "firmware/base/text.hpp"
 #include "firmware/command/program.hpp"

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "core/estimator/measurement.hpp"
+#include "core/pipeline/measurement.hpp"
 #include "firmware/card/card_guide.hpp"
 #include "firmware/station/measurer.hpp"
 #include "simulator/capture/capture.hpp"

@@ -7,8 +7,8 @@
 #include <optional>
 #include <span>
 
-#include "core/estimator/estimator.hpp"
-#include "core/estimator/segmenter.hpp"
+#include "core/pipeline/estimator.hpp"
+#include "core/pipeline/segmenter.hpp"
 #include "firmware/base/aligned_block.hpp"
 #include "firmware/segment/label_source.hpp"
 #include "simulator/capture/picture.hpp"

@@ -6,7 +6,7 @@
 #include <optional>
 #include <span>
 
-#include "core/estimator/estimator.hpp"
+#include "core/pipeline/estimator.hpp"
 #include "firmware/base/aligned_block.hpp"
 #include "firmware/card/card_guide.hpp"
 #include "firmware/segment/pair_labels.hpp"

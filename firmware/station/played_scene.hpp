@@ -1,7 +1,7 @@
 // What played captures know beside their pictures.
 #pragma once
 
-#include "core/estimator/configuration.hpp"
+#include "core/pipeline/configuration.hpp"
 #include "firmware/station/estimator_measurer.hpp"
 #include "simulator/devices/capture_source.hpp"
 #include "simulator/devices/tray_player.hpp"

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "core/estimator/estimator.hpp"
+#include "core/pipeline/estimator.hpp"
 #include "firmware/base/aligned_block.hpp"
 #include "simulator/capture/picture.hpp"
 

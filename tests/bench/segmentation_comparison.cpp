@@ -4,7 +4,7 @@
 #include <opencv2/features2d.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "core/estimator/segmenter.hpp"
+#include "core/pipeline/segmenter.hpp"
 #include "firmware/segment/label_scores.hpp"
 #include "tests/bench/comparisons.hpp"
 

@@ -11,8 +11,8 @@
 #include <string>
 #include <vector>
 
-#include "core/estimator/best/best_params.hpp"
-#include "core/estimator/measurement.hpp"
+#include "core/pipeline/best_params.hpp"
+#include "core/pipeline/measurement.hpp"
 #include "firmware/measure/capture_session.hpp"
 #include "tests/firmware/command_runner.hpp"
 #include "tests/support/faulty_capture.hpp"

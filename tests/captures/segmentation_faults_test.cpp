@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "core/estimator/measurement.hpp"
+#include "core/pipeline/measurement.hpp"
 #include "tests/firmware/command_runner.hpp"
 #include "tests/support/faulty_capture.hpp"
 

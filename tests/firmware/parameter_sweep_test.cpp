@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "core/base/random.hpp"
-#include "core/estimator/estimator.hpp"
-#include "core/estimator/parameters.hpp"
+#include "core/pipeline/estimator.hpp"
+#include "core/pipeline/parameters.hpp"
 #include "firmware/base/aligned_block.hpp"
 #include "firmware/config/profile.hpp"
 #include "firmware/measure/pair_setup.hpp"

@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/estimator/parameters.hpp"
+#include "core/pipeline/parameters.hpp"
 #include "firmware/base/exit_status.hpp"
 #include "tests/firmware/command_runner.hpp"
 

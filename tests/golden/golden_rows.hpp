@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "core/estimator/configuration.hpp"
+#include "core/pipeline/configuration.hpp"
 #include "firmware/segment/pair_labels.hpp"
 
 namespace traygauge::golden {

@@ -7,14 +7,14 @@
 
 #include "core/base/arena.hpp"
 #include "core/base/status.hpp"
-#include "core/estimator/configuration.hpp"
-#include "core/estimator/measurement.hpp"
-#include "core/estimator/stage_clock.hpp"
 #include "core/geometry/triangulation.hpp"
 #include "core/paper/pipeline/view_preparation.hpp"
 #include "core/paper/pose/relative_pose.hpp"
 #include "core/paper/rectification/polar_rectification.hpp"
 #include "core/paper/stereo/stereo.hpp"
+#include "core/pipeline/configuration.hpp"
+#include "core/pipeline/measurement.hpp"
+#include "core/pipeline/stage_clock.hpp"
 
 namespace traygauge {
 

@@ -10,14 +10,14 @@
 #include "core/base/status.hpp"
 #include "core/card/card.hpp"
 #include "core/card/card_detection.hpp"
-#include "core/estimator/configuration.hpp"
-#include "core/estimator/measurement.hpp"
-#include "core/estimator/stage_clock.hpp"
 #include "core/geometry/geometry.hpp"
 #include "core/paper/matching/matcher.hpp"
 #include "core/paper/pipeline/view_preparation.hpp"
 #include "core/paper/pose/motion_search.hpp"
 #include "core/paper/pose/relative_pose.hpp"
+#include "core/pipeline/configuration.hpp"
+#include "core/pipeline/measurement.hpp"
+#include "core/pipeline/stage_clock.hpp"
 
 namespace traygauge {
 

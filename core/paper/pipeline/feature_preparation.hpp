@@ -4,8 +4,8 @@
 #include <span>
 
 #include "core/base/status.hpp"
-#include "core/estimator/configuration.hpp"
 #include "core/paper/pipeline/view_preparation.hpp"
+#include "core/pipeline/configuration.hpp"
 
 namespace traygauge {
 

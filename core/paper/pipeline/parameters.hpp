@@ -3,9 +3,9 @@
 #pragma once
 
 #include "core/base/parameter_range.hpp"
-#include "core/estimator/configuration.hpp"
 #include "core/paper/stereo/hierarchy.hpp"
 #include "core/paper/stereo/smoothness.hpp"
+#include "core/pipeline/configuration.hpp"
 #include "core/stereo/median.hpp"
 #include "core/stereo/row_lanes.hpp"
 

@@ -1,8 +1,8 @@
 #include <algorithm>
 
-#include "core/estimator/estimator_state.hpp"
 #include "core/paper/image/integral.hpp"
 #include "core/paper/pipeline/feature_preparation.hpp"
+#include "core/pipeline/estimator_state.hpp"
 
 namespace traygauge {
 

@@ -10,13 +10,13 @@
 #include "core/base/arena.hpp"
 #include "core/base/bounded_list.hpp"
 #include "core/base/status.hpp"
-#include "core/estimator/configuration.hpp"
 #include "core/geometry/camera.hpp"
 #include "core/image/resample.hpp"
 #include "core/image_view/image_view.hpp"
 #include "core/labels/label_regions.hpp"
 #include "core/paper/features/keypoint.hpp"
 #include "core/paper/features/surf.hpp"
+#include "core/pipeline/configuration.hpp"
 #include "core/quality/view_checks.hpp"
 
 namespace traygauge {

@@ -10,14 +10,14 @@
 #include "core/base/random.hpp"
 #include "core/base/status.hpp"
 #include "core/dish/rim_ellipse.hpp"
-#include "core/estimator/configuration.hpp"
-#include "core/estimator/measurement.hpp"
-#include "core/estimator/stage_clock.hpp"
 #include "core/paper/pipeline/dense_reconstruction.hpp"
 #include "core/paper/surface/dish_surface.hpp"
 #include "core/paper/surface/food_mesh.hpp"
 #include "core/paper/surface/rim.hpp"
 #include "core/paper/volume/mesh_volume.hpp"
+#include "core/pipeline/configuration.hpp"
+#include "core/pipeline/measurement.hpp"
+#include "core/pipeline/stage_clock.hpp"
 
 namespace traygauge {
 

@@ -1,4 +1,4 @@
-#include "core/estimator/configuration.hpp"
+#include "core/pipeline/configuration.hpp"
 
 #include <gtest/gtest.h>
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "core/base/arena.hpp"
-#include "core/estimator/estimator.hpp"
+#include "core/pipeline/estimator.hpp"
 #include "tests/core/estimator/tray_scene.hpp"
 
 namespace traygauge {

@@ -1,4 +1,4 @@
-#include "core/estimator/memory_report.hpp"
+#include "core/pipeline/memory_report.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "core/base/random.hpp"
-#include "core/estimator/estimator_memory.hpp"
 #include "core/paper/pipeline/feature_preparation.hpp"
+#include "core/pipeline/estimator_memory.hpp"
 #include "tests/core/estimator/measuring_bench.hpp"
 
 namespace traygauge {

@@ -1,6 +1,6 @@
 // The segmentation's memory: none allocated, nothing behind the block, within the budget; and what the
 // estimator lends meanwhile.
-#include "core/estimator/segmenter.hpp"
+#include "core/pipeline/segmenter.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include <memory>
 #include <numeric>
 
-#include "core/estimator/memory_report.hpp"
+#include "core/pipeline/memory_report.hpp"
 #include "simulator/capture/capture.hpp"
 #include "tests/core/estimator/allocation_trap.hpp"
 #include "tests/core/estimator/measuring_bench.hpp"

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/estimator/estimator.hpp"
+#include "core/pipeline/estimator.hpp"
 #include "tests/support/synthetic_scene.hpp"
 
 namespace traygauge {

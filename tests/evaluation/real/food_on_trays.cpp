@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-#include "core/estimator/segmenter_memory.hpp"
+#include "core/pipeline/segmenter_memory.hpp"
 #include "firmware/base/aligned_block.hpp"
 
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "core/estimator/configuration.hpp"
+#include "core/pipeline/configuration.hpp"
 #include "tests/evaluation/tables/picture_change.hpp"
 
 namespace traygauge::tables {

@@ -3,7 +3,7 @@
 #include <array>
 
 #include "core/enrolment/dish_survey.hpp"
-#include "core/estimator/memory_report.hpp"
+#include "core/pipeline/memory_report.hpp"
 
 // Weak: a test program may link core beside it, for what is not played here.
 #define TRAYGAUGE_FAKE __attribute__((weak))

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/estimator/estimator.hpp"
+#include "core/pipeline/estimator.hpp"
 
 namespace traygauge {
 

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/estimator/measurement.hpp"
+#include "core/pipeline/measurement.hpp"
 #include "core/stereo/disparity.hpp"
 
 namespace traygauge {

@@ -1,0 +1,59 @@
+// The parameters of profile `best`, stage by stage.
+#pragma once
+
+#include "core/adjustment/bundle_adjustment.hpp"
+#include "core/card/card_alignment.hpp"
+#include "core/dish/dish_outline.hpp"
+#include "core/image/specular_suppression.hpp"
+#include "core/labels/dish_membership.hpp"
+#include "core/pipeline/food_agreement_params.hpp"
+#include "core/stereo/dense_stereo.hpp"
+#include "core/tracking/point_tracking.hpp"
+#include "core/volume/height_map.hpp"
+#include "core/volume/height_volume.hpp"
+#include "core/volume/level_liquid.hpp"
+#include "core/volume/overhang.hpp"
+#include "core/volume/round_body.hpp"
+#include "core/volume/uncertainty.hpp"
+
+namespace traygauge {
+
+// What ties the stages together.
+struct BestPipelineParams {
+  // Above the tallest sparse point on a dish the surface is searched this much higher: corners sit on edges
+  // and texture, not on every summit.
+  double summit_margin_mm = 20.0;
+  // No search ends below this height over a dish's bottom, however few points there are on the food.
+  double min_top_mm = 40.0;
+  // Of a dish's outlines on the rim found, or on the wall below it; fewer: the outlines are of another
+  // picture. Right ones reach 0.93 and more, those of a view 5 degrees off 0.63 to 0.80.
+  double min_rim_inlier_share = 0.88;
+  // Of an item's samples; fewer: its volume is doubtful. Food with texture reaches 0.65 and more between
+  // 10 and 30 degrees, a banana 0.6.
+  double min_matched_share = 0.62;
+  // Of an item's sigma in its volume; above, its volume is doubtful. One volume in thirty of rendered meals.
+  double max_sigma_share = 0.063;
+  std::size_t max_outline_points = 1024;   // of one dish in one view: a contour of 8 sides a point
+  std::size_t max_contour_sides = 8192;    // of one dish in one view, twice what a round one of 1600 px has
+  std::size_t max_height_cells = 180'000;  // of a dish's height map: 360 × 360 mm at 0.85 mm
+};
+
+struct BestParams {
+  CardAlignmentParams card;
+  PointTrackingParams tracking;
+  DishMembershipParams membership;
+  DishOutlineParams outline;
+  JointParams joint;
+  MatteParams matte;
+  TwoViewSurfaceParams surface;
+  RoundBodyParams round_body;
+  HeightMapParams height_map;
+  LevelLiquidParams liquid;
+  HeightVolumeParams volume;
+  OverhangParams overhang;
+  FoodAgreementParams agreement;
+  UncertaintyParams uncertainty;
+  BestPipelineParams pipeline;
+};
+
+}  // namespace traygauge

@@ -1,0 +1,120 @@
+#include "core/pipeline/scene_geometry.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/card/card.hpp"
+#include "core/dish/dish_outline.hpp"
+
+namespace traygauge {
+namespace {
+
+std::span<const DishModel> candidates_for(std::uint8_t label, std::span<const DishModel> dishes) {
+  const auto has_label = [&](const DishModel& dish) { return dish.label == label; };
+  const auto first = std::find_if(dishes.begin(), dishes.end(), has_label);
+  const auto last = std::find_if_not(first, dishes.end(), has_label);
+  return {first, last};
+}
+
+bool is_seen(const ViewPair& views, std::uint8_t label) {
+  return views[0]->regions.pixels[label] > 0 || views[1]->regions.pixels[label] > 0;
+}
+
+Status trace_outlines(const ViewPair& views, const Configuration& configuration,
+                      SceneGeometryWorkspace& workspace, const SceneGeometry& geometry) {
+  for (std::size_t d = 0; d < geometry.dish_count; ++d) {
+    const DishRegion region{geometry.dishes[d].label, geometry.dishes[d].labels};
+    for (std::size_t v = 0; v < 2; ++v) {
+      workspace.outlines[d][v].clear();
+      if (views[v]->regions.pixels[region.dish] == 0) continue;
+      const Status status =
+          trace_dish_outline(views[v]->labels, views[v]->lens, region, configuration.best.outline,
+                             workspace.outline, workspace.outlines[d][v]);
+      if (!status.ok()) return status;
+    }
+  }
+  return StatusCode::ok;
+}
+
+JointInput join(const ViewPair& views, const ReferenceCard& card, std::span<const PointTrack> tracks,
+                std::span<const JointDish> dishes) {
+  JointInput input;
+  for (std::size_t v = 0; v < 2; ++v) {
+    input.cards[v] = {views[v]->card().camera_from_table, views[v]->card().information};
+    input.focals_px[v] = views[v]->lens.pinhole.mean_focal_px();
+  }
+  input.card_middle_mm = print_point_mm({0.5 * card.width_mm, 0.5 * card.height_mm}, card.thickness_mm);
+  input.tracks = tracks;
+  input.dishes = dishes;
+  return input;
+}
+
+}  // namespace
+
+Status list_dishes(const ViewPair& views, const Configuration& configuration,
+                   SceneGeometryWorkspace& workspace, SceneGeometry& geometry) {
+  geometry.dish_count = 0;
+  for (int value = kDishLabel; value <= kLastFurtherDishLabel; ++value) {
+    const auto label = static_cast<std::uint8_t>(value);
+    if (!is_dish(label) || !is_seen(views, label)) continue;
+    if (geometry.dish_count == kMaxPlacedDishes) return StatusCode::too_many_dishes;
+    DishOnTray& dish = geometry.dishes[geometry.dish_count++];
+    dish = {label, {}, candidates_for(label, configuration.dishes)};
+    dish.labels.add(label);
+    if (dish.candidates.empty()) return StatusCode::dish_unknown;
+  }
+  if (geometry.dish_count == 0) return StatusCode::no_dish_label;
+  const std::array<ImageView<const std::uint8_t>, 2> labels = {views[0]->labels, views[1]->labels};
+  const DishOfItem owners =
+      geometry.dish_count > 1
+          ? find_dishes_of_items(labels, configuration.best.membership, workspace.membership)
+          : DishOfItem{};
+  for (int value = kFirstItemLabel; value <= kLastItemLabel; ++value) {
+    const auto label = static_cast<std::uint8_t>(value);
+    if (!is_seen(views, label)) continue;
+    for (std::size_t d = 0; d < geometry.dish_count; ++d) {
+      DishOnTray& dish = geometry.dishes[d];
+      if (dish.label == owners[label] || geometry.dish_count == 1) dish.labels.add(label);
+    }
+  }
+  return StatusCode::ok;
+}
+
+Status find_geometry(const ViewPair& views, const Configuration& configuration, Random& random,
+                     SceneGeometryWorkspace& workspace, StageClock& clock, MeasurementReport& report,
+                     SceneGeometry& geometry) {
+  const BestParams& best = configuration.best;
+  clock.enter(Stage::matching);
+  const TrackedView first{views[0]->gray, views[0]->labels, views[0]->lens};
+  const TrackedView second{views[1]->gray, views[1]->labels, views[1]->lens};
+  PointTrackingReport tracking;
+  Status status = track_points(
+      first, second, {views[0]->card().camera_from_table, views[1]->card().camera_from_table},
+      configuration.card.thickness_mm, best.tracking, random, workspace.tracking, geometry.tracks, tracking);
+  report.corners = static_cast<int>(tracking.corners);
+  report.matches = static_cast<int>(tracking.tracks);
+  if (!status.ok()) return status;
+
+  clock.enter(Stage::pose);
+  status = trace_outlines(views, configuration, workspace, geometry);
+  if (!status.ok()) return status;
+  status = refine_geometry(views, configuration.card, best.joint, workspace, geometry);
+  report.inliers = geometry.joint.lines.inliers;
+  report.inlier_threshold_px = best.joint.robust_sigmas * geometry.joint.lines.rms;
+  report.pose_iterations = geometry.joint.iterations;
+  report.rim_points = geometry.joint.rims.inliers;
+  return status;
+}
+
+Status refine_geometry(const ViewPair& views, const ReferenceCard& card, const JointParams& params,
+                       SceneGeometryWorkspace& workspace, SceneGeometry& geometry) {
+  std::array<JointDish, kMaxPlacedDishes> dishes;
+  for (std::size_t d = 0; d < geometry.dish_count; ++d) {
+    dishes[d] = {{workspace.outlines[d][0].items(), workspace.outlines[d][1].items()},
+                 geometry.dishes[d].candidates};
+  }
+  return refine_jointly(join(views, card, geometry.tracks, std::span(dishes).first(geometry.dish_count)),
+                        params, workspace.joint, geometry.joint);
+}
+
+}  // namespace traygauge

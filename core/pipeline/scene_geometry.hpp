@@ -1,0 +1,69 @@
+// Where cameras and dishes are: tracks, joint refinement, placement of every dish.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+
+#include "core/base/arena.hpp"
+#include "core/base/bounded_list.hpp"
+#include "core/base/random.hpp"
+#include "core/base/status.hpp"
+#include "core/pipeline/best_view.hpp"
+#include "core/pipeline/measurement.hpp"
+
+namespace traygauge {
+
+// A dish on the tray, by its label in both views.
+struct DishOnTray {
+  std::uint8_t label = kDishLabel;
+  LabelSet labels;                        // its own and its items'
+  std::span<const DishModel> candidates;  // the one described, or all that are known
+};
+
+struct SceneGeometry {
+  std::array<DishOnTray, kMaxPlacedDishes> dishes;
+  std::size_t dish_count = 0;
+  JointResult joint;
+  std::span<const PointTrack> tracks;
+};
+
+struct SceneGeometryWorkspace {
+  PointTrackingWorkspace tracking;
+  DishMembershipWorkspace membership;
+  DishOutlineWorkspace outline;
+  std::array<std::array<BoundedList<Vec2>, 2>, kMaxPlacedDishes> outlines;  // of every dish in both views
+  JointWorkspace joint;
+
+  template <class Allocator>
+  constexpr void allocate(Allocator& arena, const Configuration& configuration) {
+    const BestParams& best = configuration.best;
+    const EstimatorLimits& limits = configuration.limits;
+    tracking.allocate(arena, limits.max_frame_width, limits.max_frame_height, best.tracking);
+    membership.allocate(arena);
+    outline.allocate(arena, best.pipeline.max_contour_sides);
+    for (auto& views : outlines) {
+      for (BoundedList<Vec2>& rays : views) {
+        rays = BoundedList<Vec2>(arena.template take<Vec2>(best.pipeline.max_outline_points));
+      }
+    }
+    joint.allocate(arena, static_cast<std::size_t>(best.tracking.max_corners),
+                   best.pipeline.max_outline_points);
+  }
+};
+
+// Lists the dishes that either view shows, with what lies on them. no_dish_label without any; dish_unknown
+// when one of them has no description.
+Status list_dishes(const ViewPair& views, const Configuration& configuration,
+                   SceneGeometryWorkspace& workspace, SceneGeometry& geometry);
+
+// Fills the rest of `geometry` and the sparse part of the report.
+Status find_geometry(const ViewPair& views, const Configuration& configuration, Random& random,
+                     SceneGeometryWorkspace& workspace, StageClock& clock, MeasurementReport& report,
+                     SceneGeometry& geometry);
+
+// Its last step, the joint refinement, once more: with other candidates for the dishes, say.
+Status refine_geometry(const ViewPair& views, const ReferenceCard& card, const JointParams& params,
+                       SceneGeometryWorkspace& workspace, SceneGeometry& geometry);
+
+}  // namespace traygauge
