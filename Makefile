@@ -102,8 +102,8 @@ board-station: board-programs
 
 # The cross-build under user-mode emulation: tests of the core that need no captures, the drivers' tests, and the volumes of
 # the demo beside this machine's. Not card_alignment_test, which takes minutes: the volumes depend on the card's place.
-ARM_TESTS = base_test image_test matching_test tracking_test pose_test scale_test rectification_test plane_rectification_test \
-  semi_global_test dish_search_test food_outline_test pixels_test v4l2_test gpio_test serial_test drivers_test
+ARM_TESTS = base_test geometry_test image_test features_test tracking_test card_test adjustment_test dish_test segmentation_test \
+  stereo_test paper_sparse_test pixels_test v4l2_test gpio_test serial_test drivers_test
 arm_libraries = /usr/lib/aarch64-linux-gnu
 in_arm = qemu-aarch64-static -L $(arm_sysroot) -E LD_LIBRARY_PATH=$(arm_libraries)/blas:$(arm_libraries)/lapack
 arm-test: build arm-sysroot
@@ -127,7 +127,7 @@ check-format: packages
 format: packages
 	$(sources) | xargs clang-format -i
 
-# clang-tidy over everything that is shipped; LINT='core/pose/' for a part of it. It reads the commands of a build
+# clang-tidy over everything that is shipped; LINT='core/stereo/' for a part of it. It reads the commands of a build
 # without precompiled headers, because clang cannot read GCC's.
 LINT ?= (core|drivers|simulator|firmware)/
 lint: packages

@@ -31,7 +31,7 @@ Comparison compare_resampling(const StageData& data) {
     resample_undistorted(data.frames[0]->frame(), data.scene.lens, cutout, target_of(gray));
     return pixels_of(gray);
   };
-  const auto make_maps = [lens = OpenCvLens(data.scene.lens), camera = testing::camera_matrix(cutout.camera),
+  const auto make_maps = [lens = OpenCvLens(data.scene.lens), camera = test::camera_matrix(cutout.camera),
                           size = cv::Size(cutout.width, cutout.height)](cv::Mat& first, cv::Mat& second) {
     cv::initUndistortRectifyMap(lens.camera, lens.distortion, cv::noArray(), camera, size, CV_16SC2, first,
                                 second);
@@ -97,8 +97,8 @@ Method our_rectification(const StageData& data) {
 Comparison compare_rectification(const StageData& data) {
   const auto peer = [&data, rotation = rotation_matrix(data.other_from_reference.rotation),
                      translation = vector_of(data.other_from_reference.translation)] {
-    const std::array cameras{cv::Mat(testing::camera_matrix(data.cutouts[0].camera)),
-                             cv::Mat(testing::camera_matrix(data.cutouts[1].camera))};
+    const std::array cameras{cv::Mat(test::camera_matrix(data.cutouts[0].camera)),
+                             cv::Mat(test::camera_matrix(data.cutouts[1].camera))};
     std::array<cv::Mat, 2> turns;
     std::array<cv::Mat, 2> projections;
     cv::Mat disparity_to_depth;

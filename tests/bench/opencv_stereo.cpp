@@ -222,7 +222,7 @@ cv::Rect as_rect(const PixelBox& box) {
 }
 
 OpenCvLens::OpenCvLens(const LensModel& lens)
-    : camera(testing::camera_matrix(lens.pinhole)), distortion(testing::distortion_of(lens)) {}
+    : camera(test::camera_matrix(lens.pinhole)), distortion(test::distortion_of(lens)) {}
 
 OpenCvStereoInput OpenCvStereoInput::swapped() const {
   OpenCvStereoInput other{{gray[1], gray[0]},

@@ -89,10 +89,10 @@ TEST(DishSurveyOfCaptures, AnEnrolledDishMeasuresLikeItsTrueDescription) {
   const TemporaryFolder out;
   for (const std::string style : {"dinner", "soup", "oval"}) {
     SCOPED_TRACE(style);
-    testing::EmptyDishScene scene;
-    scene.dish = testing::read_dish_model(style);
+    test::EmptyDishScene scene;
+    scene.dish = test::read_dish_model(style);
     scene.glaze_contrast = 0.5;
-    const testing::EmptyDishCapture empty(scene);
+    const test::EmptyDishCapture empty(scene);
     const CommandResult enrolled =
         run({"enrol-dish", empty.folder().string(), "--style", style, "--out", out.path().string()});
     ASSERT_EQ(enrolled.status, 0) << enrolled.out << enrolled.error;

@@ -21,8 +21,8 @@ namespace traygauge {
 namespace {
 
 namespace fs = std::filesystem;
-using testing::FaultyCapture;
-using testing::FaultyView;
+using test::FaultyCapture;
+using test::FaultyView;
 
 constexpr double kFarOff = 0.20;
 
@@ -87,19 +87,18 @@ std::function<void(FaultyCapture&)> both(Spoil spoil) {
 }
 
 const auto defocused = [](double sigma_px) {
-  return [=](FaultyView& view) { testing::defocus(view, sigma_px); };
+  return [=](FaultyView& view) { test::defocus(view, sigma_px); };
 };
 const auto shaken = [](double length_px) {
-  return [=](FaultyView& view) { testing::shake(view, length_px, 25.0); };
+  return [=](FaultyView& view) { test::shake(view, length_px, 25.0); };
 };
-const auto exposed = [](double gain) { return [=](FaultyView& view) { testing::expose(view, gain); }; };
-const auto tinted = [](double ratio) { return [=](FaultyView& view) { testing::tint(view, ratio); }; };
+const auto exposed = [](double gain) { return [=](FaultyView& view) { test::expose(view, gain); }; };
+const auto tinted = [](double ratio) { return [=](FaultyView& view) { test::tint(view, ratio); }; };
 const auto noisy = [](double sigma) {
-  return [=](FaultyView& view) {
-    testing::add_noise(view, sigma, static_cast<unsigned>(view.picture(0, 0)[0]));
-  };
+  return
+      [=](FaultyView& view) { test::add_noise(view, sigma, static_cast<unsigned>(view.picture(0, 0)[0])); };
 };
-const auto covered = [](double share) { return [=](FaultyView& view) { testing::cover_card(view, share); }; };
+const auto covered = [](double share) { return [=](FaultyView& view) { test::cover_card(view, share); }; };
 
 // The earlier stages may refuse first.
 const std::set<std::string> kNoCard = {"card_not_found", "pose_contradicts_card", "pose_not_found",
@@ -124,20 +123,20 @@ std::vector<Fault> faults_of_pictures() {
        false},
       {"a third of the card covered", second(covered(0.35)), {"card_hidden"}, ""},
       {"dish out of the frame",
-       second([](FaultyView& view) { testing::shift_dish_out(view, 20); }),
+       second([](FaultyView& view) { test::shift_dish_out(view, 20); }),
        {"dish_cut_off"},
        ""},
-      {"food in one colour", both(testing::paint_items_flat), or_no_card({"item_textureless"}), ""},
+      {"food in one colour", both(test::paint_items_flat), or_no_card({"item_textureless"}), ""},
       {"food in one colour, with noise", both([](FaultyView& view) {
-         testing::paint_items_flat(view);
-         testing::add_noise(view, 5.0, 3);
+         test::paint_items_flat(view);
+         test::add_noise(view, 5.0, 3);
        }),
        or_no_card({"item_textureless"}), ""},
       {"32 times the light", both(exposed(32.0)), or_no_card({"frame_too_bright", "item_clipped"}), ""},
       {"a fifth of the light, over and under",
        [](FaultyCapture& capture) {
-         testing::expose(capture.view(0), 0.25);
-         testing::expose(capture.view(1), 4.0);
+         test::expose(capture.view(0), 0.25);
+         test::expose(capture.view(1), 4.0);
        },
        or_no_card({"exposure_differs"}), of(Warning::exposure_differs), false},
       {"a 20th of the light in one", second(exposed(0.05)), {"exposure_differs"}, ""},
@@ -168,11 +167,11 @@ std::vector<Fault> faults_of_scenes(const std::string& /*profile*/) {
                                        "disparity_range_too_large"};
   return {
       {"tray moved under a still camera",
-       [](FaultyCapture& capture) { testing::keep_table_still(capture.view(0), capture.view(1)); }, moved, "",
+       [](FaultyCapture& capture) { test::keep_table_still(capture.view(0), capture.view(1)); }, moved, "",
        false},
       {"item pushed by its own size",
        second([](FaultyView& view) {
-         testing::move_item(view, 2, {0, 90});
+         test::move_item(view, 2, {0, 90});
        }),
        {"labels_inconsistent", "item_moved"},
        "",

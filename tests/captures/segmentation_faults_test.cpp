@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
-using testing::FaultyCapture;
+using test::FaultyCapture;
 
 const fs::path kDemo = TRAYGAUGE_SOURCE_DIR "/simulator/demo";
 
@@ -130,7 +130,7 @@ TEST(HiddenCard, IsDoubted) {
   for (const double share : {0.2, 0.35, 0.5, 0.8, 1.0}) {
     SCOPED_TRACE(share);
     FaultyCapture capture(kDemo / "mash_and_meatballs", {0, 1});
-    testing::cover_card(capture.view(1), share);
+    test::cover_card(capture.view(1), share);
     expect_doubt(capture);
   }
 }
@@ -149,7 +149,7 @@ TEST(BentCard, IsDoubted) {
   for (const double rise_px : {5.0, 10.0}) {
     SCOPED_TRACE(rise_px);
     FaultyCapture capture(kDemo / "mash_and_meatballs", {0, 1});
-    testing::bend_card(capture.view(1), rise_px);
+    test::bend_card(capture.view(1), rise_px);
     expect_doubt(capture);
   }
 }

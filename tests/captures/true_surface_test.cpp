@@ -14,8 +14,8 @@
 namespace traygauge {
 namespace {
 
-using testing::CaptureTruth;
-using testing::TrueView;
+using test::CaptureTruth;
+using test::TrueView;
 
 constexpr unsigned kSeed = 9;
 constexpr int kPixels = 3000;
@@ -38,9 +38,9 @@ Sight sight_of(const TrueView& view, const cv::Point& pixel) {
 class TrueSurfaceOfM01 : public ::testing::Test {
  protected:
   void SetUp() override {
-    if (testing::captures_folder().empty()) GTEST_SKIP() << "TRAYGAUGE_CAPTURES names no captures";
-    const std::filesystem::path folder = testing::captures_folder() / "meals" / "m01";
-    capture_ = testing::read_capture_truth(folder);
+    if (test::captures_folder().empty()) GTEST_SKIP() << "TRAYGAUGE_CAPTURES names no captures";
+    const std::filesystem::path folder = test::captures_folder() / "meals" / "m01";
+    capture_ = test::read_capture_truth(folder);
     depth_mm_ = capture_.read_depth_mm();
     labels_ = capture_.views[0].read_labels();
     surface_ = TrueSurface::read(read_capture(folder), read_truth(folder).value());
@@ -145,8 +145,8 @@ TEST_F(TrueSurfaceOfM01, FromTheSecondEyeProjectsOntoTheDepthPicture) {
     const Vec3 hit = sight.eye_mm + *found_mm * sight.direction;
     std::vector<cv::Point2d> projected;
     cv::projectPoints(std::vector<cv::Point3d>{{hit.x(), hit.y(), hit.z()}}, rotation_vector,
-                      cv::Vec3d(t.x(), t.y(), t.z()), testing::camera_matrix(first.lens.pinhole),
-                      testing::distortion_of(first.lens), projected);
+                      cv::Vec3d(t.x(), t.y(), t.z()), test::camera_matrix(first.lens.pinhole),
+                      test::distortion_of(first.lens), projected);
     const cv::Point nearest(projected[0]);
     if (!cv::Rect(1, 1, labels_.cols - 2, labels_.rows - 2).contains(nearest)) continue;
     if (!is_smooth(nearest)) {

@@ -5,7 +5,7 @@
 #include <numbers>
 #include <opencv2/imgproc.hpp>
 
-#include "tests/core/pose/scenes.hpp"
+#include "tests/core/paper/motion_scenes.hpp"
 #include "tests/evaluation/methods/height_sweep.hpp"
 #include "tests/evaluation/methods/single_view.hpp"
 #include "tests/evaluation/methods/solid.hpp"
@@ -29,7 +29,7 @@ Solid example(Template shape) {
 }
 
 Pose camera_from_dish(double tilt_deg, double azimuth_deg) {
-  return traygauge::testing::camera_above(tilt_deg * kRadians, azimuth_deg * kRadians, 480.0);
+  return traygauge::test::camera_above(tilt_deg * kRadians, azimuth_deg * kRadians, 480.0);
 }
 
 // Where the line of sight of a pixel first meets the solid, or the plane: steps along the ray, then
@@ -113,7 +113,7 @@ std::vector<Vec3> cloud_on(const Solid& solid, int count, double noise_mm, doubl
     const Vec2 place =
         solid.centre_mm + Vec2(50.0 * (2.0 * random.uniform() - 1.0), 50.0 * (2.0 * random.uniform() - 1.0));
     if (relative_height(solid, place) <= 0.0) continue;
-    double z = height_at(solid, place) + noise_mm * traygauge::testing::normal(random);
+    double z = height_at(solid, place) + noise_mm * traygauge::test::normal(random);
     if (random.uniform() < outlier_share) z += 60.0 + 100.0 * random.uniform();
     points.emplace_back(place.x(), place.y(), z);
   }
@@ -189,7 +189,7 @@ TEST(PaperTables, EveryVariantHasSettingsThatHold) {
   for (const Table& table : paper_tables()) {
     for (const Row& row : table.rows) {
       Configuration configuration = configure(row.variant);
-      configuration.lens = traygauge::testing::phone_lens();
+      configuration.lens = traygauge::test::phone_lens();
       configuration.card.pattern = {print.data(), 200, 126};
       EXPECT_TRUE(validate_apart_from_dishes(configuration).ok()) << row.title;
     }

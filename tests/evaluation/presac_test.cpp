@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/core/pose/scenes.hpp"
+#include "tests/core/paper/motion_scenes.hpp"
 
 namespace traygauge::tables {
 namespace {
@@ -21,30 +21,29 @@ TEST(Presac, HalvesItsHypothesesAfterEveryBlock) {
 // Unrefined: the best of many samples of five.
 TEST(Presac, FindsTheMotionAmongOutliers) {
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
-    traygauge::testing::TrayOptions options;
+    traygauge::test::TrayOptions options;
     options.angle_deg = 20.0;
     options.noise_px = 0.3;
     options.outlier_share = 0.3;
-    const auto scene = traygauge::testing::tray_scene(seed, options);
+    const auto scene = traygauge::test::tray_scene(seed, options);
     Random random(seed);
     Presac presac;
     Pose found;
-    ASSERT_TRUE(presac.find_motion(scene.matches, traygauge::testing::kFocalPx, random, found))
+    ASSERT_TRUE(presac.find_motion(scene.matches, traygauge::test::kFocalPx, random, found))
         << "seed " << seed;
-    EXPECT_LT(traygauge::testing::rotation_error_deg(found, scene.second_from_first), 1.0) << "seed " << seed;
-    EXPECT_LT(traygauge::testing::direction_error_deg(found, scene.second_from_first), 3.0)
-        << "seed " << seed;
+    EXPECT_LT(traygauge::test::rotation_error_deg(found, scene.second_from_first), 1.0) << "seed " << seed;
+    EXPECT_LT(traygauge::test::direction_error_deg(found, scene.second_from_first), 3.0) << "seed " << seed;
   }
 }
 
 TEST(Presac, ExactMatchesGiveTheExactMotion) {
-  const auto scene = traygauge::testing::tray_scene(3, {});
+  const auto scene = traygauge::test::tray_scene(3, {});
   Random random(1);
   Presac presac;
   Pose found;
-  ASSERT_TRUE(presac.find_motion(scene.matches, traygauge::testing::kFocalPx, random, found));
-  EXPECT_LT(traygauge::testing::rotation_error_deg(found, scene.second_from_first), 1e-3);
-  EXPECT_LT(traygauge::testing::direction_error_deg(found, scene.second_from_first), 1e-2);
+  ASSERT_TRUE(presac.find_motion(scene.matches, traygauge::test::kFocalPx, random, found));
+  EXPECT_LT(traygauge::test::rotation_error_deg(found, scene.second_from_first), 1e-3);
+  EXPECT_LT(traygauge::test::direction_error_deg(found, scene.second_from_first), 1e-2);
 }
 
 TEST(Presac, SaysWhenThereIsNothingToFind) {

@@ -53,7 +53,7 @@ DishDescription draw_dish(std::mt19937& random) {
 TEST(DishFile, WhatIsWrittenIsReadBack) {
   const TemporaryFolder folder;
   const fs::path file = folder.path() / "dish.toml";
-  std::mt19937 random(testing::random_seed());
+  std::mt19937 random(test::random_seed());
   for (int round = 0; round < 200; ++round) {
     DishDescription dish = draw_dish(random);
     dish.style = round % 2 == 0 ? "soup" : "";

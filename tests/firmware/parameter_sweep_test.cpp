@@ -144,7 +144,7 @@ class ParameterSweep : public ::testing::TestWithParam<Profile> {
     }
   }
 
-  const std::uint64_t seed_ = testing::random_seed();
+  const std::uint64_t seed_ = test::random_seed();
   double share_ = 1.0;  // of what is tried: a part where sanitizers take ten times as long
   int volumes_ = 0;
 

@@ -9,7 +9,7 @@
 #include "core/geometry/camera.hpp"
 #include "core/geometry/geometry.hpp"
 
-namespace traygauge::testing {
+namespace traygauge::test {
 
 // World to camera: at `position`, its axis through `target`, rolled about it.
 inline Pose looking_at(const Vec3& position, const Vec3& target, double roll_rad) {
@@ -67,4 +67,4 @@ inline LensModel phone_lens(double scale = 1.0) {
   return lens;
 }
 
-}  // namespace traygauge::testing
+}  // namespace traygauge::test

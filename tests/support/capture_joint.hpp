@@ -11,7 +11,7 @@
 #include "core/geometry/table_frame.hpp"
 #include "tests/support/capture_truth.hpp"
 
-namespace traygauge::testing {
+namespace traygauge::test {
 
 struct TrueDish {
   DishModel model;
@@ -90,4 +90,4 @@ inline JointCapture read_joint_capture(const std::string& name) {
   return capture;
 }
 
-}  // namespace traygauge::testing
+}  // namespace traygauge::test

@@ -7,7 +7,7 @@
 #include <opencv2/imgproc.hpp>
 #include <string>
 
-namespace traygauge::testing {
+namespace traygauge::test {
 namespace {
 
 constexpr double kDepthUnitMm = 0.02;  // of depth_0.png
@@ -147,4 +147,4 @@ cv::Mat Undistortion::apply(const cv::Mat& stored, int interpolation) const {
   return target;
 }
 
-}  // namespace traygauge::testing
+}  // namespace traygauge::test

@@ -12,7 +12,7 @@
 #include "core/geometry/geometry.hpp"
 #include "tests/support/opencv_camera.hpp"
 
-namespace traygauge::testing {
+namespace traygauge::test {
 
 inline constexpr double kWorkingDishPixels = 131072.0;  // 2^17: what the dish measures in a working picture
 
@@ -73,4 +73,4 @@ class Undistortion {
   cv::Mat map_y_;
 };
 
-}  // namespace traygauge::testing
+}  // namespace traygauge::test

@@ -13,7 +13,7 @@
 #include "firmware/measure/pair_setup.hpp"
 #include "tests/support/synthetic_scene.hpp"
 
-namespace traygauge::testing {
+namespace traygauge::test {
 namespace {
 
 constexpr int kWidth = 1200;
@@ -239,4 +239,4 @@ void paint_labels(const std::filesystem::path& folder, int view, const cv::Rect&
   cv::imwrite(file, labels);
 }
 
-}  // namespace traygauge::testing
+}  // namespace traygauge::test

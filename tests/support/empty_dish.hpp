@@ -11,7 +11,7 @@
 #include "core/geometry/geometry.hpp"
 #include "tests/simulator/capture/temporary_capture.hpp"
 
-namespace traygauge::testing {
+namespace traygauge::test {
 
 struct EmptyDishScene {
   DishModel dish;
@@ -44,4 +44,4 @@ class EmptyDishCapture {
 // Writes into the label picture of a view of such a folder.
 void paint_labels(const std::filesystem::path& folder, int view, const cv::Rect& area, std::uint8_t label);
 
-}  // namespace traygauge::testing
+}  // namespace traygauge::test

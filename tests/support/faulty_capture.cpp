@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-namespace traygauge::testing {
+namespace traygauge::test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -256,4 +256,4 @@ void keep_table_still(const FaultyView& first, FaultyView& second) {
   second.picture = table;
 }
 
-}  // namespace traygauge::testing
+}  // namespace traygauge::test

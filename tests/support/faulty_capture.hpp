@@ -8,7 +8,7 @@
 
 #include "tests/simulator/capture/temporary_capture.hpp"
 
-namespace traygauge::testing {
+namespace traygauge::test {
 
 struct FaultyView {
   cv::Mat3b picture;
@@ -53,4 +53,4 @@ void move_item(FaultyView& view, int label, cv::Point offset_px);
 // second view shows them, on the table of the first.
 void keep_table_still(const FaultyView& first, FaultyView& second);
 
-}  // namespace traygauge::testing
+}  // namespace traygauge::test

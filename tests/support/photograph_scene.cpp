@@ -7,10 +7,10 @@
 #include <opencv2/imgproc.hpp>
 #include <utility>
 
-#include "tests/core/pose/photographs.hpp"
-#include "tests/core/surface/capture_scene.hpp"
+#include "tests/core/paper/photographs.hpp"
+#include "tests/core/stereo/capture_scene.hpp"
 
-namespace traygauge::testing {
+namespace traygauge::test {
 namespace {
 
 constexpr int kFeatures = 5000;
@@ -187,4 +187,4 @@ SurfaceDeviation compare_depth(const cv::Mat1f& depth_mm, const cv::Mat1f& refer
   return deviations.summary();
 }
 
-}  // namespace traygauge::testing
+}  // namespace traygauge::test

@@ -9,7 +9,7 @@
 #include "core/stereo/surface_grid.hpp"
 #include "tests/support/capture_truth.hpp"
 
-namespace traygauge::testing {
+namespace traygauge::test {
 
 struct Photograph {
   TrueView view;  // its world is the table frame, mm
@@ -53,4 +53,4 @@ SurfaceDeviation compare_depth(const cv::Mat1f& depth_mm, const Photograph& seen
 SurfaceDeviation compare_depth(const cv::Mat1f& depth_mm, const cv::Mat1f& reference_mm,
                                const Photograph& seen, const Photograph& other);
 
-}  // namespace traygauge::testing
+}  // namespace traygauge::test

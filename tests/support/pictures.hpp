@@ -7,7 +7,7 @@
 
 #include "core/image_view/image_view.hpp"
 
-namespace traygauge::testing {
+namespace traygauge::test {
 
 template <class T>
 ImageView<T> view_of(cv::Mat_<T>& picture) {
@@ -37,4 +37,19 @@ inline cv::Mat random_picture(int width, int height, int type, cv::RNG& rng) {
   return picture;
 }
 
-}  // namespace traygauge::testing
+// Band-limited noise with blobs of many sizes.
+inline cv::Mat textured_picture(int width, int height, std::uint64_t seed) {
+  cv::RNG rng(seed);
+  cv::Mat sum = cv::Mat::zeros(height, width, CV_32F);
+  for (const double sigma : {1.5, 3.0, 6.0, 12.0}) {
+    cv::Mat noise(height, width, CV_32F);
+    rng.fill(noise, cv::RNG::NORMAL, 0.0, 1.0);
+    cv::GaussianBlur(noise, noise, cv::Size(), sigma);
+    sum += noise * sigma;
+  }
+  cv::Mat gray;
+  cv::normalize(sum, gray, 10, 245, cv::NORM_MINMAX, CV_8U);
+  return gray;
+}
+
+}  // namespace traygauge::test

@@ -6,7 +6,7 @@
 
 #include "core/dish/dish_profile.hpp"
 
-namespace traygauge::testing {
+namespace traygauge::test {
 
 struct ProfileDifference {
   double worst_mm = 0.0;
@@ -35,4 +35,4 @@ inline ProfileDifference compare_profiles(const DishModel& found, const DishMode
   return difference;
 }
 
-}  // namespace traygauge::testing
+}  // namespace traygauge::test

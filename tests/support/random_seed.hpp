@@ -6,7 +6,7 @@
 #include <iostream>
 #include <random>
 
-namespace traygauge::testing {
+namespace traygauge::test {
 
 // TRAYGAUGE_SEED where it is set. Where CI is set always the same, so that a failure there comes from the
 // change; else another each time. Printed at once: a crash must not swallow it.
@@ -22,4 +22,4 @@ inline std::uint32_t random_seed() {
   return seed;
 }
 
-}  // namespace traygauge::testing
+}  // namespace traygauge::test

@@ -5,10 +5,10 @@
 #include <vector>
 
 #include "core/tracking/pose_correction.hpp"
-#include "tests/core/pose/scenes.hpp"
-#include "tests/core/surface/capture_scene.hpp"
+#include "tests/core/paper/motion_scenes.hpp"
+#include "tests/core/stereo/capture_scene.hpp"
 
-namespace traygauge::testing {
+namespace traygauge::test {
 namespace {
 
 TrackedView tracked(const Photograph& photograph, const PyramidWorkspace& pyramid) {
@@ -50,4 +50,4 @@ double median_epipolar_px(std::span<const RayMatch> matches, const TableCameras&
   return *middle;
 }
 
-}  // namespace traygauge::testing
+}  // namespace traygauge::test

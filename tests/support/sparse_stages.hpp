@@ -8,10 +8,10 @@
 #include "core/adjustment/bundle_adjustment.hpp"
 #include "core/paper/pose/ray_match.hpp"
 #include "core/tracking/point_tracking.hpp"
-#include "tests/core/surface/block.hpp"
+#include "tests/support/allocated.hpp"
 #include "tests/support/photograph_scene.hpp"
 
-namespace traygauge::testing {
+namespace traygauge::test {
 
 class SparseStages {
  public:
@@ -43,4 +43,4 @@ PoseDeviation compare_motion(const TableCameras& found, const TableCameras& trut
 // Median distance of matches from their epipolar lines in the second view.
 double median_epipolar_px(std::span<const RayMatch> matches, const TableCameras& cameras, double focal_px);
 
-}  // namespace traygauge::testing
+}  // namespace traygauge::test

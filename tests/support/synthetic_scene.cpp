@@ -212,7 +212,7 @@ Vec2 SyntheticCamera::project(const Vec3& point_mm) const {
 SyntheticCamera look_at(const Vec3& position, const Vec3& target, double roll_rad, double focal_px, int width,
                         int height) {
   const PinholeCamera pinhole{focal_px, focal_px, 0.5 * (width - 1), 0.5 * (height - 1)};
-  return {pinhole, width, height, testing::looking_at(position, target, roll_rad)};
+  return {pinhole, width, height, test::looking_at(position, target, roll_rad)};
 }
 
 Pose second_from_first(const SyntheticCamera& first, const SyntheticCamera& second) {

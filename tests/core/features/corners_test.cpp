@@ -7,25 +7,24 @@
 #include <vector>
 
 #include "core/features/corners.hpp"
-#include "surf_on_picture.hpp"
-#include "tests/core/matching/workspace_block.hpp"
+#include "tests/support/allocated.hpp"
 #include "tests/support/pictures.hpp"
 
 namespace traygauge {
 namespace {
 
-using testing::view_of;
+using test::view_of;
 
 TEST(CornerResponse, EqualsOpenCvsSmallerEigenvalue) {
-  const cv::Mat gray = testing::textured_picture(211, 97, 3);
+  const cv::Mat gray = test::textured_picture(211, 97, 3);
   cv::Mat1f oracle;
   constexpr int kWindow = 2 * kCornerWindowRadius + 1;
   cv::cornerMinEigenVal(gray, oracle, kWindow, 3);
   // OpenCV scales 8-bit gradients by 1 / (255 · 4 · window) and adds up over the window; its Sobel is 4 times
   // a mean difference of two pixels, ours counts per pixel and averages.
   const double scale = 255.0 * 255.0 * 16.0 * kWindow * kWindow / (64.0 * kWindow * kWindow);
-  WithMemory<CornerResponseWorkspace> memory(gray.cols);
-  CornerResponse response(view_of(gray), memory.workspace);
+  test::Allocated<CornerResponseWorkspace> memory(gray.cols);
+  CornerResponse response(view_of(gray), *memory);
   std::vector<float> row(static_cast<std::size_t>(gray.cols));
   double strongest = 0.0;
   for (int y = response.first_row(); y < response.end_row(); ++y) {
@@ -45,13 +44,13 @@ class Corners : public ::testing::Test {
   static constexpr int kHeight = 240;
 
   Corners() : storage_(1000), labels_(2 * kHeight, 2 * kWidth, std::uint8_t{0}) {
-    gray_ = testing::textured_picture(kWidth, kHeight, 5);
+    gray_ = test::textured_picture(kWidth, kHeight, 5);
   }
   std::vector<Corner> find(std::uint64_t seed, std::span<const std::uint8_t> hidden = {}) {
-    WithMemory<CornerWorkspace> memory(kWidth, kHeight, params_);
+    test::Allocated<CornerWorkspace> memory(kWidth, kHeight, params_);
     BoundedList<Corner> corners{std::span<Corner>(storage_)};
     Random random(seed);
-    find_corners({view_of(gray_), view_of(labels_), 2, hidden}, params_, random, memory.workspace, corners);
+    find_corners({view_of(gray_), view_of(labels_), 2, hidden}, params_, random, *memory, corners);
     return {corners.begin(), corners.end()};
   }
   static std::set<std::pair<int, int>> places(const std::vector<Corner>& corners) {

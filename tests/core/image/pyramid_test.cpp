@@ -9,8 +9,8 @@
 namespace traygauge {
 namespace {
 
-using testing::random_picture;
-using testing::view_of;
+using test::random_picture;
+using test::view_of;
 
 // Every size is made even by OpenCV's border replication, then compared pixel by pixel.
 TEST(Halve, IsTheRoundedMeanOfFourWithTheBorderRepeated) {

@@ -14,9 +14,9 @@
 namespace traygauge {
 namespace {
 
-using testing::frame_of;
-using testing::random_picture;
-using testing::view_of;
+using test::frame_of;
+using test::random_picture;
+using test::view_of;
 
 TEST(ConvertToGray, EqualsOpenCvBitByBit) {
   cv::RNG rng(7);
@@ -120,9 +120,9 @@ cv::Mat smooth_colours(int width, int height) {
 
 cv::Mat remap_through_lens(const cv::Mat& frame, const LensModel& lens, const Cutout& cutout, int mode) {
   cv::Mat map_x, map_y, result;
-  cv::initUndistortRectifyMap(testing::camera_matrix(lens.pinhole), testing::distortion_of(lens),
-                              cv::noArray(), testing::camera_matrix(cutout.camera),
-                              {cutout.width, cutout.height}, CV_32FC1, map_x, map_y);
+  cv::initUndistortRectifyMap(test::camera_matrix(lens.pinhole), test::distortion_of(lens), cv::noArray(),
+                              test::camera_matrix(cutout.camera), {cutout.width, cutout.height}, CV_32FC1,
+                              map_x, map_y);
   cv::remap(frame, result, map_x, map_y, mode);
   return result;
 }

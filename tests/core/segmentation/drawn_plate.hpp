@@ -13,9 +13,9 @@
 #include <vector>
 
 #include "core/segmentation/food_outline.hpp"
-#include "tests/core/matching/workspace_block.hpp"
+#include "tests/support/allocated.hpp"
 
-namespace traygauge::testing {
+namespace traygauge::test {
 
 inline constexpr int kSide = 600;
 inline constexpr double kPxPerMm = 2.5;
@@ -69,7 +69,7 @@ class Plate {
   int outline(std::vector<std::uint8_t>& labels, DishRaster& raster) {
     const FrameView frame{pixels_.data(), kSide, kSide, 3 * kSide, PixelFormat::bgr8};
     std::vector<Vec2> rim = ring(kRimPx);
-    EXPECT_TRUE(load_dish_raster(frame, rim, kPxPerMm, params_.raster, memory_.workspace.raster, raster));
+    EXPECT_TRUE(load_dish_raster(frame, rim, kPxPerMm, params_.raster, memory_->raster, raster));
     raster.depth_mm = depth_mm_;
     mark_zone(raster, rim, DishZone::edge);
     rim = ring(kRimPx - 6.0);
@@ -80,8 +80,8 @@ class Plate {
     const ImageView<std::uint8_t> cells{labels.data(), raster.width(), raster.height()};
     lay_relief(raster);
     const ImageView<const ReliefSample> relief{relief_.data(), raster.width(), raster.height()};
-    EXPECT_TRUE(outline_food(raster, relief, params_, memory_.workspace, cells));
-    return label_items(raster, relief, params_, memory_.workspace, kFirstItemLabel, 100, cells).items;
+    EXPECT_TRUE(outline_food(raster, relief, params_, *memory_, cells));
+    return label_items(raster, relief, params_, *memory_, kFirstItemLabel, 100, cells).items;
   }
 
   // Share of the cells whose being food or not is right.
@@ -173,7 +173,7 @@ class Plate {
   std::vector<ReliefSample> relief_;
   std::vector<std::uint8_t> pixels_;
   FoodOutlineParams params_;
-  WithMemory<FoodOutlineWorkspace> memory_{FoodOutlineParams{}};
+  test::Allocated<FoodOutlineWorkspace> memory_{FoodOutlineParams{}};
 };
 
 inline constexpr std::array<int, 3> kWhite = {204, 209, 214};
@@ -182,4 +182,4 @@ inline constexpr std::array<int, 3> kBrown = {40, 80, 150};
 inline constexpr std::array<int, 3> kOchre = {50, 110, 160};
 inline constexpr std::array<int, 3> kOrange = {40, 110, 210};
 
-}  // namespace traygauge::testing
+}  // namespace traygauge::test

@@ -9,20 +9,20 @@
 #include <random>
 #include <vector>
 
-#include "tests/core/matching/workspace_block.hpp"
 #include "tests/core/segmentation/drawn_plate.hpp"
+#include "tests/support/allocated.hpp"
 
 namespace traygauge {
 namespace {
 
-using testing::Disc;
-using testing::kBrown;
-using testing::kGreen;
-using testing::kOchre;
-using testing::kOrange;
-using testing::kPxPerMm;
-using testing::kWhite;
-using testing::Plate;
+using test::Disc;
+using test::kBrown;
+using test::kGreen;
+using test::kOchre;
+using test::kOrange;
+using test::kPxPerMm;
+using test::kWhite;
+using test::Plate;
 
 TEST(FoodOutline, EmptyPlateHasNoFood) {
   Plate plate({}, 0.25);
@@ -169,15 +169,15 @@ TEST(FoodOutline, WhatLiesWithinAnItemIsItsOwnOnlyWhereItStandsOut) {
 
 TEST(FoodOutline, NoFlangeNoAnswer) {
   DishRasterParams params;
-  WithMemory<FoodOutlineWorkspace> memory{FoodOutlineParams{}};
+  test::Allocated<FoodOutlineWorkspace> memory{FoodOutlineParams{}};
   const std::vector<std::uint8_t> pixels(std::size_t{3} * 64 * 64, 200);
   const FrameView frame{pixels.data(), 64, 64, 3 * 64, PixelFormat::bgr8};
   const std::vector<Vec2> box = {{0, 0}, {63, 0}, {63, 63}, {0, 63}};
   DishRaster raster;
-  ASSERT_TRUE(load_dish_raster(frame, box, kPxPerMm, params, memory.workspace.raster, raster));
+  ASSERT_TRUE(load_dish_raster(frame, box, kPxPerMm, params, memory->raster, raster));
   std::vector<std::uint8_t> labels(static_cast<std::size_t>(raster.width() * raster.height()));
   const std::vector<ReliefSample> relief(labels.size());
-  EXPECT_FALSE(outline_food(raster, {relief.data(), raster.width(), raster.height()}, {}, memory.workspace,
+  EXPECT_FALSE(outline_food(raster, {relief.data(), raster.width(), raster.height()}, {}, *memory,
                             {labels.data(), raster.width(), raster.height()}));
 }
 
@@ -203,11 +203,10 @@ TEST(FoodField, OutlineCostDecidesHowFarCellsAgree) {
     params.fold = 1;
     params.sweeps = 400;
     const GlazeColour glaze{colours.front(), 4.0, 1.0};
-    WithMemory<FoodFieldWorkspace> memory{kWide * kWide};
+    test::Allocated<FoodFieldWorkspace> memory{kWide * kWide};
     std::vector<std::uint8_t> cells(colours.size());
     const auto count_food = [&] {
-      find_food(raster, {relief.data(), kWide, kWide}, glaze, params, memory.workspace,
-                {cells.data(), kWide, kWide});
+      find_food(raster, {relief.data(), kWide, kWide}, glaze, params, *memory, {cells.data(), kWide, kWide});
       return static_cast<int>(std::count(cells.begin(), cells.end(), kFoodSeed));
     };
     params.outline = 0.0;
@@ -231,10 +230,9 @@ TEST(Geodesic, OwnersAreThoseOfTheShortestWay) {
     for (int i = 0; i < 4; ++i) owners[random() % owners.size()] = static_cast<std::uint8_t>(1 + i);
     for (int i = 0; i < 60; ++i) owners[random() % owners.size()] = kBarred;
     const std::vector<std::uint8_t> seeds = owners;
-    WithMemory<GeodesicWorkspace> memory{kWidth * kHeight};
+    test::Allocated<GeodesicWorkspace> memory{kWidth * kHeight};
     const GeodesicParams params;
-    spread_owners({colours.data(), kWidth, kHeight}, params, memory.workspace,
-                  {owners.data(), kWidth, kHeight});
+    spread_owners({colours.data(), kWidth, kHeight}, params, *memory, {owners.data(), kWidth, kHeight});
 
     const auto cost = [&](int a, int b) {
       const auto& p = colours[static_cast<std::size_t>(a)];
@@ -272,9 +270,9 @@ TEST(Geodesic, OwnersAreThoseOfTheShortestWay) {
         if (seeds[i] == kBarred) {
           EXPECT_EQ(owners[i], kBarred);
         } else if (owners[i] == label) {
-          EXPECT_EQ(memory.workspace.distance[i], distance[i]);
+          EXPECT_EQ(memory->distance[i], distance[i]);
         } else if (owners[i] != kNoOwner) {
-          EXPECT_LE(memory.workspace.distance[i], distance[i]);
+          EXPECT_LE(memory->distance[i], distance[i]);
         } else {
           EXPECT_GE(distance[i], 1 << 20);
         }

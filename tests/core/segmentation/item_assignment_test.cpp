@@ -10,7 +10,7 @@
 
 #include "core/labels/label_regions.hpp"
 #include "core/segmentation/geodesic.hpp"
-#include "tests/core/matching/workspace_block.hpp"
+#include "tests/support/allocated.hpp"
 #include "tests/support/random_seed.hpp"
 
 namespace traygauge {
@@ -52,8 +52,8 @@ class TwoFoods {
   }
 
   void assign(const ItemAssignmentParams& params = {}) {
-    WithMemory<ItemAssignmentWorkspace> memory(kSide * kSide, params);
-    assign_items(raster, kUnknown, params, memory.workspace, cells);
+    test::Allocated<ItemAssignmentWorkspace> memory(kSide * kSide, params);
+    assign_items(raster, kUnknown, params, *memory, cells);
   }
 
   DishRaster raster;
@@ -89,7 +89,7 @@ Tally tally(ImageView<const std::uint8_t> cells, int border) {
 }
 
 TEST(ItemAssignment, BorderMovesToWhereTheColoursChange) {
-  const std::uint32_t seed = testing::random_seed();
+  const std::uint32_t seed = test::random_seed();
   SCOPED_TRACE(seed);
   for (const int drawn : {46, 54, 60, 66, 74}) {
     TwoFoods foods(seed);
@@ -104,7 +104,7 @@ TEST(ItemAssignment, BorderMovesToWhereTheColoursChange) {
 }
 
 TEST(ItemAssignment, SeedsSpread) {
-  const std::uint32_t seed = testing::random_seed();
+  const std::uint32_t seed = test::random_seed();
   SCOPED_TRACE(seed);
   TwoFoods foods(seed);
   foods.paint(60);
@@ -156,7 +156,7 @@ TEST(ItemAssignment, WhatIsFarAwayStaysAnItemOfItsOwn) {
 }
 
 TEST(ItemAssignment, GlazeIsNeverLabelled) {
-  const std::uint32_t seed = testing::random_seed();
+  const std::uint32_t seed = test::random_seed();
   SCOPED_TRACE(seed);
   TwoFoods foods(seed);
   foods.paint(60);

@@ -9,7 +9,7 @@
 #include <random>
 #include <vector>
 
-#include "tests/core/matching/workspace_block.hpp"
+#include "tests/support/allocated.hpp"
 
 namespace traygauge {
 namespace {
@@ -62,7 +62,7 @@ class Food {
     DishRaster raster;
     raster.colours = {colours_.data(), kWide, kWide};
     raster.zones = {zones_.data(), kWide, kWide};
-    return split_items(raster, {relief_.data(), kWide, kWide}, kFood, 1.0, params_, memory_.workspace, 2, 100,
+    return split_items(raster, {relief_.data(), kWide, kWide}, kFood, 1.0, params_, *memory_, 2, 100,
                        {owners_.data(), kWide, kWide});
   }
   std::uint8_t owner(int column, int row) const {
@@ -76,7 +76,7 @@ class Food {
   std::vector<ReliefSample> relief_;
   std::vector<std::uint8_t> owners_;
   ItemSplitParams params_;
-  WithMemory<ItemSplitWorkspace> memory_{ItemSplitParams{}};
+  test::Allocated<ItemSplitWorkspace> memory_{ItemSplitParams{}};
 };
 
 // A piece of cake: its top, and the side that is seen beside it.

@@ -13,9 +13,9 @@ namespace traygauge {
 namespace {
 
 constexpr int kSamples = 20;
-using testing::kNone;
-using testing::px;
-using Row = testing::DisparityRow;
+using test::kNone;
+using test::px;
+using Row = test::DisparityRow;
 
 Row keep(const Row& own, const Row& other, int sign, const ConsistencyParams& params = {}) {
   const auto width = static_cast<int>(own.size());

@@ -5,7 +5,7 @@
 
 #include "core/stereo/disparity.hpp"
 
-namespace traygauge::testing {
+namespace traygauge::test {
 
 inline constexpr Disparity kNone = kNoDisparity;
 using DisparityRow = std::vector<Disparity>;
@@ -14,4 +14,4 @@ constexpr Disparity px(double disparity_px) {
   return static_cast<Disparity>(disparity_px * kDisparityScale);
 }
 
-}  // namespace traygauge::testing
+}  // namespace traygauge::test

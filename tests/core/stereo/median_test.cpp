@@ -5,12 +5,12 @@
 #include <algorithm>
 #include <vector>
 
-#include "tests/core/stereo/stereo_scene.hpp"
+#include "tests/support/pictures.hpp"
 
 namespace traygauge {
 namespace {
 
-using testing::view_of;
+using test::view_of;
 
 Disparity sorted_median(const cv::Mat_<Disparity>& picture, int x, int y, int radius) {
   if (picture(y, x) == kNoDisparity) return kNoDisparity;

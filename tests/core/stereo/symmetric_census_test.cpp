@@ -40,7 +40,7 @@ int differing(const Picture& picture, int x0, int y0, int x1, int y1) {
 }
 
 TEST(SymmetricCensus, EqualsItsDefinition) {
-  const unsigned seed = testing::random_seed();
+  const unsigned seed = test::random_seed();
   for (const int width : {1, 3, 8, 9, 31, 64}) {
     const Picture picture(width, 13, seed, 256);
     std::vector<std::uint32_t> codes(picture.pixels.size());

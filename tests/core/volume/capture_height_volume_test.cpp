@@ -4,28 +4,28 @@
 #include <cmath>
 #include <cstdio>
 
-#include "tests/core/surface/capture_scene.hpp"
-#include "tests/core/surface/true_grid.hpp"
+#include "tests/core/stereo/capture_scene.hpp"
+#include "tests/core/stereo/true_grid.hpp"
 #include "tests/core/volume/height_measurement.hpp"
 
 namespace traygauge {
 namespace {
 
 TEST(CaptureHeightVolume, TrueDepthOfOneViewGivesTheTrueVolumes) {
-  if (testing::captures_folder().empty()) GTEST_SKIP() << "TRAYGAUGE_CAPTURES is not set";
-  std::vector<std::string> names = testing::single_dish_captures();
+  if (test::captures_folder().empty()) GTEST_SKIP() << "TRAYGAUGE_CAPTURES is not set";
+  std::vector<std::string> names = test::single_dish_captures();
   for (const char* tray : {"trays/t01", "trays/t04", "trays/t05"}) names.emplace_back(tray);
-  testing::HeightMeasurement measurement;
+  test::HeightMeasurement measurement;
   double sum = 0.0;
   double magnitude = 0.0;
   double count = 0.0;
   for (const std::string& name : names) {
-    const testing::CaptureTruth capture = testing::read_capture_truth(testing::captures_folder() / name);
-    for (const testing::DishInCapture& dish : testing::dishes_of(capture, name)) {
-      const testing::TrueGrid grid = testing::true_grid(capture, dish);
+    const test::CaptureTruth capture = test::read_capture_truth(test::captures_folder() / name);
+    for (const test::DishInCapture& dish : test::dishes_of(capture, name)) {
+      const test::TrueGrid grid = test::true_grid(capture, dish);
       const SurfaceGrid view = grid.view();
       ASSERT_TRUE(measurement.run({&view, 1}, dish.dish).ok()) << dish.name;
-      for (const testing::DishItem& item : dish.items) {
+      for (const test::DishItem& item : dish.items) {
         const HeightVolume& measured = measurement.item(item.label);
         const double error = measured.volume_ml / item.volume_ml - 1.0;
         const double column = measured.column_volume_ml / item.column_ml - 1.0;

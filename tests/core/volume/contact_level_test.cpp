@@ -11,17 +11,17 @@
 #include "core/labels/label_regions.hpp"
 #include "core/stereo/dish_projection.hpp"
 #include "core/volume/level_liquid.hpp"
-#include "tests/core/surface/solid_scene.hpp"
+#include "tests/core/stereo/solid_scene.hpp"
 #include "tests/core/volume/height_measurement.hpp"
 
 namespace traygauge {
 namespace {
 
-using testing::HeightMeasurement;
-using testing::SceneCamera;
-using testing::SceneNoise;
-using testing::SolidScene;
-using testing::TrueGrid;
+using test::HeightMeasurement;
+using test::SceneCamera;
+using test::SceneNoise;
+using test::SolidScene;
+using test::TrueGrid;
 
 constexpr double kToleranceMm = 1.0;
 constexpr double kLevelMm = 30.0;
@@ -34,7 +34,7 @@ class TwoViews {
  public:
   TwoViews(const SolidScene& scene, const CameraPair& cameras, SceneNoise noise = {}) : scene_(scene) {
     for (std::size_t v = 0; v < 2; ++v, ++noise.seed) {
-      grids_[v] = testing::cast_grid(scene, cameras[v], noise, 0.5 * testing::kWorkingDishPixels);
+      grids_[v] = test::cast_grid(scene, cameras[v], noise, 0.5 * test::kWorkingDishPixels);
       const TrueGrid cast = grids_[v];
       settle_dish_samples(scene.dish, cast.view(), grids_[v].points, grids_[v].evidence);
     }
@@ -53,8 +53,8 @@ class TwoViews {
 
 SolidScene soup() {
   SolidScene scene;
-  scene.dish = testing::soup_bowl();
-  scene.solids = {testing::liquid(2, scene.dish, kLevelMm)};
+  scene.dish = test::soup_bowl();
+  scene.solids = {test::liquid(2, scene.dish, kLevelMm)};
   return scene;
 }
 
@@ -181,20 +181,20 @@ void expect_no_liquid(const SolidScene& scene) {
 
 TEST(LevelLiquidOnPlate, AHeapIsNone) {
   SolidScene scene;
-  scene.dish = testing::dinner_plate();
-  scene.solids = {testing::heap(2, scene.dish.place.centre_mm, {60, 55}, 4.5, 28, 4, 12, 3)};
+  scene.dish = test::dinner_plate();
+  scene.solids = {test::heap(2, scene.dish.place.centre_mm, {60, 55}, 4.5, 28, 4, 12, 3)};
   expect_no_liquid(scene);
 }
 
 // Its lid is level, and its round side ends at the wall at one height.
 TEST(LevelLiquidOnPlate, ASliceAtTheWallOnOneSideIsNone) {
   SolidScene scene;
-  scene.dish = testing::dinner_plate();
-  testing::Solid slice = testing::liquid(2, scene.dish, 12.0);
+  scene.dish = test::dinner_plate();
+  test::Solid slice = test::liquid(2, scene.dish, 12.0);
   const auto whole = slice.top;
   const double middle_mm = scene.dish.place.centre_mm.x();
   slice.top = [whole, middle_mm](const Vec2& at) {
-    return at.x() > middle_mm + 5.0 ? whole(at) : testing::kNothingMm;
+    return at.x() > middle_mm + 5.0 ? whole(at) : test::kNothingMm;
   };
   scene.solids = {slice};
   expect_no_liquid(scene);

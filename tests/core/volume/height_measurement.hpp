@@ -7,9 +7,9 @@
 #include "core/volume/height_volume.hpp"
 #include "core/volume/level_liquid.hpp"
 #include "core/volume/overhang.hpp"
-#include "tests/core/surface/block.hpp"
+#include "tests/support/allocated.hpp"
 
-namespace traygauge::testing {
+namespace traygauge::test {
 
 struct HeightMeasurement {
   static constexpr std::size_t kMaxCells = 400 * 400;
@@ -37,4 +37,4 @@ struct HeightMeasurement {
   const HeightVolume& item(int label) { return volume_space->items[static_cast<std::size_t>(label)]; }
 };
 
-}  // namespace traygauge::testing
+}  // namespace traygauge::test

@@ -7,18 +7,18 @@
 #include <cstdio>
 #include <limits>
 
-#include "tests/core/surface/solid_scene.hpp"
+#include "tests/core/stereo/solid_scene.hpp"
 #include "tests/core/volume/height_measurement.hpp"
 
 namespace traygauge {
 namespace {
 
-using testing::HeightMeasurement;
-using testing::SceneCamera;
-using testing::SceneNoise;
-using testing::Solid;
-using testing::SolidScene;
-using testing::TrueGrid;
+using test::HeightMeasurement;
+using test::SceneCamera;
+using test::SceneNoise;
+using test::Solid;
+using test::SolidScene;
+using test::TrueGrid;
 
 constexpr double kBottomMm = 4.5;  // of the dinner plate
 
@@ -53,7 +53,7 @@ class SceneMeasurement {
  private:
   // Half of the usual samples, to spend less time on casting.
   TrueGrid cast(const SceneCamera& camera, const SceneNoise& noise) const {
-    return testing::cast_grid(scene_, camera, noise, 0.5 * testing::kWorkingDishPixels);
+    return test::cast_grid(scene_, camera, noise, 0.5 * test::kWorkingDishPixels);
   }
 
   SolidScene scene_;
@@ -65,25 +65,25 @@ class SceneMeasurement {
 
 SolidScene plate_of_fields() {
   SolidScene scene;
-  scene.dish = testing::dinner_plate();
+  scene.dish = test::dinner_plate();
   const Vec2& c = scene.dish.place.centre_mm;
-  scene.solids = {testing::cone(2, c + Vec2(-40, 30), 32, kBottomMm, 40),
-                  testing::cap(3, c + Vec2(40, 32), 35, kBottomMm, 25),
-                  testing::box(4, c + Vec2(-35, -40), {30, 22}, 0.4, 30),
-                  testing::heap(5, c + Vec2(42, -38), {32, 40}, kBottomMm, 24, 4, 9, 2)};
+  scene.solids = {test::cone(2, c + Vec2(-40, 30), 32, kBottomMm, 40),
+                  test::cap(3, c + Vec2(40, 32), 35, kBottomMm, 25),
+                  test::box(4, c + Vec2(-35, -40), {30, 22}, 0.4, 30),
+                  test::heap(5, c + Vec2(42, -38), {32, 40}, kBottomMm, 24, 4, 9, 2)};
   return scene;
 }
 
 SolidScene plate_of_fruit() {
   SolidScene scene;
-  scene.dish = testing::dinner_plate();
+  scene.dish = test::dinner_plate();
   const Vec2& c = scene.dish.place.centre_mm;
   const auto on_plate = [&](double x, double y, double z) {
     return Vec3(c.x() + x, c.y() + y, kBottomMm + z);
   };
-  scene.solids = {testing::ellipsoid(2, on_plate(-45, 30, 25), {25, 25, 25}, 0.0),
-                  testing::ellipsoid(3, on_plate(40, 20, 22), {45, 24, 22}, 0.7),
-                  testing::ellipsoid(4, on_plate(-5, -45, 20), {27, 27, 20}, 0.0)};
+  scene.solids = {test::ellipsoid(2, on_plate(-45, 30, 25), {25, 25, 25}, 0.0),
+                  test::ellipsoid(3, on_plate(40, 20, 22), {45, 24, 22}, 0.7),
+                  test::ellipsoid(4, on_plate(-5, -45, 20), {27, 27, 20}, 0.0)};
   return scene;
 }
 
@@ -132,11 +132,11 @@ TEST(HeightVolume, KnowsTheCentresOfItems) {
 // nor is a slope. The walls that fill what is hidden behind a block count as well.
 TEST(HeightVolume, MeasuresWallsWithinItems) {
   SolidScene scene;
-  scene.dish = testing::dinner_plate();
+  scene.dish = test::dinner_plate();
   const Vec2& c = scene.dish.place.centre_mm;
-  scene.solids = {testing::box(2, c + Vec2(-55, 0), {15, 20}, 0.0, 34),
-                  testing::box(2, c + Vec2(-25, 0), {15, 20}, 0.0, 16),
-                  testing::cone(3, c + Vec2(40, 30), 32, kBottomMm, 30)};
+  scene.solids = {test::box(2, c + Vec2(-55, 0), {15, 20}, 0.0, 34),
+                  test::box(2, c + Vec2(-25, 0), {15, 20}, 0.0, 16),
+                  test::cone(3, c + Vec2(40, 30), 32, kBottomMm, 30)};
   for (const CameraPairOfScene& cameras : camera_pairs()) {
     SceneMeasurement measured(scene, cameras);
     ASSERT_TRUE(measured.status().ok());
@@ -185,10 +185,10 @@ TEST(HeightVolume, OfRoundFruit) {
 
 TEST(HeightVolume, OfHalvedFruitIsItsColumn) {
   SolidScene scene;
-  scene.dish = testing::dinner_plate();
+  scene.dish = test::dinner_plate();
   const Vec2& c = scene.dish.place.centre_mm;
-  scene.solids = {testing::ellipsoid(2, {c.x() - 30, c.y(), kBottomMm}, {30, 30, 30}, 0.0),
-                  testing::cap(3, c + Vec2(45, 10), 30, kBottomMm, 20)};
+  scene.solids = {test::ellipsoid(2, {c.x() - 30, c.y(), kBottomMm}, {30, 30, 30}, 0.0),
+                  test::cap(3, c + Vec2(45, 10), 30, kBottomMm, 20)};
   SceneMeasurement measured(scene, camera_pairs()[0]);
   ASSERT_TRUE(measured.status().ok());
   for (const int label : {2, 3}) {
@@ -199,9 +199,9 @@ TEST(HeightVolume, OfHalvedFruitIsItsColumn) {
 
 TEST(HeightVolume, LevelsALiquidWithSolidsInIt) {
   SolidScene scene;
-  scene.dish = testing::soup_bowl();
+  scene.dish = test::soup_bowl();
   const Vec2& c = scene.dish.place.centre_mm;
-  scene.solids = {testing::liquid(2, scene.dish, 30), testing::cap(2, c + Vec2(15, 10), 15, 28, 12)};
+  scene.solids = {test::liquid(2, scene.dish, 30), test::cap(2, c + Vec2(15, 10), 15, 28, 12)};
   SceneNoise noise;
   noise.depth_mm = 0.5;
   noise.label_px = 0.5;
@@ -218,8 +218,8 @@ TEST(HeightVolume, LevelsALiquidWithSolidsInIt) {
 
 TEST(HeightVolume, LeavesAHeapInABowlAsItIs) {
   SolidScene scene;
-  scene.dish = testing::soup_bowl();
-  scene.solids = {testing::heap(2, scene.dish.place.centre_mm, {60, 60}, 5, 36, 4, 14, 7)};
+  scene.dish = test::soup_bowl();
+  scene.solids = {test::heap(2, scene.dish.place.centre_mm, {60, 60}, 5, 36, 4, 14, 7)};
   SceneMeasurement measured(scene, camera_pairs()[0]);
   ASSERT_TRUE(measured.status().ok());
   EXPECT_EQ(measured.measurement().liquid.label, 0);
@@ -228,8 +228,8 @@ TEST(HeightVolume, LeavesAHeapInABowlAsItIs) {
 
 TEST(HeightVolume, ASecondViewSeesWhatTheFirstCannot) {
   SolidScene scene;
-  scene.dish = testing::dinner_plate();
-  scene.solids = {testing::cone(2, scene.dish.place.centre_mm, 32, kBottomMm, 60)};
+  scene.dish = test::dinner_plate();
+  scene.solids = {test::cone(2, scene.dish.place.centre_mm, 32, kBottomMm, 60)};
   const SceneCamera from_left{500, 33, 180};
   const SceneCamera from_right{500, 33, 0};
   SceneMeasurement same(scene, {from_left, from_left});
@@ -245,7 +245,7 @@ TEST(HeightVolume, FitsItsMemoryAndRefusesMore) {
       measurement.map_space.bytes() + measurement.volume_space.bytes() + measurement.liquid_space.bytes(),
       std::size_t{4} << 20);
   const SolidScene scene = plate_of_fields();
-  const TrueGrid grid = testing::cast_grid(scene, {}, {}, 4096);
+  const TrueGrid grid = test::cast_grid(scene, {}, {}, 4096);
   const SurfaceGrid view = grid.view();
   HeightMapParams params;
   params.cell_mm = 0.6;

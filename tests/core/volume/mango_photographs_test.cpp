@@ -18,15 +18,15 @@
 #include "core/card/card_alignment.hpp"
 #include "core/stereo/dense_stereo.hpp"
 #include "core/volume/round_body.hpp"
-#include "tests/core/surface/capture_scene.hpp"
+#include "tests/core/stereo/capture_scene.hpp"
 #include "tests/core/volume/height_measurement.hpp"
 #include "tests/support/sparse_stages.hpp"
 
 namespace traygauge {
 namespace {
 
-using testing::Allocated;
-using testing::Photograph;
+using test::Allocated;
+using test::Photograph;
 
 constexpr double kHullColumnMl = 593.0;
 constexpr double kHullHeightMm = 86.5;
@@ -80,10 +80,10 @@ struct MangoVolume {
 class Mango : public ::testing::Test {
  protected:
   void SetUp() override {
-    if (testing::captures_folder().empty()) GTEST_SKIP() << "TRAYGAUGE_CAPTURES is not set";
-    folder_ = testing::captures_folder() / "real/fruit_board_mango";
-    views_ = testing::read_real_views(folder_);
-    const nlohmann::json cameras = testing::read_json(folder_ / "cameras.json");
+    if (test::captures_folder().empty()) GTEST_SKIP() << "TRAYGAUGE_CAPTURES is not set";
+    folder_ = test::captures_folder() / "real/fruit_board_mango";
+    views_ = test::read_real_views(folder_);
+    const nlohmann::json cameras = test::read_json(folder_ / "cameras.json");
     for (const nlohmann::json& pair : cameras.at("pairs")) {
       const double angle_deg = pair.at("angle_at_object_deg");
       if (angle_deg > 20.0 && angle_deg < 28.0) pairs_.push_back({pair.at("a"), pair.at("b"), angle_deg});
@@ -97,9 +97,9 @@ class Mango : public ::testing::Test {
 
   // In the frame of the card.
   Photograph photograph(const std::string& image) const {
-    const auto named = [&](const testing::TrueView& view) { return view.image.filename() == image; };
-    const testing::TrueView& view = *std::find_if(views_.begin(), views_.end(), named);
-    Photograph photograph = testing::read_photograph(view, 1.0, {Mat3::Identity(), -kCardOnPage});
+    const auto named = [&](const test::TrueView& view) { return view.image.filename() == image; };
+    const test::TrueView& view = *std::find_if(views_.begin(), views_.end(), named);
+    Photograph photograph = test::read_photograph(view, 1.0, {Mat3::Identity(), -kCardOnPage});
     photograph.labels = cv::Mat1b(photograph.gray.size(), kBackgroundLabel);
     std::vector<Vec3> dish;
     for (int i = 0; i < 90; ++i) {
@@ -179,14 +179,14 @@ class Mango : public ::testing::Test {
   }
 
   std::filesystem::path folder_;
-  std::vector<testing::TrueView> views_;
+  std::vector<test::TrueView> views_;
   std::vector<PagePair> pairs_;
   InnerSurface page_;
   TwoViewSurfaceParams surface_params_;
   Allocated<TwoViewSurfaceWorkspace> surface_space_{surface_params_};
   Allocated<RoundBodyWorkspace> body_space_{surface_params_.rectification.max_rows,
                                             surface_params_.max_columns};
-  testing::HeightMeasurement measurement_;
+  test::HeightMeasurement measurement_;
 };
 
 TEST_F(Mango, ColumnVolumeWithThePosesOfThePage) {
@@ -206,9 +206,9 @@ TEST_F(Mango, ColumnVolumeWithPosesFromMarkersAndTracks) {
   const CardAlignmentParams params;
   Allocated<CardPattern> pattern(params.pattern);
   Allocated<CardAlignmentWorkspace> alignment_space(params);
-  testing::SparseStages stages;
+  test::SparseStages stages;
   ASSERT_TRUE(
-      prepare_card_pattern(testing::view_of(draw_card()), {kCardMm, kCardMm, 0.0}, params.pattern, *pattern)
+      prepare_card_pattern(test::view_of(draw_card()), {kCardMm, kCardMm, 0.0}, params.pattern, *pattern)
           .ok());
   std::vector<double> column_ml;
   std::vector<double> turn_deg;
@@ -217,9 +217,9 @@ TEST_F(Mango, ColumnVolumeWithPosesFromMarkersAndTracks) {
     std::array<Photograph, 2> photographs = {photograph(pair.first), photograph(pair.second)};
     std::array<CardPrior, 2> cards;
     for (std::size_t v = 0; v < 2; ++v) {
-      const auto labels = testing::view_of(photographs[v].labels);
+      const auto labels = test::view_of(photographs[v].labels);
       CardAlignment alignment;
-      ASSERT_TRUE(align_card(testing::view_of(photographs[v].gray), labels, measure_regions(labels).card,
+      ASSERT_TRUE(align_card(test::view_of(photographs[v].gray), labels, measure_regions(labels).card,
                              photographs[v].view.lens, *pattern, params, *alignment_space, alignment)
                       .ok())
           << pair.first << ' ' << pair.second;
@@ -235,7 +235,7 @@ TEST_F(Mango, ColumnVolumeWithPosesFromMarkersAndTracks) {
     }
     const TableCameras& found = stages.joint().camera_from_table;
     for (std::size_t v = 0; v < 2; ++v) photographs[v].view.camera_from_world = found[v];
-    const testing::PoseDeviation off = testing::compare_motion(found, given);
+    const test::PoseDeviation off = test::compare_motion(found, given);
     const Vec3 under_mm = given[0].inverse() * (found[0] * (kDishOnPage - kCardOnPage));
     std::printf(
         "%zu tracks; rotation %.2f, direction %.2f degrees, scale %+.2f %%, page under it %+.2f mm\n  ",

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <vector>
 
-#include "tests/core/surface/solid_scene.hpp"
+#include "tests/core/stereo/solid_scene.hpp"
 
 namespace traygauge {
 namespace {
@@ -20,7 +20,7 @@ constexpr double kColumnMl = 120.0;
 
 // An item over a square of 40 cells' side, the first `undercut` of them undercut, seen at a slope of a half.
 HeightVolume closed(int undercut, const OverhangParams& params, const LabelSet& round = {}) {
-  const InnerSurface dish = testing::dinner_plate();
+  const InnerSurface dish = test::dinner_plate();
   std::vector<HeightCell> cells(std::size_t{kSide} * kSide);
   HeightMap map;
   map.cells = {cells.data(), kSide, kSide};

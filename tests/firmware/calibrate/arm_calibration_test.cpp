@@ -8,7 +8,7 @@
 namespace traygauge {
 namespace {
 
-using namespace testing;
+using namespace test;
 
 // The camera goes by `angle_deg` about an axis through `point`, in its own frame before the move.
 Pose arm_move(double angle_deg, const Vec3& axis, const Vec3& point, double along_mm) {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace traygauge::testing {
+namespace traygauge::test {
 namespace {
 
 constexpr double kRadians = std::numbers::pi / 180.0;
@@ -115,4 +115,4 @@ Picture draw_board(const Chessboard& board, const LensModel& lens, const Pose& c
   return picture;
 }
 
-}  // namespace traygauge::testing
+}  // namespace traygauge::test

@@ -8,7 +8,7 @@
 #include "simulator/capture/picture.hpp"
 #include "tests/support/cameras.hpp"
 
-namespace traygauge::testing {
+namespace traygauge::test {
 
 inline const Chessboard kBoard{9, 6};
 
@@ -31,4 +31,4 @@ BoardSighting project_board(const Chessboard& board, const LensModel& lens, cons
 Picture draw_board(const Chessboard& board, const LensModel& lens, const Pose& camera_from_board,
                    std::uint64_t seed);
 
-}  // namespace traygauge::testing
+}  // namespace traygauge::test

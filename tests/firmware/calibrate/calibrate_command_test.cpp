@@ -17,7 +17,7 @@ namespace traygauge {
 namespace {
 
 namespace fs = std::filesystem;
-using namespace testing;
+using namespace test;
 
 constexpr const char* kStation =
     "# our kitchen\n[camera]\ndevice = \"serial:A1\"\nwidth = 640\nheight = 480\nfocus = 30\n\n"

@@ -8,7 +8,7 @@
 namespace traygauge {
 namespace {
 
-using namespace testing;
+using namespace test;
 
 // The corners may begin at the other end.
 double rms_px(const BoardSighting& found, const BoardSighting& truth, Vec2& bias_px) {

@@ -9,7 +9,7 @@
 namespace traygauge {
 namespace {
 
-using namespace testing;
+using namespace test;
 
 const PictureSize kSize{1600, 1200};
 

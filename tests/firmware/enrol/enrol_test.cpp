@@ -21,14 +21,14 @@ namespace {
 
 namespace fs = std::filesystem;
 using Json = nlohmann::json;
-using testing::EmptyDishCapture;
-using testing::EmptyDishScene;
+using test::EmptyDishCapture;
+using test::EmptyDishScene;
 
 constexpr double kRimMm = 5.0;  // the rim's rounding carries no food
 
 EmptyDishScene scene_of(const std::string& style) {
   EmptyDishScene scene;
-  scene.dish = testing::read_dish_model(style);
+  scene.dish = test::read_dish_model(style);
   scene.glaze_contrast = 0.5;
   scene.gloss = 60.0;
   return scene;
@@ -76,7 +76,7 @@ void expect_like(const DishModel& found, const DishModel& truth, double worst_mm
     EXPECT_NEAR(found.outer_size_mm[axis], truth.outer_size_mm[axis], 0.5);
   EXPECT_NEAR(found.rim_height_mm, truth.rim_height_mm, 0.5);
   EXPECT_NEAR(found.bottom_height_mm, truth.bottom_height_mm, 0.15);
-  const testing::ProfileDifference difference = testing::compare_profiles(found, truth, kRimMm);
+  const test::ProfileDifference difference = test::compare_profiles(found, truth, kRimMm);
   EXPECT_LT(difference.worst_mm, worst_mm);
   EXPECT_LT(std::abs(difference.volume_ml), volume_ml);
 }
@@ -90,7 +90,7 @@ TEST_F(EnrolDish, WritesTheDishThatWasRendered) {
     const DishDescription written = read_dish_file(file(style));
     EXPECT_EQ(written.style, style);
     // 2 ml are 0.05 mm over the dish.
-    expect_like(dish_of(written), testing::read_dish_model(style), 0.7, 3.0);
+    expect_like(dish_of(written), test::read_dish_model(style), 0.7, 3.0);
     EXPECT_EQ(written.outer_size_mm[0] == written.outer_size_mm[1], style != "oval");
 
     const Json document = Json::parse(result.out);
@@ -106,7 +106,7 @@ TEST_F(EnrolDish, WritesTheDishThatWasRendered) {
 }
 
 TEST_F(EnrolDish, WhateverTheDishAndWhereverTheCameras) {
-  std::mt19937 random(testing::random_seed());
+  std::mt19937 random(test::random_seed());
   const auto draw = [&](double low, double high) {
     return std::uniform_real_distribution<double>(low, high)(random);
   };
@@ -163,10 +163,10 @@ TEST_F(EnrolDish, ThePlainGlazeIsRefusedButItsSizeIsSaid) {
 TEST_F(EnrolDish, ADishThatIsNotEmptyIsRefused) {
   const fs::path folder = copy_of("dinner");
   for (const int label : {2, 199, 201, 249}) {
-    testing::paint_labels(folder, 1, {500, 400, 20, 20}, static_cast<std::uint8_t>(label));
+    test::paint_labels(folder, 1, {500, 400, 20, 20}, static_cast<std::uint8_t>(label));
     expect_refused(enrol(folder, "dinner"), 2, "labels_1.png");
     expect_refused(enrol(folder, "dinner"), 2, "not empty, labels " + std::to_string(label));
-    testing::paint_labels(folder, 1, {500, 400, 20, 20}, 1);
+    test::paint_labels(folder, 1, {500, 400, 20, 20}, 1);
   }
 }
 
@@ -195,7 +195,7 @@ TEST_F(EnrolDish, WrongUseIsToldInOneLine) {
 
 TEST_F(EnrolDish, WhatCannotBeMeasuredIsRefused) {
   const fs::path cut = copy_of("dinner");
-  testing::paint_labels(cut, 0, {600, 0, 30, 3}, 1);
+  test::paint_labels(cut, 0, {600, 0, 30, 3}, 1);
   expect_refused(enrol(cut, "dinner"), 1, "dish_cut_off");
 
   // The second view shows another dish.
@@ -217,7 +217,7 @@ TEST_F(EnrolDish, WhatCannotBeMeasuredIsRefused) {
 
   const fs::path nothing = spoilt_.path() / "nothing";
   fs::copy(capture_of("dinner").folder(), nothing);
-  testing::paint_labels(nothing, 0, {0, 0, 1200, 900}, 0);
+  test::paint_labels(nothing, 0, {0, 0, 1200, 900}, 0);
   expect_refused(enrol(nothing, "nothing"), 1, "no_dish_label");
 }
 

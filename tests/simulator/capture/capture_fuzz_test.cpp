@@ -35,7 +35,7 @@ TEST(CaptureFuzz, NoTruncationIsAccepted) {
 TEST(CaptureFuzz, DamagedBytesAreAcceptedOrNamed) {
   const TemporaryCapture files;
   const std::string whole = files.document.dump();
-  std::mt19937 random(testing::random_seed());
+  std::mt19937 random(test::random_seed());
   int refused = 0;
   for (int round = 0; round < 1500; ++round) {
     std::string damaged = whole;
@@ -52,7 +52,7 @@ TEST(CaptureFuzz, TokensInTheWrongPlaceAreAcceptedOrNamed) {
       "true", "[[]", "0.5",   "\\u0000", "\"..\"", "\"/\"", "99999999999999999999"};
   const TemporaryCapture files;
   const std::string whole = files.document.dump();
-  std::mt19937 random(testing::random_seed());
+  std::mt19937 random(test::random_seed());
   int refused = 0;
   for (int round = 0; round < 1500; ++round) {
     std::string damaged = whole;

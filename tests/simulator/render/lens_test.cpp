@@ -63,7 +63,7 @@ TEST(Lens, AgreesWithOpenCvBothWays) {
 }
 
 TEST(Lens, AgreesWithOpenCvForAnyLens) {
-  std::mt19937 random(testing::random_seed());
+  std::mt19937 random(test::random_seed());
   std::uniform_real_distribution<double> unit(-1.0, 1.0);
   for (int i = 0; i < 30; ++i) {
     const ViewCamera camera = camera_with({0.12 * unit(random), 0.02 * unit(random), 0.003 * unit(random),

@@ -13,7 +13,7 @@ namespace traygauge {
 namespace {
 
 TEST(Noise, TheNearestCellIsTheNearestOfTheCellsAround) {
-  std::mt19937_64 random(testing::random_seed());
+  std::mt19937_64 random(test::random_seed());
   std::uniform_real_distribution<float> at(-40.0F, 40.0F);
   for (int i = 0; i < 300; ++i) {
     const Eigen::Vector3f point(at(random), at(random), i % 2 == 0 ? 0.5F : at(random));

@@ -1,0 +1,67 @@
+// SURF on an OpenCV picture, with memory that is sized as the estimator sizes it.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <new>
+#include <opencv2/core.hpp>
+#include <vector>
+
+#include "core/base/arena.hpp"
+#include "core/base/bounded_list.hpp"
+#include "core/paper/features/surf.hpp"
+#include "core/paper/image/integral.hpp"
+
+namespace traygauge::test {
+
+constexpr std::size_t planned_bytes(int width, int height, const SurfParams& params) {
+  ArenaPlan plan;
+  SurfWorkspace workspace;
+  workspace.allocate(plan, width, height, params);
+  return plan.high_water_bytes();
+}
+
+struct PictureFeatures {
+  std::vector<Keypoint> keypoints;
+  std::vector<Descriptor> descriptors;
+  std::size_t dropped = 0;
+};
+
+class Integral {
+ public:
+  explicit Integral(const cv::Mat& gray)
+      : sums_(static_cast<std::size_t>(gray.cols + 1) * static_cast<std::size_t>(gray.rows + 1)),
+        view_(sums_.data(), gray.cols + 1, gray.rows + 1) {
+    build_integral({gray.data, gray.cols, gray.rows, static_cast<std::ptrdiff_t>(gray.step[0])}, view_);
+  }
+  ImageView<const std::uint32_t> view() const { return view_; }
+
+ private:
+  std::vector<std::uint32_t> sums_;
+  ImageView<std::uint32_t> view_;
+};
+
+inline PictureFeatures run_surf(const cv::Mat& gray, const SurfParams& params = {}, std::size_t cap = 20000) {
+  struct alignas(kArenaAlignmentBytes) Line {
+    std::byte bytes[kArenaAlignmentBytes];
+  };
+  const std::size_t bytes = planned_bytes(gray.cols, gray.rows, params);
+  std::vector<Line> block(bytes / sizeof(Line));
+  Arena arena({block.front().bytes, bytes});
+  SurfWorkspace workspace;
+  workspace.allocate(arena, gray.cols, gray.rows, params);
+  CV_Assert(!arena.exhausted());
+
+  const Integral integral(gray);
+  PictureFeatures features;
+  features.keypoints.resize(cap);
+  BoundedList<Keypoint> list{std::span<Keypoint>(features.keypoints)};
+  detect_surf(integral.view(), params, workspace, list);
+  features.dropped = list.dropped();
+  features.keypoints.resize(list.size());
+  features.descriptors.resize(list.size());
+  describe_surf(integral.view(), params, features.keypoints, features.descriptors);
+  return features;
+}
+
+}  // namespace traygauge::test
