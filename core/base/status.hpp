@@ -1,50 +1,99 @@
 // Every way in which a measurement can end, with the sentence that a person reads.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 
 namespace traygauge {
 
+// Each code with its sentence: what happened and what to do. A further code needs nothing but its line here.
+// clang-format off
+#define TRAYGAUGE_STATUS_CODES(CODE) \
+  CODE(ok, "Measured.") \
+  CODE(partial, "Some items could not be measured; see the status of each.") \
+  CODE(invalid_configuration, \
+       "The configuration holds a value outside its range; run `traygauge measure` on a capture whose " \
+       "camera, card and dish are plausible.") \
+  CODE(wrong_call, \
+       "The program called the measurement in an order that it does not have; please report this.") \
+  CODE(out_of_memory, \
+       "The memory reserved at start is too small for this configuration; see `traygauge memory`.") \
+  CODE(frame_missing, "A view is missing; two pictures of the dish are needed.") \
+  CODE(frame_size_mismatch, \
+       "The picture does not have the size that the camera's calibration was made for.") \
+  CODE(labels_size_mismatch, "The label image does not have the size of its picture.") \
+  CODE(frame_too_dark, \
+       "The picture is almost black; check the light, the lens cap and the exposure.") \
+  CODE(frame_too_bright, "The picture is burnt out; lower the exposure or remove the glare.") \
+  CODE(no_dish_label, "No pixel is labelled as dish; outline the dish in both views.") \
+  CODE(no_food_label, "No food item is labelled in both views; outline at least one item.") \
+  CODE(too_many_dishes, "More than eight dishes are labelled; measure the tray in parts.") \
+  CODE(dish_cut_off, "The dish is cut off by the edge of the picture; move it into the middle.") \
+  CODE(too_blurred, "The picture is blurred; focus the camera and hold it still.") \
+  CODE(card_hidden, \
+       "Part of the reference card is covered, cut off or bent; lay it flat beside the dish, fully " \
+       "visible in both pictures.") \
+  CODE(exposure_differs, \
+       "One picture is far brighter than the other; take both in the same light with the same exposure.") \
+  CODE(white_balance_differs, \
+       "The colours of the two pictures differ; take both in the same light with the same white balance.") \
+  CODE(too_few_features, \
+       "The picture has too little texture to find corresponding points; check focus and light.") \
+  CODE(too_few_matches, \
+       "Too few points correspond between the two pictures; they may show different scenes or lie too " \
+       "far apart.") \
+  CODE(views_identical, "Both pictures are the same; move the camera between them.") \
+  CODE(views_too_close, \
+       "The camera moved too little between the pictures; aim for an angle of 15 to 20 degrees.") \
+  CODE(views_too_far_apart, \
+       "The camera moved too far between the pictures; aim for an angle of 15 to 20 degrees.") \
+  CODE(pose_not_found, \
+       "No camera motion explains the corresponding points; keep the scene still between the pictures.") \
+  CODE(pose_contradicts_card, \
+       "The camera motion found from the scene contradicts the reference card; card and dish must not " \
+       "move between the pictures.") \
+  CODE(card_not_found, \
+       "The reference card was not found in both pictures; lay it flat beside the dish, fully visible " \
+       "and without glare.") \
+  CODE(scale_not_found, \
+       "The reference card gave no consistent scale; check that it is flat and that its size in the " \
+       "configuration is right.") \
+  CODE(labels_inconsistent, \
+       "The outlines of the two views contradict each other; check that each label image belongs to its " \
+       "picture.") \
+  CODE(rectification_failed, \
+       "The two views could not be aligned for dense matching: seen from the dish, one camera stands " \
+       "behind the other; move it sideways between the pictures, not nearer or farther.") \
+  CODE(disparity_range_too_large, \
+       "The depth range of the scene exceeds the configured number of disparities; take the views " \
+       "closer together.") \
+  CODE(rim_not_found, "The rim of the dish was not found; it must be visible in both pictures.") \
+  CODE(table_not_found, \
+       "The plane of the table was not found from the card; lay the card flat on the table.") \
+  CODE(dish_unknown, \
+       "The dish has neither the size nor the height of a known one; describe it in the capture or in " \
+       "config/dishes.") \
+  CODE(too_little_depth, \
+       "Too few pixels could be matched densely; check focus, light and reflections.") \
+  CODE(item_too_small, "The item covers too few pixels to be measured.") \
+  CODE(item_hidden, "The item is not visible in both pictures.") \
+  CODE(item_below_dish, \
+       "The item came out below the bottom of the dish; check the dish's height in the configuration.") \
+  CODE(item_clipped, \
+       "Most of the item is burnt out or black in a picture; change the exposure or remove the glare.") \
+  CODE(item_textureless, \
+       "The item shows too little texture to be matched; check focus, light and noise.")
+// clang-format on
+
 enum class StatusCode : std::uint8_t {
-  ok,
-  partial,
-  invalid_configuration,
-  out_of_memory,
-  frame_missing,
-  frame_size_mismatch,
-  labels_size_mismatch,
-  frame_too_dark,
-  frame_too_bright,
-  no_dish_label,
-  no_food_label,
-  too_many_dishes,
-  dish_cut_off,
-  too_blurred,
-  card_hidden,
-  exposure_differs,
-  white_balance_differs,
-  too_few_features,
-  too_few_matches,
-  views_identical,
-  views_too_close,
-  views_too_far_apart,
-  pose_not_found,
-  pose_contradicts_card,
-  card_not_found,
-  scale_not_found,
-  labels_inconsistent,
-  rectification_failed,
-  disparity_range_too_large,
-  rim_not_found,
-  table_not_found,
-  dish_unknown,
-  too_little_depth,
-  item_too_small,
-  item_hidden,
-  item_below_dish,
-  item_clipped,
-  item_textureless,
+#define TRAYGAUGE_CODE(name, text) name,
+  TRAYGAUGE_STATUS_CODES(TRAYGAUGE_CODE)
+#undef TRAYGAUGE_CODE
 };
+
+#define TRAYGAUGE_ONE(name, text) +1
+inline constexpr std::size_t kStatusCodeCount = 0 TRAYGAUGE_STATUS_CODES(TRAYGAUGE_ONE);
+#undef TRAYGAUGE_ONE
 
 // The code as the JSON contract spells it, e.g. "card_not_found".
 const char* name(StatusCode code);

@@ -12,6 +12,12 @@ class LabelSet {
  public:
   constexpr void add(std::uint8_t label) { contains_[label] = true; }
   constexpr void remove(std::uint8_t label) { contains_[label] = false; }
+  constexpr bool empty() const {
+    for (const bool contained : contains_) {
+      if (contained) return false;
+    }
+    return true;
+  }
   constexpr bool contains(std::uint8_t label) const { return contains_[label]; }
 
  private:

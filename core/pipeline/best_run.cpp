@@ -44,10 +44,9 @@ void report_pose(const SceneGeometry& geometry, bool reversed, Measurement& meas
   if (reversed) std::swap(measurement.views.camera_from_table[0], measurement.views.camera_from_table[1]);
 }
 
-bool is_dish_guessed(const SceneGeometry& geometry) {
-  const std::span<const DishOnTray> dishes = std::span(geometry.dishes).first(geometry.dish_count);
-  return std::any_of(dishes.begin(), dishes.end(),
-                     [](const DishOnTray& dish) { return dish.candidates.size() > 1; });
+void warn_about_guessed_dishes(const SceneGeometry& geometry, WarningSet& warnings) {
+  for (const DishOnTray& dish : std::span(geometry.dishes).first(geometry.dish_count))
+    warnings.raise_if(dish.candidates.size() > 1, Warning::dish_guessed, dish.label);
 }
 
 }  // namespace
@@ -61,8 +60,9 @@ void run_best(BestMemory& memory, const Configuration& configuration, std::uint6
   Random random(seed);
   SceneGeometry& geometry = memory.scene.front();
   geometry = {};
-  measurement.status = compare_pictures(memory.views[0].quality(), memory.views[1].quality(),
-                                        configuration.view_checks, measurement);
+  measurement.status =
+      compare_pictures(memory.views[0].quality(), memory.views[1].quality(), configuration.view_checks,
+                       measurement.report.pictures, measurement.warnings);
   if (!measurement.status.ok()) return;
   measurement.status = list_dishes(views, configuration, memory.geometry, geometry);
   if (!measurement.status.ok()) return;
@@ -74,8 +74,10 @@ void run_best(BestMemory& memory, const Configuration& configuration, std::uint6
     tap->on_geometry(geometry.joint, std::span(geometry.dishes).first(geometry.dish_count));
   }
   report_pose(geometry, reversed, measurement);
-  warn_about_angles(views[0]->arm_angle_deg, views[1]->arm_angle_deg, configuration.geometry, measurement);
-  measurement.warn(Warning::dish_guessed, is_dish_guessed(geometry));
+  warn_about_angles({measurement.relative_angle_deg, measurement.rotation_angle_deg, views[0]->arm_angle_deg,
+                     views[1]->arm_angle_deg},
+                    configuration.geometry, measurement.warnings);
+  warn_about_guessed_dishes(geometry, measurement.warnings);
   measurement.status = is_same_place(geometry)
                            ? StatusCode::views_identical
                            : check_angle(measurement.relative_angle_deg, configuration.geometry);

@@ -147,8 +147,9 @@ void measure_dish(const ViewPair& views, const SceneGeometry& geometry, std::siz
     item.area_mm2 = volume.area_mm2;
     item.mean_height_mm = volume.mean_height_mm;
     item.max_height_mm = volume.max_height_mm;
-    if (item.status == StatusCode::ok && matched[label] < best.pipeline.min_matched_share)
-      measurement.warn(Warning::item_hardly_matched, true);
+    const bool is_measured = item.status == StatusCode::ok;
+    measurement.warnings.raise_if(is_measured && matched[label] < best.pipeline.min_matched_share,
+                                  Warning::item_hardly_matched, label);
     const UncertaintyInput input{volume,
                                  matched[label],
                                  height_per_px_mm,
@@ -157,8 +158,9 @@ void measure_dish(const ViewPair& views, const SceneGeometry& geometry, std::siz
                                  views[0]->are_outlines_found};
     item.sigma_ml = estimate_sigma_ml(input, geometry.joint.camera_from_table, geometry.joint.covariance,
                                       best.uncertainty);
-    if (item.status == StatusCode::ok && item.sigma_ml > best.pipeline.max_sigma_share * item.volume_ml)
-      measurement.warn(Warning::item_uncertain, true);
+    measurement.warnings.raise_if(
+        is_measured && item.sigma_ml > best.pipeline.max_sigma_share * item.volume_ml,
+        Warning::item_uncertain, label);
     workspace.items.push_back(item);
   });
 }

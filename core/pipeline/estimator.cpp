@@ -134,7 +134,7 @@ std::size_t Estimator::used_bytes() const {
 
 Status Estimator::add_view(const ViewInput& input) {
   if (!status_.ok()) return status_;
-  if (!takes_views(*state_)) return StatusCode::invalid_configuration;
+  if (!takes_views(*state_)) return StatusCode::wrong_call;
   Status status = start_view(*state_, input);
   if (status.ok() && state_->configuration.profile == Profile::paper) {
     state_->preparation_clock.enter(Stage::features);
@@ -145,7 +145,7 @@ Status Estimator::add_view(const ViewInput& input) {
 
 Status Estimator::add_view(const ViewInput& input, const GivenFeatures& features) {
   if (!status_.ok()) return status_;
-  if (!takes_views(*state_) || !takes_correspondences(*state_)) return StatusCode::invalid_configuration;
+  if (!takes_views(*state_) || !takes_correspondences(*state_)) return StatusCode::wrong_call;
   Status status = start_view(*state_, input);
   if (status.ok()) {
     state_->preparation_clock.enter(Stage::features);
@@ -157,7 +157,7 @@ Status Estimator::add_view(const ViewInput& input, const GivenFeatures& features
 
 Status Estimator::add_view_without_features(const ViewInput& input) {
   if (!status_.ok()) return status_;
-  if (!takes_views(*state_) || !takes_correspondences(*state_)) return StatusCode::invalid_configuration;
+  if (!takes_views(*state_) || !takes_correspondences(*state_)) return StatusCode::wrong_call;
   return finish_view(*state_, start_view(*state_, input));
 }
 
@@ -165,7 +165,7 @@ Status Estimator::set_pattern(const GivenFeatures& features, int picture_width_p
   if (!status_.ok()) return status_;
   if (!takes_correspondences(*state_) || features.keypoints.size() != features.descriptors.size() ||
       picture_width_px <= 0) {
-    return StatusCode::invalid_configuration;
+    return StatusCode::wrong_call;
   }
   PatternMemory& pattern = state_->memory.pattern;
   pattern.keypoints.clear();
@@ -180,8 +180,7 @@ Status Estimator::set_pattern(const GivenFeatures& features, int picture_width_p
 Status Estimator::set_matches(std::span<const GivenMatch> matches,
                               std::span<const GivenCardMatch> card_matches) {
   if (!status_.ok()) return status_;
-  if (!takes_correspondences(*state_) || state_->views != 2 || matches.empty())
-    return StatusCode::invalid_configuration;
+  if (!takes_correspondences(*state_) || state_->views != 2 || matches.empty()) return StatusCode::wrong_call;
   const LensModel& first = state_->view(0).lens;
   const LensModel& second = state_->view(1).lens;
   GivenCorrespondences& given = state_->memory.given;
@@ -207,7 +206,7 @@ Status Estimator::set_matches(std::span<const GivenMatch> matches,
 
 Status Estimator::set_motion_search(MotionSearch* search) {
   if (!status_.ok()) return status_;
-  if (!takes_correspondences(*state_)) return StatusCode::invalid_configuration;
+  if (!takes_correspondences(*state_)) return StatusCode::wrong_call;
   state_->motion_search = search;
   return StatusCode::ok;
 }

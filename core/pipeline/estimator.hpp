@@ -64,14 +64,14 @@ class Estimator {
   std::size_t used_bytes() const;      // most of it that was ever handed out
 
   // Takes the first, then the second view, and finds its features at once. What fails here is also what
-  // estimate() reports. A third view is refused (invalid_configuration) and changes nothing.
+  // estimate() reports. A third view is refused (wrong_call) and changes nothing.
   Status add_view(const ViewInput& view);
   // The same with features from elsewhere; `set_pattern` gives those of the card's picture.
   Status add_view(const ViewInput& view, const GivenFeatures& features);
   Status set_pattern(const GivenFeatures& features, int picture_width_px);
   // The same without features, for set_matches().
   Status add_view_without_features(const ViewInput& view);
-  // Replaces matching; after both views. invalid_configuration before them.
+  // Replaces matching; after both views. wrong_call before them.
   Status set_matches(std::span<const GivenMatch> matches, std::span<const GivenCardMatch> card_matches);
 
   // Profile paper: `search` looks for the motion in the place of RANSAC, and what it finds is refined as

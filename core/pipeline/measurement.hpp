@@ -12,6 +12,8 @@
 #include "core/geometry/table_frame.hpp"
 #include "core/image_view/image_view.hpp"
 #include "core/paper/surface/food_mesh.hpp"
+#include "core/quality/view_checks.hpp"
+#include "core/quality/warning.hpp"
 #include "core/stereo/disparity.hpp"
 #include "core/volume/height_map.hpp"
 
@@ -32,32 +34,6 @@ enum class Stage : std::uint8_t {
 inline constexpr std::size_t kStageCount = static_cast<std::size_t>(Stage::volume) + 1;
 const char* name(Stage stage);
 
-// Doubts that do not stop a measurement.
-enum class Warning : std::uint8_t {
-  angle_small,          // relative angle below 10 degrees: depth is noisy
-  angle_large,          // above 30 degrees: matching gets hard
-  keypoints_capped,     // most were left out
-  matches_capped,       // more corresponding points than memory was reserved for
-  few_card_points,      // scale rests on few points
-  dish_guessed,         // the dish was chosen from several candidates
-  arm_angle_disagrees,  // measured and commanded relative angle differ
-  pose_from_card,       // the scene's motion was replaced by the card's
-  blurred,
-  underexposed,
-  card_partly_hidden,
-  food_clipped,
-  little_texture,
-  exposure_differs,
-  white_balance_differs,
-  item_hardly_matched,  // large parts of an item were found in one view only
-  dish_not_found,       // labels drawn: one of several dishes; its food is not measured
-  item_uncertain,       // an item's sigma is large beside its volume
-  items_doubtful,       // labels drawn: whether two items are one food, or their number is not the one given
-};
-inline constexpr std::size_t kWarningCount = static_cast<std::size_t>(Warning::items_doubtful) + 1;
-const char* name(Warning warning);
-const char* sentence(Warning warning);
-
 // One food item. Numbers hold only when status is ok; `dish` is the label of the dish that it lies on.
 struct ItemResult {
   std::uint8_t label = 0;
@@ -75,17 +51,6 @@ inline constexpr std::size_t kMaxItems = 198;  // labels 2…199
 
 // ok when all items are, partial when some are, else the first one's status.
 Status summarise(std::span<const ItemResult> items);
-
-// What the pictures are like; see core/quality/view_checks.hpp.
-struct PictureReport {
-  std::array<double, 2> blur_px{};
-  std::array<double, 2> visible_card_share{};
-  std::array<int, 2> card_white{};
-  double exposure_ratio = 1.0;
-  double white_balance_ratio = 1.0;
-  double most_clipped_share = 0.0;    // of an item
-  double least_textured_share = 1.0;  // of an item
-};
 
 // How far the measurement came; the numbers of stages that were not reached are zero.
 struct MeasurementReport {
@@ -144,11 +109,9 @@ struct Measurement {
   std::array<double, kStageCount> stage_ms{};
   double segmentation_ms = 0.0;  // before the stages, where labels were drawn; part of the total
   double total_ms = 0.0;
-  std::array<bool, kWarningCount> warnings{};
+  WarningSet warnings;
   MeasurementReport report;
   MeasurementViews views;
-
-  void warn(Warning warning, bool on) { warnings[static_cast<std::size_t>(warning)] = on; }
 };
 
 }  // namespace traygauge

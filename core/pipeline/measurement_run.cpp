@@ -82,11 +82,14 @@ void warn_about_views(const EstimatorState& state, Measurement& measurement) {
     return static_cast<double>(view.keypoints.size()) <
            min_kept_share * static_cast<double>(view.keypoints_found);
   };
-  measurement.warn(Warning::keypoints_capped, is_crowded(views[0]) || is_crowded(views[1]));
-  measurement.warn(Warning::matches_capped, extrinsics.matches_capped);
-  measurement.warn(Warning::pose_from_card, extrinsics.pose_from_card);
-  measurement.warn(Warning::few_card_points, measurement.report.card_tracks < params.few_card_tracks);
-  warn_about_angles(views[0].arm_angle_deg, views[1].arm_angle_deg, params, measurement);
+  WarningSet& warnings = measurement.warnings;
+  warnings.raise_if(is_crowded(views[0]) || is_crowded(views[1]), Warning::keypoints_capped);
+  warnings.raise_if(extrinsics.matches_capped, Warning::matches_capped);
+  warnings.raise_if(extrinsics.pose_from_card, Warning::pose_from_card);
+  warnings.raise_if(measurement.report.card_tracks < params.few_card_tracks, Warning::few_card_points);
+  warn_about_angles({measurement.relative_angle_deg, measurement.rotation_angle_deg, views[0].arm_angle_deg,
+                     views[1].arm_angle_deg},
+                    params, warnings);
 }
 
 Status calibrate(EstimatorState& state, Random& random, StageClock& clock, Measurement& measurement) {
@@ -110,8 +113,9 @@ Status calibrate(EstimatorState& state, Random& random, StageClock& clock, Measu
 
 Status measure_views(EstimatorState& state, std::uint64_t seed, StageClock& clock, Measurement& measurement) {
   const auto& prepared = state.memory.views;
-  const Status pictures = compare_pictures(prepared[0].quality(), prepared[1].quality(),
-                                           state.configuration.view_checks, measurement);
+  const Status pictures =
+      compare_pictures(prepared[0].quality(), prepared[1].quality(), state.configuration.view_checks,
+                       measurement.report.pictures, measurement.warnings);
   if (!pictures.ok()) return pictures;
   Random random(seed);
   if (const Status status = calibrate(state, random, clock, measurement); !status.ok()) return status;
@@ -136,7 +140,7 @@ Status measure_views(EstimatorState& state, std::uint64_t seed, StageClock& cloc
   status = find_dish_bottom(pair, table, state.configuration, random, state.memory.extraction,
                             measurement.report, views);
   if (!status.ok()) return status;
-  measurement.warn(Warning::dish_guessed, state.configuration.dishes.size() > 1);
+  measurement.warnings.raise_if(state.configuration.dishes.size() > 1, Warning::dish_guessed, kDishLabel);
   return extract_volumes(pair, state.configuration, state.memory.extraction, clock, views);
 }
 

@@ -65,7 +65,7 @@ Segmenter::Segmenter(std::span<std::byte> block, const Configuration& configurat
 
 Status Segmenter::add_view(const SegmentedView& view) {
   if (!status_.ok()) return status_;
-  if (view_count_ == views_.size()) return StatusCode::invalid_configuration;
+  if (view_count_ == views_.size()) return StatusCode::wrong_call;
   StageClock clock;
   clock.enter(Stage::scale);
   const std::size_t index = view_count_++;
@@ -99,7 +99,8 @@ const Segmentation& Segmenter::segment() {
     draw_items(params_.food);
     if (params_.items > 0) {
       meet_hint();
-      result_.is_split_doubtful = result_.items != params_.items;
+      for (SegmentedDish& dish : result_.dishes) dish.is_split_doubtful = false;
+      result_.misses_hint = result_.items != params_.items;
     }
     if (result_.items == 0) result_.status = StatusCode::no_food_label;
   }
@@ -180,7 +181,6 @@ void Segmenter::draw_dishes() const {
 
 void Segmenter::draw_items(const FoodOutlineParams& params) {
   result_.items = 0;
-  result_.is_split_doubtful = false;
   draw_dishes();
   draw_food(params);
 }
@@ -191,6 +191,7 @@ void Segmenter::draw_food(const FoodOutlineParams& params) {
   for (std::size_t d = 0; d < result_.dish_count; ++d) {
     SegmentedDish& dish = result_.dishes[d];
     dish.items = 0;
+    dish.is_split_doubtful = false;
     if (!dish.status.ok()) continue;
     const auto first = static_cast<std::uint8_t>(kFirstItemLabel + result_.items);
     const int room = kLastItemLabel + 1 - first;
@@ -218,7 +219,7 @@ void Segmenter::draw_food(const FoodOutlineParams& params) {
     spread_items(raster, params, memory_.food.outline, cells);
     draw_cells(raster, cells, dish.label, views_[1].labels);
     dish.items = keep_confirmed(first, split.items, dish.label);
-    if (dish.items > 1 && split.most_alike > params_.doubtful_likeness) result_.is_split_doubtful = true;
+    dish.is_split_doubtful = dish.items > 1 && split.most_alike > params_.doubtful_likeness;
     result_.items += dish.items;
   }
 }

@@ -30,8 +30,9 @@ struct SegmentedDish {
   std::uint8_t label = kDishLabel;
   Status status;
   FoundDish found;
-  DishModel model;  // as described, where it was found
-  int items = 0;    // that lie on it: their labels follow those of the dish before
+  DishModel model;                 // as described, where it was found
+  int items = 0;                   // that lie on it: their labels follow those of the dish before
+  bool is_split_doubtful = false;  // two of them may be one food
 };
 
 // What a segmentation found; the labels themselves are in the caller's pictures.
@@ -41,9 +42,8 @@ struct Segmentation {
   bool is_card_doubtful = false;  // in one of the views: part of its print is covered, or out of its place
   std::array<SegmentedDish, kMaxPlacedDishes> dishes;
   std::size_t dish_count = 0;
-  int items = 0;  // labels from kFirstItemLabel on
-  // Two items may be one food, or, where a number was asked for, there are more or fewer.
-  bool is_split_doubtful = false;
+  int items = 0;             // labels from kFirstItemLabel on
+  bool misses_hint = false;  // a number of items was asked for, and there are more or fewer
   double card_ms = 0.0;
   double dish_ms = 0.0;
   double food_ms = 0.0;
@@ -51,6 +51,11 @@ struct Segmentation {
   bool has_all_dishes() const {
     return std::all_of(dishes.begin(), dishes.begin() + static_cast<std::ptrdiff_t>(dish_count),
                        [](const SegmentedDish& dish) { return dish.status.ok(); });
+  }
+  bool is_split_doubtful() const {
+    return misses_hint ||
+           std::any_of(dishes.begin(), dishes.begin() + static_cast<std::ptrdiff_t>(dish_count),
+                       [](const SegmentedDish& dish) { return dish.is_split_doubtful; });
   }
   double total_ms() const { return card_ms + dish_ms + food_ms; }
 };
@@ -71,7 +76,7 @@ class Segmenter {
   // Takes the first, then the second view: makes its grey picture and finds its card. frame_size_mismatch:
   // of another size than the lens or the pictures to be filled; frame_too_dark, frame_too_bright;
   // card_not_found; card_hidden where it is cut off. What fails here is also what segment()
-  // reports. A third view is refused (invalid_configuration) and changes nothing.
+  // reports. A third view is refused (wrong_call) and changes nothing.
   Status add_view(const SegmentedView& view);
   // Draws the labels of both views. rim_not_found (no dish at all), dish_cut_off (none whole), no_food_label;
   // card_hidden instead of each where a card is doubtful.

@@ -63,24 +63,35 @@ void report_pictures(const ViewQuality& first, const ViewQuality& second, const 
   }
 }
 
+// Items are warned of one by one.
+void warn_about_items(const ViewQuality& first, const ViewQuality& second, const ViewCheckParams& params,
+                      WarningSet& warnings) {
+  for (int value = kFirstItemLabel; value <= kLastItemLabel; ++value) {
+    const auto label = static_cast<std::uint8_t>(value);
+    warnings.raise_if(clipped_share(label, first, second) > params.clipped_warning, Warning::food_clipped,
+                      label);
+    warnings.raise_if(
+        textured_share(label, first, second, params.min_texture_blocks) < params.textured_warning,
+        Warning::little_texture, label);
+  }
+}
+
 void warn_about_pictures(const ViewQuality& first, const ViewQuality& second, const ViewCheckParams& params,
-                         Measurement& measurement) {
-  const PictureReport& report = measurement.report.pictures;
+                         const PictureReport& report, WarningSet& warnings) {
   const auto either = [&](auto is_doubtful) { return is_doubtful(first) || is_doubtful(second); };
-  measurement.warn(Warning::blurred, either([&](const ViewQuality& view) {
-                     return is_blurred(view, params.blur_warning_px, params.blur_warning_mm);
-                   }));
-  measurement.warn(Warning::underexposed, either([&](const ViewQuality& view) {
-                     return is_darker(view, params.underexposed_white);
-                   }));
-  measurement.warn(Warning::card_partly_hidden, either([&](const ViewQuality& view) {
-                     return is_covered(view, params.visible_card_warning);
-                   }));
-  measurement.warn(Warning::food_clipped, report.most_clipped_share > params.clipped_warning);
-  measurement.warn(Warning::little_texture, report.least_textured_share < params.textured_warning);
-  measurement.warn(Warning::exposure_differs, report.exposure_ratio > params.exposure_ratio_warning);
-  measurement.warn(Warning::white_balance_differs,
-                   report.white_balance_ratio > params.white_balance_ratio_warning);
+  warnings.raise_if(either([&](const ViewQuality& view) {
+                      return is_blurred(view, params.blur_warning_px, params.blur_warning_mm);
+                    }),
+                    Warning::blurred);
+  warnings.raise_if(
+      either([&](const ViewQuality& view) { return is_darker(view, params.underexposed_white); }),
+      Warning::underexposed);
+  warnings.raise_if(
+      either([&](const ViewQuality& view) { return is_covered(view, params.visible_card_warning); }),
+      Warning::card_partly_hidden);
+  warnings.raise_if(report.exposure_ratio > params.exposure_ratio_warning, Warning::exposure_unequal);
+  warnings.raise_if(report.white_balance_ratio > params.white_balance_ratio_warning,
+                    Warning::white_balance_unequal);
 }
 
 Status judge_pair(const ColourDifference& difference, const ViewCheckParams& params) {
@@ -128,10 +139,11 @@ StatusCode judge_item_pixels(std::uint8_t label, const ViewQuality& first, const
 }
 
 Status compare_pictures(const ViewQuality& first, const ViewQuality& second, const ViewCheckParams& params,
-                        Measurement& measurement) {
+                        PictureReport& report, WarningSet& warnings) {
   const ColourDifference difference = compare_colours(first.colours, second.colours, params.colours);
-  report_pictures(first, second, difference, params, measurement.report.pictures);
-  warn_about_pictures(first, second, params, measurement);
+  report_pictures(first, second, difference, params, report);
+  warn_about_pictures(first, second, params, report, warnings);
+  warn_about_items(first, second, params, warnings);
   return judge_pair(difference, params);
 }
 

@@ -3,17 +3,18 @@
 // a refusal.
 #pragma once
 
+#include <array>
 #include <cstdint>
 
 #include "core/base/status.hpp"
 #include "core/geometry/camera.hpp"
 #include "core/image_view/image_view.hpp"
 #include "core/labels/label_regions.hpp"
-#include "core/pipeline/measurement.hpp"
 #include "core/quality/card_silhouette.hpp"
 #include "core/quality/edge_blur.hpp"
 #include "core/quality/item_pixels.hpp"
 #include "core/quality/region_colours.hpp"
+#include "core/quality/warning.hpp"
 
 namespace traygauge {
 
@@ -102,9 +103,20 @@ Status judge_view(const ViewQuality& quality, const ViewCheckParams& params);
 StatusCode judge_item_pixels(std::uint8_t label, const ViewQuality& first, const ViewQuality& second,
                              const ViewCheckParams& params);
 
-// Both views' figures into the report, and the warnings that they raise. exposure_differs,
+// What both pictures are like, for reports.
+struct PictureReport {
+  std::array<double, 2> blur_px{};
+  std::array<double, 2> visible_card_share{};
+  std::array<int, 2> card_white{};
+  double exposure_ratio = 1.0;
+  double white_balance_ratio = 1.0;
+  double most_clipped_share = 0.0;    // of an item
+  double least_textured_share = 1.0;  // of an item
+};
+
+// Fills `report` from both views and raises the warnings that follow. exposure_differs,
 // white_balance_differs, or ok.
 Status compare_pictures(const ViewQuality& first, const ViewQuality& second, const ViewCheckParams& params,
-                        Measurement& measurement);
+                        PictureReport& report, WarningSet& warnings);
 
 }  // namespace traygauge

@@ -34,15 +34,13 @@ Status check_angle(double relative_angle_deg, const ViewGeometryParams& params) 
   return StatusCode::ok;
 }
 
-void warn_about_angles(const std::optional<double>& first_arm_angle_deg,
-                       const std::optional<double>& second_arm_angle_deg, const ViewGeometryParams& params,
-                       Measurement& measurement) {
-  measurement.warn(Warning::angle_small, measurement.relative_angle_deg < params.small_angle_deg);
-  measurement.warn(Warning::angle_large, measurement.relative_angle_deg > params.large_angle_deg);
-  if (!first_arm_angle_deg || !second_arm_angle_deg) return;
-  const double commanded_deg = std::abs(*second_arm_angle_deg - *first_arm_angle_deg);
-  measurement.warn(Warning::arm_angle_disagrees,
-                   std::abs(commanded_deg - measurement.rotation_angle_deg) > params.max_arm_deviation_deg);
+void warn_about_angles(const ViewAngles& angles, const ViewGeometryParams& params, WarningSet& warnings) {
+  warnings.raise_if(angles.relative_deg < params.small_angle_deg, Warning::angle_small);
+  warnings.raise_if(angles.relative_deg > params.large_angle_deg, Warning::angle_large);
+  if (!angles.first_arm_deg || !angles.second_arm_deg) return;
+  const double commanded_deg = std::abs(*angles.second_arm_deg - *angles.first_arm_deg);
+  warnings.raise_if(std::abs(commanded_deg - angles.rotation_deg) > params.max_arm_deviation_deg,
+                    Warning::arm_angle_disagrees);
 }
 
 }  // namespace traygauge

@@ -9,7 +9,7 @@
 #include "core/image_view/image_view.hpp"
 #include "core/labels/label_regions.hpp"
 #include "core/pipeline/configuration.hpp"
-#include "core/pipeline/measurement.hpp"
+#include "core/quality/warning.hpp"
 
 namespace traygauge {
 
@@ -23,10 +23,14 @@ Status check_labels(const LabelRegions& regions);
 // views_too_close or views_too_far_apart.
 Status check_angle(double relative_angle_deg, const ViewGeometryParams& params);
 
-// The doubts that the angles of `measurement` raise, among themselves and against the arm's where both are
-// known.
-void warn_about_angles(const std::optional<double>& first_arm_angle_deg,
-                       const std::optional<double>& second_arm_angle_deg, const ViewGeometryParams& params,
-                       Measurement& measurement);
+// Measured angles, and those that the arm was sent to where it has one.
+struct ViewAngles {
+  double relative_deg = 0.0;  // between the lines of sight, at the dish
+  double rotation_deg = 0.0;  // of the camera
+  std::optional<double> first_arm_deg;
+  std::optional<double> second_arm_deg;
+};
+
+void warn_about_angles(const ViewAngles& angles, const ViewGeometryParams& params, WarningSet& warnings);
 
 }  // namespace traygauge

@@ -20,11 +20,11 @@ std::string errors_or_blanks(const std::optional<StageErrors>& errors) {
 
 std::string list_warnings(const Run& run) {
   std::string list;
-  for (std::size_t i = 0; i < run.warnings.size(); ++i) {
-    if (!run.warnings[i]) continue;
+  run.warnings.for_each([&](Warning warning, std::uint8_t label) {
     if (!list.empty()) list += ' ';
-    list += name(static_cast<Warning>(i));
-  }
+    list += name(warning);
+    if (label != kBackgroundLabel) list.append(":").append(std::to_string(label));
+  });
   return list;
 }
 

@@ -47,7 +47,7 @@ const ItemEstimate* estimate_of(const Run& run, int label) {
 }
 
 bool is_warned(const Run& run) {
-  return std::find(run.warnings.begin(), run.warnings.end(), true) != run.warnings.end();
+  return !run.warnings.empty();
 }
 
 Run record_run(const Measurement& measurement, std::uint64_t seed) {

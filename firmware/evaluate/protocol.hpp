@@ -45,7 +45,7 @@ struct Run {
   double relative_angle_deg = 0.0;
   double total_ms = 0.0;
   double all_food_ml = 0.0;  // of what was measured, whatever it was taken for
-  std::array<bool, kWarningCount> warnings{};
+  WarningSet warnings;
   MeasurementReport report;
   std::optional<StageErrors> errors;  // where it came as far as volumes
 };

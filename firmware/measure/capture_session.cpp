@@ -63,8 +63,9 @@ void CaptureSession::check_inputs(const Capture& capture) {
     }
     const std::string unknown = list_labels(views_[i].labels, is_meaningless);
     if (!unknown.empty()) {
-      warnings_.push_back(printable(descriptions_[i]->labels->path.string()) +
-                          ": labels without a meaning (" + unknown + ") count as background.");
+      warnings_.push_back({"labels_without_meaning", printable(descriptions_[i]->labels->path.string()) +
+                                                         ": labels without a meaning (" + unknown +
+                                                         ") count as background."});
     }
   }
   if (!estimator_.status().ok()) {
@@ -75,8 +76,10 @@ void CaptureSession::check_inputs(const Capture& capture) {
   const PictureSize pattern = setup_.pattern.size;
   const double stretch = card.width_mm * pattern.height / (card.height_mm * pattern.width);
   if (std::max(stretch, 1.0 / stretch) > kMaxCardStretch) {
-    warnings_.push_back(printable(card.pattern.path.string()) +
-                        ": the proportions of the pattern differ from card.width_mm and card.height_mm.");
+    warnings_.push_back(
+        {"card_proportions_differ",
+         printable(card.pattern.path.string()) +
+             ": the proportions of the pattern differ from card.width_mm and card.height_mm."});
   }
 }
 

@@ -9,6 +9,7 @@
 
 #include "core/pipeline/estimator.hpp"
 #include "firmware/base/aligned_block.hpp"
+#include "firmware/measure/measure_report.hpp"
 #include "firmware/measure/pair_setup.hpp"
 #include "firmware/segment/pair_labels.hpp"
 #include "simulator/capture/capture.hpp"
@@ -39,7 +40,7 @@ class CaptureSession {
   // The capture's own labels where the segmentation drew others; else empty pictures.
   const std::array<Picture, 2>& given_labels() const { return given_labels_; }
   // Doubts about the input that do not stop a measurement.
-  const std::vector<std::string>& warnings() const { return warnings_; }
+  const std::vector<ReportedWarning>& warnings() const { return warnings_; }
 
  private:
   void check_inputs(const Capture& capture);
@@ -48,7 +49,7 @@ class CaptureSession {
   std::array<const ViewDescription*, 2> descriptions_{};
   std::array<LoadedView, 2> views_;
   PairSetup setup_;
-  std::vector<std::string> warnings_;
+  std::vector<ReportedWarning> warnings_;
   Configuration configuration_;
   AlignedBlock block_;
   Estimator estimator_;

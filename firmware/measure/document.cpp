@@ -2,31 +2,16 @@
 #include <optional>
 
 #include "firmware/base/json_number.hpp"
-#include "firmware/measure/measure_report.hpp"
+#include "firmware/measure/json_parts.hpp"
 
 namespace traygauge {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr int kMeasureVersion = 1;
-
-Json item_of(const ItemResult& item) {
-  const bool measured = item.status == StatusCode::ok;
-  return {{"label", item.label},
-          {"dish", item.dish},
-          {"status", name(item.status)},
-          {"volume_ml", number_or_null(item.volume_ml, measured)},
-          {"sigma_ml", number_or_null(item.sigma_ml, measured && item.sigma_ml > 0.0)},
-          {"column_volume_ml", number_or_null(item.column_volume_ml, measured)},
-          {"area_mm2", number_or_null(item.area_mm2, measured)},
-          {"mean_height_mm", number_or_null(item.mean_height_mm, measured)},
-          {"max_height_mm", number_or_null(item.max_height_mm, measured)}};
-}
-
 Json items_of(const Measurement& measurement) {
   Json items = Json::array();
-  for (const ItemResult& item : measurement.items) items.push_back(item_of(item));
+  for (const ItemResult& item : measurement.items) items.push_back(item_document(item));
   return items;
 }
 
@@ -72,7 +57,7 @@ std::string compose_document(const MeasureReport& report) {
   document["pose"] = pose_of(measurement);
   document["timing_ms"] = timing_of(report);
   document["memory_bytes"] = {{"reserved", report.reserved_bytes}, {"used", report.used_bytes}};
-  document["warnings"] = report.warnings;
+  document["warnings"] = warning_documents(report.warnings);
   // A path may hold bytes that are not UTF-8.
   return document.dump(-1, ' ', false, Json::error_handler_t::replace);
 }

@@ -53,13 +53,19 @@ std::string compose_message(const Measurement& measurement) {
          " items were measured." + list_failed_items(measurement);
 }
 
-std::vector<std::string> list_warnings(const Measurement& measurement,
-                                       const std::vector<std::string>& input) {
-  std::vector<std::string> warnings = input;
-  for (std::size_t i = 0; i < kWarningCount; ++i) {
-    if (measurement.warnings[i]) warnings.emplace_back(sentence(static_cast<Warning>(i)));
-  }
+std::vector<ReportedWarning> list_warnings(const Measurement& measurement,
+                                           const std::vector<ReportedWarning>& input) {
+  std::vector<ReportedWarning> warnings = input;
+  measurement.warnings.for_each([&](Warning warning, std::uint8_t label) {
+    warnings.push_back({name(warning), sentence(warning), label});
+  });
   return warnings;
+}
+
+std::string describe(const ReportedWarning& warning) {
+  if (warning.label == kBackgroundLabel) return warning.message;
+  const char* kind = is_item(warning.label) ? "Item " : "Dish ";
+  return kind + std::to_string(warning.label) + ": " + warning.message;
 }
 
 }  // namespace traygauge

@@ -12,6 +12,13 @@
 
 namespace traygauge {
 
+// A doubt as the contract's documents carry it.
+struct ReportedWarning {
+  std::string code;                       // e.g. "angle_small"
+  std::string message;                    // a sentence
+  std::uint8_t label = kBackgroundLabel;  // of the item or dish that it is about, if one
+};
+
 struct MeasureReport {
   std::string capture;  // as named by the caller
   std::array<int, 2> pair{};
@@ -23,7 +30,7 @@ struct MeasureReport {
   std::optional<double> segmentation_ms;  // where the labels were drawn by it; part of the total
   std::size_t reserved_bytes = 0;
   std::size_t used_bytes = 0;
-  std::vector<std::string> warnings;  // sentences
+  std::vector<ReportedWarning> warnings;
 };
 
 // True when at least one item was measured.
@@ -32,8 +39,12 @@ bool is_measured(const Measurement& measurement);
 // The sentence of the status with what a person needs to act on it.
 std::string compose_message(const Measurement& measurement);
 
-// The doubts of the measurement and of its input.
-std::vector<std::string> list_warnings(const Measurement& measurement, const std::vector<std::string>& input);
+// The doubts of the input, then those of the measurement.
+std::vector<ReportedWarning> list_warnings(const Measurement& measurement,
+                                           const std::vector<ReportedWarning>& input);
+
+// For people, with the item or dish that it is about.
+std::string describe(const ReportedWarning& warning);
 
 // The JSON document of the contract, on one line; what was not measured is null.
 std::string compose_document(const MeasureReport& report);

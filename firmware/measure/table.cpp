@@ -93,7 +93,7 @@ std::string compose_table(const MeasureReport& report) {
   text += line("time", times(report));
   text +=
       line("memory", mebibytes(report.used_bytes) + " of " + mebibytes(report.reserved_bytes) + " MiB used");
-  for (const std::string& warning : report.warnings) text += line("warning", warning);
+  for (const ReportedWarning& warning : report.warnings) text += line("warning", describe(warning));
   return text;
 }
 

@@ -20,6 +20,14 @@ bool fits(PictureSize size, const Picture& picture) {
   return Picture::area(size) <= picture.pixels.capacity();
 }
 
+void warn_about_labels(const Segmentation& segmentation, WarningSet& warnings) {
+  for (const SegmentedDish& dish : std::span(segmentation.dishes).first(segmentation.dish_count)) {
+    warnings.raise_if(!dish.status.ok(), Warning::dish_not_found, dish.label);
+    warnings.raise_if(dish.is_split_doubtful, Warning::items_doubtful, dish.label);
+  }
+  warnings.raise_if(segmentation.misses_hint, Warning::items_doubtful);
+}
+
 }  // namespace
 
 LabelDrawer::LabelDrawer(const Configuration& configuration) {
@@ -64,7 +72,7 @@ void LabelDrawer::reset() {
 }
 
 Status LabelDrawer::add_view(const ViewInput& view, const Estimator& estimator) {
-  if (!segmenter_ || view_count_ == views_.size()) return StatusCode::invalid_configuration;
+  if (!segmenter_ || view_count_ == views_.size()) return StatusCode::wrong_call;
   const std::size_t index = view_count_++;
   const PictureSize size{view.frame.width, view.frame.height};
   SegmentedView segmented;
@@ -100,10 +108,9 @@ const Measurement& LabelDrawer::measure(Estimator& estimator, std::uint64_t seed
       if (!estimator.add_view(view).ok()) break;
     }
     measurement_ = estimator.estimate(seed, tap);
-    measurement_.warn(Warning::dish_not_found, !segmentation.has_all_dishes());
-    measurement_.warn(Warning::items_doubtful, segmentation.is_split_doubtful);
+    warn_about_labels(segmentation, measurement_.warnings);
     if (segmentation.is_card_doubtful) {
-      measurement_.warn(Warning::card_partly_hidden, true);
+      measurement_.warnings.raise(Warning::card_partly_hidden);
       // Outlines that were drawn after a card out of its place contradict each other; nobody else is to
       // blame.
       if (!is_measured(measurement_)) measurement_.status = StatusCode::card_hidden;

@@ -70,7 +70,7 @@ std::string compose_segment_document(const SegmentReport& report) {
   for (std::size_t d = 0; d < segmentation.dish_count; ++d)
     document["dishes"].push_back(dish_of(segmentation.dishes[d]));
   document["items"] = segmentation.items;
-  document["items_doubtful"] = segmentation.is_split_doubtful;
+  document["items_doubtful"] = segmentation.is_split_doubtful();
   document["views"] = Json::array();
   for (std::size_t v = 0; v < 2; ++v)
     document["views"].push_back(view_of(report.pair[v], measure_regions(report.drawn->labels[v].gray())));
@@ -109,7 +109,7 @@ std::string compose_segment_table(const SegmentReport& report) {
     text += line(
         "items",
         std::to_string(segmentation.items) +
-            (segmentation.is_split_doubtful ? "; it is not sure where one ends and the next begins" : ""));
+            (segmentation.is_split_doubtful() ? "; it is not sure where one ends and the next begins" : ""));
   }
   if (report.scores) {
     for (std::size_t v = 0; v < 2; ++v)

@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <ostream>
 
-#include "firmware/measure/measure_report.hpp"
+#include "firmware/measure/json_parts.hpp"
 
 namespace traygauge {
 namespace {
@@ -48,22 +48,8 @@ std::string item_text(const ItemResult& item) {
   return text.data();
 }
 
-Json item_json(const ItemResult& item) {
-  const bool ok = item.status == StatusCode::ok;
-  const auto number = [ok](double value) { return ok ? Json(value) : Json(); };
-  return {{"label", item.label},
-          {"dish", item.dish},
-          {"status", name(item.status)},
-          {"volume_ml", number(item.volume_ml)},
-          {"sigma_ml", ok && item.sigma_ml > 0.0 ? Json(item.sigma_ml) : Json()},
-          {"column_volume_ml", number(item.column_volume_ml)},
-          {"area_mm2", number(item.area_mm2)},
-          {"mean_height_mm", number(item.mean_height_mm)},
-          {"max_height_mm", number(item.max_height_mm)}};
-}
-
 void add_measurement(const Measurement& measurement, Json& json) {
-  for (const ItemResult& item : measurement.items) json["items"].push_back(item_json(item));
+  for (const ItemResult& item : measurement.items) json["items"].push_back(item_document(item));
   if (measurement.has_pose) json["relative_angle_deg"] = measurement.relative_angle_deg;
   Json timing = Json::object();
   for (std::size_t i = 0; i < kStageCount; ++i) {
@@ -72,9 +58,7 @@ void add_measurement(const Measurement& measurement, Json& json) {
   if (measurement.segmentation_ms > 0.0) timing["segmentation"] = measurement.segmentation_ms;
   timing["total"] = measurement.total_ms;
   json["timing_ms"] = timing;
-  for (std::size_t i = 0; i < kWarningCount; ++i) {
-    if (measurement.warnings[i]) json["warnings"].push_back(name(static_cast<Warning>(i)));
-  }
+  json["warnings"] = warning_documents(list_warnings(measurement, {}));
 }
 
 }  // namespace
@@ -95,15 +79,15 @@ std::string scan_text(const ScanResult& result) {
     text += measured ? ". " + message(result) : message(result);
   }
   if (result.measurement != nullptr) {
-    for (const std::string& warning : list_warnings(*result.measurement, {})) {
-      text += (text.back() == '.' ? " Warning: " : ". Warning: ") + warning;
+    for (const ReportedWarning& warning : list_warnings(*result.measurement, {})) {
+      text += (text.back() == '.' ? " Warning: " : ". Warning: ") + describe(warning);
     }
   }
   return text + "\n";
 }
 
 std::string scan_json(const ScanResult& result) {
-  Json json = {{"version", 1},
+  Json json = {{"version", kMeasureVersion},
                {"scan", result.scan},
                {"tray", result.tray.empty() ? Json() : Json(result.tray)},
                {"status", status_name(result)},

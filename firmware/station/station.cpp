@@ -26,7 +26,7 @@ Signal signal_for(std::optional<double> turned_deg, const HandGuideParams& param
 }
 
 bool contradicts_arm(const Measurement& measurement) {
-  return measurement.warnings[static_cast<std::size_t>(Warning::arm_angle_disagrees)];
+  return measurement.warnings.holds(Warning::arm_angle_disagrees);
 }
 
 // Lost steps show in what was seen only: the views are the same, too close, do not fit each other or the

@@ -38,8 +38,9 @@ json measure(const fs::path& folder) {
 }
 
 bool is_warned_of(const json& document, Warning warning) {
-  const auto warnings = document.at("warnings").get<std::vector<std::string>>();
-  return std::find(warnings.begin(), warnings.end(), sentence(warning)) != warnings.end();
+  const json& warnings = document.at("warnings");
+  return std::any_of(warnings.begin(), warnings.end(),
+                     [&](const json& entry) { return entry.at("code") == name(warning); });
 }
 
 enum class Side : std::uint8_t { left, right };

@@ -268,9 +268,12 @@ TEST_F(MeasureCommand, DoubtsAboutTheInputAreWarnings) {
   ASSERT_EQ(result.status, 0) << result.error;
   const Json warnings = Json::parse(result.out)["warnings"];
   ASSERT_EQ(warnings.size(), 2U) << warnings;
-  EXPECT_NE(warnings[0].get<std::string>().find("labels_1.png"), std::string::npos);
-  EXPECT_NE(warnings[0].get<std::string>().find("(251)"), std::string::npos);
-  EXPECT_NE(warnings[1].get<std::string>().find("proportions"), std::string::npos);
+  EXPECT_EQ(warnings[0]["code"], "labels_without_meaning");
+  EXPECT_TRUE(warnings[0]["label"].is_null());
+  EXPECT_EQ(warnings[1]["code"], "card_proportions_differ");
+  EXPECT_NE(warnings[0]["message"].get<std::string>().find("labels_1.png"), std::string::npos);
+  EXPECT_NE(warnings[0]["message"].get<std::string>().find("(251)"), std::string::npos);
+  EXPECT_NE(warnings[1]["message"].get<std::string>().find("proportions"), std::string::npos);
 }
 
 TEST_F(MeasureCommand, TruthIsNeverRead) {

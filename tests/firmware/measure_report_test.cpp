@@ -57,9 +57,10 @@ TEST_F(Report, DocumentHasEveryKeyOfTheContractInItsOrder) {
 }
 
 TEST_F(Report, DocumentOfAMeasurement) {
-  measurement_.warnings[static_cast<std::size_t>(Warning::angle_small)] = true;
+  measurement_.warnings.raise(Warning::angle_small);
+  measurement_.warnings.raise(Warning::item_uncertain, 3);
   const Json json = document();
-  EXPECT_EQ(json["version"], 1);
+  EXPECT_EQ(json["version"], 2);
   EXPECT_EQ(json["seed"], 18446744073709551615ULL);
   EXPECT_EQ(json["status"], "ok");
   EXPECT_EQ(
@@ -77,7 +78,11 @@ TEST_F(Report, DocumentOfAMeasurement) {
   EXPECT_EQ(json["timing_ms"]["total"], 91.0);
   EXPECT_EQ(json["timing_ms"]["setup"], 3.5);
   EXPECT_EQ(json["memory_bytes"], Json::parse(R"({"reserved":20000000,"used":19000000})"));
-  EXPECT_EQ(json["warnings"], Json({"The views lie less than 10 degrees apart; heights are uncertain."}));
+  ASSERT_EQ(json["warnings"].size(), 2U);
+  EXPECT_EQ(json["warnings"][0], Json::parse(R"({"code":"angle_small","label":null,
+                            "message":"The views lie less than 10 degrees apart; heights are uncertain."})"));
+  EXPECT_EQ(json["warnings"][1]["code"], "item_uncertain");
+  EXPECT_EQ(json["warnings"][1]["label"], 3);
 }
 
 TEST_F(Report, DocumentOfAPartialMeasurement) {

@@ -40,11 +40,11 @@ void write_pose(const Measurement& measurement, std::ostream& row) {
 
 void write_warnings(const Measurement& measurement, std::ostream& row) {
   const char* separator = "";
-  for (std::size_t i = 0; i < kWarningCount; ++i) {
-    if (!measurement.warnings[i]) continue;
-    row << separator << name(static_cast<Warning>(i));
+  measurement.warnings.for_each([&](Warning warning, std::uint8_t label) {
+    row << separator << name(warning);
+    if (label != kBackgroundLabel) row << ':' << int{label};
     separator = " ";
-  }
+  });
 }
 
 void write_item(const ItemResult& item, std::ostream& row) {

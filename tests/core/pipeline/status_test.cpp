@@ -222,7 +222,7 @@ TEST_F(StatusTest, DishIsChosenAmongCandidates) {
   const Measurement& measurement = bench.measure(tray_);
   EXPECT_TRUE(measurement.status.ok());
   EXPECT_EQ(measurement.report.dish_index, 1);
-  EXPECT_TRUE(measurement.warnings[static_cast<std::size_t>(Warning::dish_guessed)]);
+  EXPECT_TRUE(measurement.warnings.holds(Warning::dish_guessed));
 }
 
 // An item in one view only, and one of a few pixels: the solid is measured all the same.
@@ -253,9 +253,8 @@ TEST_F(StatusTest, HiddenAndTinyItems) {
 
 TEST_F(StatusTest, AThirdViewIsRefusedAndChangesNothing) {
   const auto expected = numbers_of(bench_.measure(tray_));
-  EXPECT_EQ(bench_.estimator.add_view(other_tray().view(0)).code(), StatusCode::invalid_configuration);
-  EXPECT_EQ(bench_.estimator.add_view_without_features(tray_.view(0)).code(),
-            StatusCode::invalid_configuration);
+  EXPECT_EQ(bench_.estimator.add_view(other_tray().view(0)).code(), StatusCode::wrong_call);
+  EXPECT_EQ(bench_.estimator.add_view_without_features(tray_.view(0)).code(), StatusCode::wrong_call);
   EXPECT_TRUE(have_equal_bits(expected, numbers_of(bench_.estimator.estimate(1))));
 }
 

@@ -14,13 +14,26 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr auto kLastStatus = StatusCode::item_textureless;
-
 StatusCode status_named(const std::string& text) {
-  for (int code = 0; code <= static_cast<int>(kLastStatus); ++code) {
+  for (std::size_t code = 0; code < kStatusCodeCount; ++code) {
     if (text == name(static_cast<StatusCode>(code))) return static_cast<StatusCode>(code);
   }
   throw std::invalid_argument("no status " + text);
+}
+
+Json warnings_json(const WarningSet& warnings) {
+  Json list = Json::array();
+  warnings.for_each([&](Warning warning, std::uint8_t label) { list.push_back({name(warning), label}); });
+  return list;
+}
+
+void read_warnings(const Json& list, WarningSet& warnings) {
+  for (const Json& entry : list) {
+    for (std::size_t i = 0; i < kWarningCount; ++i) {
+      const auto warning = static_cast<Warning>(i);
+      if (entry.at(0) == name(warning)) warnings.raise(warning, entry.at(1));
+    }
+  }
 }
 
 Json as_json(const Run& run) {
@@ -32,8 +45,12 @@ Json as_json(const Run& run) {
                      {"column_volume_ml", item.column_volume_ml},
                      {"sigma_ml", item.sigma_ml}});
   }
-  return {{"seed", run.seed},         {"status", name(run.status)}, {"angle_deg", run.relative_angle_deg},
-          {"total_ms", run.total_ms}, {"warnings", run.warnings},   {"items", items}};
+  return {{"seed", run.seed},
+          {"status", name(run.status)},
+          {"angle_deg", run.relative_angle_deg},
+          {"total_ms", run.total_ms},
+          {"warnings", warnings_json(run.warnings)},
+          {"items", items}};
 }
 
 Run as_run(const Json& json) {
@@ -42,7 +59,7 @@ Run as_run(const Json& json) {
   run.status = status_named(json.at("status"));
   run.relative_angle_deg = json.at("angle_deg");
   run.total_ms = json.at("total_ms");
-  run.warnings = json.at("warnings");
+  read_warnings(json.at("warnings"), run.warnings);
   for (const Json& item : json.at("items")) {
     run.items.push_back({item.at("label"), status_named(item.at("status")), item.at("volume_ml"),
                          item.at("column_volume_ml"), item.at("sigma_ml")});

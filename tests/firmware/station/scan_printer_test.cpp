@@ -21,7 +21,7 @@ class Printed : public testing::Test {
     items_[1].volume_ml = 55.0;
     measurement_.items = items_;
     measurement_.status = StatusCode::partial;
-    measurement_.warnings[0] = true;
+    measurement_.warnings.raise(Warning::angle_small);
     result_.scan = 3;
     result_.tray = "soup";
     result_.measurement = &measurement_;
@@ -46,7 +46,7 @@ TEST_F(Printed, JsonIsOneLineAndHasNullForWhatWasNotMeasured) {
   const std::string line = scan_json(result_);
   EXPECT_EQ(line.find('\n'), std::string::npos);
   const auto json = nlohmann::json::parse(line);
-  EXPECT_EQ(json["version"], 1);
+  EXPECT_EQ(json["version"], 2);
   EXPECT_EQ(json["scan"], 3);
   EXPECT_EQ(json["tray"], "soup");
   EXPECT_EQ(json["status"], "partial");

@@ -48,7 +48,7 @@ class FakeMeasurer final : public Measurer {
     if (measurement_.status.ok()) measurement_.status = judge_views();
     if (grays_.size() == 2) item_.volume_ml = 10.0 * grays_[0] + grays_[1];
     if (measurement_.status.ok() || status.code() == StatusCode::partial) measurement_.items = {&item_, 1};
-    measurement_.warn(Warning::arm_angle_disagrees, disagreements > 0);
+    measurement_.warnings.raise_if(disagreements > 0, Warning::arm_angle_disagrees);
     if (disagreements > 0) --disagreements;
     return measurement_;
   }
