@@ -11,6 +11,7 @@
 
 #include "core/adjustment/card_prior.hpp"
 #include "core/adjustment/track_residuals.hpp"
+#include "core/dish/dish_model.hpp"
 #include "core/dish/dish_pose.hpp"
 #include "core/geometry/geometry.hpp"
 #include "core/geometry/levenberg_marquardt.hpp"
@@ -22,7 +23,6 @@ namespace traygauge {
 // A step of the first camera (6), of the second (6), of the card's lie (tilt 2, raised 1).
 inline constexpr int kJointParameters = 15;
 inline constexpr int kLieParameter = 12;
-inline constexpr std::size_t kMaxPlacedDishes = 8;
 using JointVector = Eigen::Matrix<double, kJointParameters, 1>;
 using JointMatrix = Eigen::Matrix<double, kJointParameters, kJointParameters>;
 

@@ -34,8 +34,20 @@ class ArenaPlan {
     take<T>(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
     return {nullptr, width, height};
   }
-  constexpr std::size_t mark() const { return used_; }
-  constexpr void rewind(std::size_t mark) { used_ = mark; }
+  // Stages that never work at the same time share memory: each of `parts`, a call that takes from this arena,
+  // begins where this one begins, and as much as the largest needs stays taken.
+  template <class... Parts>
+  constexpr void overlay(Parts&&... parts) {
+    const std::size_t begin = used_;
+    std::size_t end = begin;
+    const auto lay = [&](auto&& part) {
+      used_ = begin;
+      part();
+      end = used_ > end ? used_ : end;
+    };
+    (lay(parts), ...);
+    used_ = end;
+  }
   constexpr std::size_t used_bytes() const { return used_; }
   constexpr std::size_t high_water_bytes() const { return high_water_; }
 
@@ -44,8 +56,7 @@ class ArenaPlan {
   std::size_t high_water_ = 0;
 };
 
-// Hands out pieces of a block that the caller owns, in order, never freed one by one. Stages that never run
-// at the same time share memory by rewinding to a common mark.
+// Hands out pieces of a block that the caller owns, in order, never freed one by one.
 class Arena {
  public:
   Arena() = default;
@@ -74,8 +85,20 @@ class Arena {
     if (pixels.empty()) return {};
     return {pixels.data(), width, height};
   }
-  std::size_t mark() const { return used_; }
-  void rewind(std::size_t mark) { used_ = mark; }
+  // Stages that never work at the same time share memory: each of `parts`, a call that takes from this arena,
+  // begins where this one begins, and as much as the largest needs stays taken.
+  template <class... Parts>
+  void overlay(Parts&&... parts) {
+    const std::size_t begin = used_;
+    std::size_t end = begin;
+    const auto lay = [&](auto&& part) {
+      used_ = begin;
+      part();
+      end = used_ > end ? used_ : end;
+    };
+    (lay(parts), ...);
+    used_ = end;
+  }
   std::size_t used_bytes() const { return used_; }
   std::size_t high_water_bytes() const { return high_water_; }
   bool exhausted() const { return exhausted_; }

@@ -9,7 +9,7 @@
 
 #include "core/base/arena.hpp"
 #include "core/base/status.hpp"
-#include "core/card/card.hpp"
+#include "core/card/card_size.hpp"
 #include "core/geometry/geometry.hpp"
 #include "core/image_view/image_view.hpp"
 

@@ -135,7 +135,7 @@ struct CardSearchWorkspace {
     max_height = static_cast<int>(scale * max_frame_height) + 1;
     corner_search.allocate(arena, max_width, max_height, params.corners);
     tracks = arena.template take<CardTrack>(static_cast<std::size_t>(params.max_corners));
-    card.allocate(arena, params.max_corners, 1);
+    card.allocate(arena, params.max_corners);
   }
 };
 

@@ -4,7 +4,7 @@
 #include <Eigen/LU>
 #include <utility>
 
-#include "core/card/card.hpp"
+#include "core/card/card_size.hpp"
 #include "core/geometry/geometry.hpp"
 #include "core/geometry/table_frame.hpp"
 

@@ -11,6 +11,8 @@
 
 namespace traygauge {
 
+inline constexpr std::size_t kMaxPlacedDishes = 8;  // on one tray, that are measured
+
 // A point of the inner surface: so far from the outer edge, measured as an inset d of the rim's ellipse,
 // (x/(a-d))² + (y/(b-d))² = 1.
 struct DishProfilePoint {

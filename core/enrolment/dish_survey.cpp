@@ -13,11 +13,11 @@ namespace {
 
 constexpr double kDegreesPerRadian = 180.0 / std::numbers::pi;
 
-Status check_bare_dish(const BestView& view) {
+Status check_bare_dish(const TrayView& view) {
   for (int value = kFirstFurtherDishLabel; value <= kLastFurtherDishLabel; ++value) {
-    if (view.regions.pixels[static_cast<std::size_t>(value)] > 0) return StatusCode::too_many_dishes;
+    if (view.regions().pixels[static_cast<std::size_t>(value)] > 0) return StatusCode::too_many_dishes;
   }
-  if (view.regions.pixels[kDishLabel] == 0) return StatusCode::no_dish_label;
+  if (view.regions().pixels[kDishLabel] == 0) return StatusCode::no_dish_label;
   return is_cut_off(view, labels_of_single_dish()) ? StatusCode::dish_cut_off : StatusCode::ok;
 }
 
@@ -45,17 +45,17 @@ DishModel funnel_of(const DishModel& edge) {
 
 template <class Allocator>
 constexpr void DishSurveyor::Memory::allocate(Allocator& arena, const Configuration& configuration) {
-  const BestParams& best = configuration.best;
-  pattern.allocate(arena, best.card.pattern);
-  for (BestView& view : views) view.allocate(arena, configuration.limits);
+  pattern.allocate(arena, configuration.card_alignment.pattern);
+  for (TrayView& view : views) view.allocate(arena, configuration.limits);
   scene = arena.template take<SceneGeometry>(1);
-  const std::size_t shared = arena.mark();
-  preparation.allocate(arena, configuration);
-  arena.rewind(shared);
-  geometry.allocate(arena, configuration);
-  surface.allocate(arena, best.surface);
-  heights.allocate(arena, static_cast<std::size_t>(best.surface.rectification.max_samples));
-  profile.allocate(arena);
+  const auto max_samples = static_cast<std::size_t>(configuration.surface.rectification.max_samples);
+  arena.overlay([&] { preparation.allocate(arena, configuration); },
+                [&] {
+                  geometry.allocate(arena, configuration);
+                  surface.allocate(arena, configuration.surface);
+                  heights.allocate(arena, max_samples);
+                  profile.allocate(arena);
+                });
 }
 
 std::size_t survey_bytes(const Configuration& configuration) {
@@ -68,7 +68,6 @@ std::size_t survey_bytes(const Configuration& configuration) {
 DishSurveyor::DishSurveyor(std::span<std::byte> block, const Configuration& configuration,
                            const DishSurveyParams& params)
     : configuration_(configuration), params_(params) {
-  configuration_.profile = Profile::best;
   configuration_.dishes = {};
   status_ = validate_apart_from_dishes(configuration_);
   if (!status_.ok()) return;
@@ -80,13 +79,13 @@ DishSurveyor::DishSurveyor(std::span<std::byte> block, const Configuration& conf
   }
   const ReferenceCard& card = configuration_.card;
   status_ =
-      prepare_card_pattern(card.pattern, card.size(), configuration_.best.card.pattern, memory_.pattern);
+      prepare_card_pattern(card.pattern, card.size(), configuration_.card_alignment.pattern, memory_.pattern);
 }
 
 Status DishSurveyor::add_view(const ViewInput& input) {
   if (!status_.ok()) return status_;
-  if (views_ == 2) return StatusCode::invalid_configuration;
-  BestView& view = memory_.views[static_cast<std::size_t>(views_)];
+  if (views_ == 2) return StatusCode::wrong_call;
+  TrayView& view = memory_.views[static_cast<std::size_t>(views_)];
   view.lens = input.lens.value_or(configuration_.lens);
   view.arm_angle_deg = input.arm_angle_deg;
   view.labels = input.labels;
@@ -128,7 +127,7 @@ Status DishSurveyor::find_edge(const ViewPair& views, std::uint64_t seed) {
   Status status = find_geometry(views, configuration_, random, workspace, clock, report, geometry);
   if (!status.ok()) return status;
   const FocalsPx focals_px = {views[0]->lens.pinhole.mean_focal_px(), views[1]->lens.pinhole.mean_focal_px()};
-  JointParams params = configuration_.best.joint;
+  JointParams params = configuration_.joint;
   status = measure_dish_edge({workspace.outlines[0][0].items(), workspace.outlines[0][1].items()},
                              geometry.joint.camera_from_table, focals_px, params.placement, params_.edge,
                              workspace.joint.placement, survey_.place);
@@ -160,7 +159,7 @@ Status DishSurveyor::match(const ViewPair& views, double bottom_mm, std::array<S
   const SceneGeometry& geometry = memory_.scene.front();
   const DishOnTray& dish = geometry.dishes[0];
   TwoViewSurfaceReport dense;
-  TwoViewSurfaceParams params = configuration_.best.surface;
+  TwoViewSurfaceParams params = configuration_.surface;
   params.rectification.whole_dish = true;  // here the dish is what is measured
   params.refinement.dish_weight = 1.0;
   const Status status = reconstruct_surface(
@@ -171,9 +170,9 @@ Status DishSurveyor::match(const ViewPair& views, double bottom_mm, std::array<S
   return status;
 }
 
-// First over the table, then over the bottom that was found: there the pictures fit best.
+// First over the table, then over the bottom that was found: there the pictures fit configuration.
 Status DishSurveyor::measure_profile(const ViewPair& views) {
-  make_matte(views, configuration_.best.matte);
+  make_matte(views, configuration_.matte);
   const DishModel edge = model_of(survey_.place, params_.edge);
   InnerSurface insets;
   insets.place = frame_of(survey_.place);
@@ -240,7 +239,7 @@ void DishSurveyor::rate_errors() {
   const JointResult& joint = memory_.scene.front().joint;
   const Vec3 middle = middle_of(survey_.place, survey_.fitted.dish.bottom_height_mm);
   const double cameras_mm = height_sigma_mm(middle, joint.camera_from_table, joint.covariance);
-  const double matching_mm = configuration_.best.uncertainty.disparity_bias_px *
+  const double matching_mm = configuration_.uncertainty.disparity_bias_px *
                              height_per_sample_mm(joint.camera_from_table, middle, sample_mm_);
   survey_.errors.height_mm = std::hypot(cameras_mm, matching_mm);
 }

@@ -12,10 +12,10 @@
 #include "core/enrolment/dish_edge.hpp"
 #include "core/enrolment/inset_heights.hpp"
 #include "core/enrolment/profile_fit.hpp"
-#include "core/pipeline/best_view.hpp"
 #include "core/pipeline/configuration.hpp"
-#include "core/pipeline/estimator.hpp"
 #include "core/pipeline/scene_geometry.hpp"
+#include "core/pipeline/tray_view.hpp"
+#include "core/pipeline/view_input.hpp"
 #include "core/stereo/dense_stereo.hpp"
 
 namespace traygauge {
@@ -82,8 +82,8 @@ class DishSurveyor {
  private:
   struct Memory {
     CardPattern pattern;
-    std::array<BestView, 2> views;
-    BestViewWorkspace preparation;
+    std::array<TrayView, 2> views;
+    TrayViewWorkspace preparation;
     SceneGeometryWorkspace geometry;
     std::span<SceneGeometry> scene;  // one
     TwoViewSurfaceWorkspace surface;

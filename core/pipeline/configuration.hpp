@@ -1,148 +1,68 @@
 // Everything that a measurement depends on beside the pictures.
 #pragma once
 
-#include <array>
-#include <cstdint>
-#include <span>
-
-#include "core/base/status.hpp"
+#include "core/adjustment/bundle_adjustment.hpp"
 #include "core/card/card.hpp"
-#include "core/dish/dish_model.hpp"
-#include "core/dish/rim_ellipse.hpp"
-#include "core/geometry/camera.hpp"
-#include "core/image_view/image_view.hpp"
-#include "core/paper/features/surf.hpp"
-#include "core/paper/matching/matcher.hpp"
-#include "core/paper/pipeline/label_agreement.hpp"
-#include "core/paper/pose/relative_pose.hpp"
-#include "core/paper/rectification/polar_rectification.hpp"
-#include "core/paper/stereo/disparity_range.hpp"
-#include "core/paper/stereo/stereo.hpp"
-#include "core/paper/surface/dish_surface.hpp"
-#include "core/paper/surface/food_mesh.hpp"
-#include "core/paper/surface/rim.hpp"
-#include "core/paper/volume/mesh_volume.hpp"
-#include "core/pipeline/best_params.hpp"
+#include "core/card/card_alignment.hpp"
+#include "core/dish/dish_outline.hpp"
+#include "core/image/specular_suppression.hpp"
+#include "core/labels/dish_membership.hpp"
+#include "core/pipeline/food_agreement_params.hpp"
 #include "core/pipeline/segmenter_params.hpp"
-#include "core/quality/exposure.hpp"
-#include "core/quality/view_checks.hpp"
+#include "core/pipeline/tray_setup.hpp"
+#include "core/stereo/dense_stereo.hpp"
+#include "core/tracking/point_tracking.hpp"
+#include "core/volume/height_map.hpp"
+#include "core/volume/height_volume.hpp"
+#include "core/volume/level_liquid.hpp"
+#include "core/volume/overhang.hpp"
+#include "core/volume/round_body.hpp"
+#include "core/volume/uncertainty.hpp"
 
 namespace traygauge {
 
-// Caps that size the memory. An input that exceeds one keeps its best part, and the result says so.
-struct EstimatorLimits {
-  int max_frame_width = 1600;
-  int max_frame_height = 1200;
-  int max_keypoints = 3000;      // per view
-  int max_card_keypoints = 800;  // of those, kept for the card where it is labelled
-  int max_pattern_keypoints = 1500;
-  int max_feature_px = 1200 * 1000;  // area of the picture in which salient points are looked for
-  int max_working_px =
-      300 * 1000;  // of the picture for dense matching: 2^17 dish pixels, their box at any angle
-  int max_working_side_px = 1024;  // its longer side
+// What ties the stages together.
+struct PipelineParams {
+  int min_item_px = 64;  // of an item in either view, about 25 mm²
+  // Above the tallest sparse point on a dish the surface is searched this much higher: corners sit on edges
+  // and texture, not on every summit.
+  double summit_margin_mm = 20.0;
+  // No search ends below this height over a dish's bottom, however few points there are on the food.
+  double min_top_mm = 40.0;
+  // Of a dish's outlines on the rim found, or on the wall below it; fewer: the outlines are of another
+  // picture. Right ones reach 0.93 and more, those of a view 5 degrees off 0.63 to 0.80.
+  double min_rim_inlier_share = 0.88;
+  // Of an item's samples; fewer: its volume is doubtful. Food with texture reaches 0.65 and more between
+  // 10 and 30 degrees, a banana 0.6.
+  double min_matched_share = 0.62;
+  // Of an item's sigma in its volume; above, its volume is doubtful. One volume in thirty of rendered meals.
+  double max_sigma_share = 0.063;
+  std::size_t max_outline_points = 1024;   // of one dish in one view: a contour of 8 sides a point
+  std::size_t max_contour_sides = 8192;    // of one dish in one view, twice what a round one of 1600 px has
+  std::size_t max_height_cells = 180'000;  // of a dish's height map: 360 × 360 mm at 0.85 mm
 };
 
-// The pictures that the stages work on.
-struct ViewParams {
-  double matching_dish_px = 131072.0;  // 2^17: area of the dish for dense matching (paper V-B)
-  // Dense matching leaves the background out (paper V-B, region of interest); else the whole picture is
-  // matched and needs memory for itself: max_working_px, max_working_side_px, the rectification's caps.
-  bool match_dish_only = true;
-  double working_margin_px = 6.0;  // around the dish: half of census and window
-  double feature_dish_px =
-      524288.0;  // 2^19: area of the dish where salient points are looked for; the card needs it
-  // Scale at which the card and its pattern are searched for salient points. Views show the card with 2 to 4
-  // px per mm, where the box filters find few; enlarging as in [14], 3.3 gives four times as many.
-  double card_px_per_mm = 6.0;
-  double max_card_enlargement = 3.0;  // of a view's picture of the card; more only blurs
-  double max_card_rotation_deg =
-      5.0;  // between the scene's motion and the card's own, which is sure to 1 or 2 degrees
-  double min_card_pose_fitness = 0.8;  // eq. (1) of the card's motion over that of the scene's, to replace it
-  double min_kept_keypoint_share = 1.0 / 3.0;  // of the salient points found; fewer: warning
-  int min_keypoints = 50;                      // fewer: too_few_features
-  double min_matched_share = 0.5;              // of the dish with a depth; less: too_little_depth
+// The parameters of every stage, in the order in which they run.
+struct Configuration : TraySetup {
+  // Memory is taken for finding labels where a pair comes without; else such a pair is refused.
+  bool finds_labels = true;
+  CardParams card_search;  // among corners, where no labels are given
+  SegmenterParams segmentation;
+  CardAlignmentParams card_alignment;
+  PointTrackingParams tracking;
+  DishMembershipParams membership;
+  DishOutlineParams outline;
+  JointParams joint;
+  MatteParams matte;
+  TwoViewSurfaceParams surface;
+  RoundBodyParams round_body;
+  HeightMapParams height_map;
+  LevelLiquidParams liquid;
+  HeightVolumeParams volume;
+  OverhangParams overhang;
+  FoodAgreementParams agreement;
+  UncertaintyParams uncertainty;
+  PipelineParams pipeline;
 };
-
-// The reference card. The pattern is its printed side as a grey picture, filling width × height.
-struct ReferenceCard {
-  double width_mm = 85.60;  // ISO/IEC 7810 ID-1
-  double height_mm = 53.98;
-  double thickness_mm = 0.8;  // the print lies that much above the table
-  ImageView<const std::uint8_t> pattern;
-
-  CardModelSize size() const { return {width_mm, height_mm, thickness_mm}; }
-};
-
-// How the views may lie to each other.
-struct ViewGeometryParams {
-  bool reference_is_steeper =
-      true;                     // depth and mesh belong to the view nearer to the vertical; else to the first
-  double min_angle_deg = 3.0;   // less: views_too_close; 1 px of disparity is then 9 mm of height
-  double max_angle_deg = 60.0;  // more: views_too_far_apart
-  double small_angle_deg = 10.0;       // warning (paper, Table V: errors rise below it)
-  double large_angle_deg = 30.0;       // warning (paper, Table V: 30% error at 35 degrees)
-  double max_arm_deviation_deg = 0.5;  // between commanded and measured angle: warning
-  int few_card_tracks = 20;            // fewer: warning
-};
-
-// When an item counts as measured.
-struct VolumeExtractionParams {
-  int min_item_px = 64;            // of the working picture, about 25 mm²: some 2 mesh points
-  double min_covered_share = 0.5;  // of the item's pixels under triangles; the rest has no depth
-};
-
-// Outlines of the wrong view give a rim that no dish on a table has.
-struct RimCheckParams {
-  // Between rim and table. Right outlines stay below 0.9 degrees (5 degrees between the views) and 0.7 (10
-  // and more); exchanged ones give 4 to 45.
-  double max_tilt_deg = 3.0;
-  // Outlines and dense depth, each giving a rim: right ones differ by up to 2.5 mm, since depth is read
-  // inside the edge. Names the cause when the dish is not a known one: beyond, it is the outlines.
-  double max_depth_deviation_mm = 4.0;
-};
-
-inline constexpr std::size_t kMaxDishCandidates = 64;
-
-// What is measured how (design: two profiles).
-enum class Profile : std::uint8_t {
-  best,   // whatever measures better
-  paper,  // each stage as the paper describes it
-};
-
-struct Configuration {
-  Profile profile = Profile::best;
-  LensModel lens;
-  ReferenceCard card;
-  // Candidates for the only dish: the nearest by rim size and height; none near: dish_unknown. A tray with
-  // several dishes has one for each label; profile paper refuses it.
-  std::span<const DishModel> dishes;
-  EstimatorLimits limits;
-  ViewParams view;
-  ExposureParams exposure;
-  ViewCheckParams view_checks;
-  SurfParams surf;
-  MatcherParams matcher;
-  RelativePoseParams pose;
-  CardParams card_search;
-  RectificationParams rectification;
-  DisparityRangeParams disparity_range;
-  StereoParams stereo;
-  FoodMeshParams mesh;
-  RimParams rim;
-  RimCheckParams rim_check;
-  DishParams dish;
-  DishChoiceParams dish_choice;
-  VolumeParams volume;
-  VolumeExtractionParams extraction;
-  ViewGeometryParams geometry;
-  LabelAgreementParams label_agreement;
-  BestParams best;
-  SegmenterParams segmentation;  // where no labels are given
-};
-
-// invalid_configuration when a value lies outside its range (core/pipeline/parameters.hpp).
-Status validate(const Configuration& configuration);
-// The same for work that needs no dish.
-Status validate_apart_from_dishes(const Configuration& configuration);
 
 }  // namespace traygauge

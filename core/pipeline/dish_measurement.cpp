@@ -32,11 +32,10 @@ double tallest_track_mm(const SceneGeometry& geometry, const LabelSet& labels, d
 // Status of one item, once its dish was measured.
 StatusCode judge_item(const ViewPair& views, std::uint8_t label, const HeightVolume& volume,
                       const Configuration& configuration) {
-  const VolumeExtractionParams& params = configuration.extraction;
-  const std::uint32_t first_px = views[0]->regions.pixels[label];
-  const std::uint32_t second_px = views[1]->regions.pixels[label];
+  const std::uint32_t first_px = views[0]->regions().pixels[label];
+  const std::uint32_t second_px = views[1]->regions().pixels[label];
   if (first_px == 0 || second_px == 0) return StatusCode::item_hidden;
-  if (std::min(first_px, second_px) < static_cast<std::uint32_t>(params.min_item_px)) {
+  if (std::min(first_px, second_px) < static_cast<std::uint32_t>(configuration.pipeline.min_item_px)) {
     return StatusCode::item_too_small;
   }
   const StatusCode pixels =
@@ -50,7 +49,7 @@ template <class Action>
 void for_each_item(const ViewPair& views, const DishOnTray& dish, Action&& action) {
   for (int value = kFirstItemLabel; value <= kLastItemLabel; ++value) {
     const auto label = static_cast<std::uint8_t>(value);
-    const bool seen = views[0]->regions.pixels[label] > 0 || views[1]->regions.pixels[label] > 0;
+    const bool seen = views[0]->regions().pixels[label] > 0 || views[1]->regions().pixels[label] > 0;
     if (seen && dish.labels.contains(label)) action(label);
   }
 }
@@ -58,10 +57,9 @@ void for_each_item(const ViewPair& views, const DishOnTray& dish, Action&& actio
 }  // namespace
 
 void measure_dish(const ViewPair& views, const SceneGeometry& geometry, std::size_t index,
-                  const Configuration& configuration, DishMeasurementWorkspace& workspace, StageTap* tap,
-                  StageClock& clock, Measurement& measurement) {
+                  const Configuration& configuration, DishMeasurementWorkspace& workspace,
+                  StageObserver* observer, StageClock& clock, Measurement& measurement) {
   MeasurementReport& report = measurement.report;
-  const BestParams& best = configuration.best;
   const DishOnTray& dish = geometry.dishes[index];
   const auto refuse = [&](Status status) {
     for_each_item(views, dish, [&](std::uint8_t label) {
@@ -74,7 +72,7 @@ void measure_dish(const ViewPair& views, const SceneGeometry& geometry, std::siz
   };
   const JointDishResult& placed = geometry.joint.dishes[index];
   if (!placed.status.ok()) return refuse(placed.status);
-  for (const BestView* view : views) {
+  for (const TrayView* view : views) {
     if (is_cut_off(*view, dish.labels)) return refuse(StatusCode::dish_cut_off);
   }
   const DishModel& model = dish.candidates[static_cast<std::size_t>(placed.placed.candidate)];
@@ -82,14 +80,14 @@ void measure_dish(const ViewPair& views, const SceneGeometry& geometry, std::siz
   report.rim_rms_px = placed.placed.fit.rms_px;
   report.rim_inlier_share = placed.placed.fit.explained_share();
   report.dish_index = static_cast<int>(&model - configuration.dishes.data());
-  if (report.rim_inlier_share < best.pipeline.min_rim_inlier_share)
+  if (report.rim_inlier_share < configuration.pipeline.min_rim_inlier_share)
     return refuse(StatusCode::labels_inconsistent);
 
   clock.enter(Stage::stereo);
   const double bottom_mm = model.bottom_height_mm;
   const double top_mm =
-      std::max(tallest_track_mm(geometry, dish.labels, bottom_mm) + best.pipeline.summit_margin_mm,
-               bottom_mm + best.pipeline.min_top_mm);
+      std::max(tallest_track_mm(geometry, dish.labels, bottom_mm) + configuration.pipeline.summit_margin_mm,
+               bottom_mm + configuration.pipeline.min_top_mm);
   std::array<SurfaceGrid, 2> grids;
   TwoViewSurfaceReport dense;
   InnerSurface inner;
@@ -97,7 +95,7 @@ void measure_dish(const ViewPair& views, const SceneGeometry& geometry, std::siz
   Status status = inner.profile.set(model);
   if (!status.ok()) return refuse(status);
   status = reconstruct_surface(matte_views(views, geometry.joint.camera_from_table, dish.labels),
-                               labels_on_dish(dish.labels), bottom_mm, top_mm, best.surface,
+                               labels_on_dish(dish.labels), bottom_mm, top_mm, configuration.surface,
                                workspace.surface, grids, dense);
   if (!status.ok()) return refuse(status);
   report.rectified_rows = dense.rows;
@@ -111,17 +109,18 @@ void measure_dish(const ViewPair& views, const SceneGeometry& geometry, std::siz
   }
   const LabelSet round =
       shape_round_bodies({grids, {workspace.surface.views[0].points, workspace.surface.views[1].points}},
-                         inner, best.round_body, workspace.round_body);
-  if (tap != nullptr) tap->on_surfaces(geometry.joint.camera_from_table, grids);
+                         inner, configuration.round_body, workspace.round_body);
+  if (observer != nullptr) observer->on_surfaces(geometry.joint.camera_from_table, grids);
   report.label_agreement =
-      measure_food_agreement(grids, views, geometry.joint.camera_from_table, best.agreement);
-  if (report.label_agreement < best.agreement.min_share) return refuse(StatusCode::labels_inconsistent);
+      measure_food_agreement(grids, views, geometry.joint.camera_from_table, configuration.agreement);
+  if (report.label_agreement < configuration.agreement.min_share)
+    return refuse(StatusCode::labels_inconsistent);
 
   clock.enter(Stage::surface);
   HeightMapWorkspace maps = workspace.height_map;
   maps.first = workspace.cells;
   HeightMap map;
-  status = build_height_map(grids, inner, best.height_map, maps, map);
+  status = build_height_map(grids, inner, configuration.height_map, maps, map);
   if (!status.ok()) return refuse(status);
   workspace.cells = workspace.cells.subspan(static_cast<std::size_t>(map.cells.width) *
                                             static_cast<std::size_t>(map.cells.height));
@@ -129,11 +128,11 @@ void measure_dish(const ViewPair& views, const SceneGeometry& geometry, std::siz
 
   clock.enter(Stage::volume);
   std::array<double, 256> matched = matched_shares(grids);
-  const LevelLiquid liquid = level_liquid(grids, inner, best.liquid, workspace.liquid, map);
+  const LevelLiquid liquid = level_liquid(grids, inner, configuration.liquid, workspace.liquid, map);
   if (liquid.label != 0) matched[liquid.label] = 1.0;  // its outline says how high it stands
-  status = integrate_height_map(map, inner, best.volume, workspace.volume);
+  status = integrate_height_map(map, inner, configuration.volume, workspace.volume);
   if (!status.ok()) return refuse(status);
-  close_overhangs(grids, map, inner, round, best.overhang, workspace.volume.items);
+  close_overhangs(grids, map, inner, round, configuration.overhang, workspace.volume.items);
   const double height_per_px_mm = height_per_sample_mm(
       geometry.joint.camera_from_table, middle_of(placed.placed.place, bottom_mm), dense.column_step_mm);
   for_each_item(views, dish, [&](std::uint8_t label) {
@@ -148,7 +147,7 @@ void measure_dish(const ViewPair& views, const SceneGeometry& geometry, std::siz
     item.mean_height_mm = volume.mean_height_mm;
     item.max_height_mm = volume.max_height_mm;
     const bool is_measured = item.status == StatusCode::ok;
-    measurement.warnings.raise_if(is_measured && matched[label] < best.pipeline.min_matched_share,
+    measurement.warnings.raise_if(is_measured && matched[label] < configuration.pipeline.min_matched_share,
                                   Warning::item_hardly_matched, label);
     const UncertaintyInput input{volume,
                                  matched[label],
@@ -157,9 +156,9 @@ void measure_dish(const ViewPair& views, const SceneGeometry& geometry, std::siz
                                  round.contains(label),
                                  views[0]->are_outlines_found};
     item.sigma_ml = estimate_sigma_ml(input, geometry.joint.camera_from_table, geometry.joint.covariance,
-                                      best.uncertainty);
+                                      configuration.uncertainty);
     measurement.warnings.raise_if(
-        is_measured && item.sigma_ml > best.pipeline.max_sigma_share * item.volume_ml,
+        is_measured && item.sigma_ml > configuration.pipeline.max_sigma_share * item.volume_ml,
         Warning::item_uncertain, label);
     workspace.items.push_back(item);
   });

@@ -8,10 +8,10 @@
 #include "core/base/arena.hpp"
 #include "core/base/bounded_list.hpp"
 #include "core/base/status.hpp"
-#include "core/pipeline/best_view.hpp"
 #include "core/pipeline/measurement.hpp"
 #include "core/pipeline/scene_geometry.hpp"
 #include "core/pipeline/stage_observer.hpp"
+#include "core/pipeline/tray_view.hpp"
 #include "core/volume/round_body.hpp"
 
 namespace traygauge {
@@ -28,16 +28,16 @@ struct DishMeasurementWorkspace {
 
   template <class Allocator>
   constexpr void allocate_kept(Allocator& arena, const Configuration& configuration) {
-    cells = arena.template take<HeightCell>(configuration.best.pipeline.max_height_cells);
+    cells = arena.template take<HeightCell>(configuration.pipeline.max_height_cells);
     surfaces = BoundedList<MeasuredSurface>(arena.template take<MeasuredSurface>(kMaxPlacedDishes));
     items = BoundedList<ItemResult>(arena.template take<ItemResult>(kMaxItems));
   }
   template <class Allocator>
   constexpr void allocate(Allocator& arena, const Configuration& configuration) {
-    const TwoViewSurfaceParams& params = configuration.best.surface;
+    const TwoViewSurfaceParams& params = configuration.surface;
     surface.allocate(arena, params);
     round_body.allocate(arena, params.rectification.max_rows, params.max_columns);
-    height_map.allocate(arena, configuration.best.pipeline.max_height_cells,
+    height_map.allocate(arena, configuration.pipeline.max_height_cells,
                         static_cast<std::size_t>(params.max_columns));
     liquid.allocate(arena);
     volume.allocate(arena);
@@ -47,7 +47,7 @@ struct DishMeasurementWorkspace {
 // Appends the items on dish `index` of `geometry` to `workspace.items`, and its height map to
 // `workspace.surfaces`. What fails here fails for all of them: every item then carries that status.
 void measure_dish(const ViewPair& views, const SceneGeometry& geometry, std::size_t index,
-                  const Configuration& configuration, DishMeasurementWorkspace& workspace, StageTap* tap,
-                  StageClock& clock, Measurement& measurement);
+                  const Configuration& configuration, DishMeasurementWorkspace& workspace,
+                  StageObserver* observer, StageClock& clock, Measurement& measurement);
 
 }  // namespace traygauge

@@ -16,25 +16,25 @@ PixelBox box_of(const LabelRegions& regions, const LabelSet& labels) {
   return box;
 }
 
-ImageView<std::uint8_t> matte_of(const BestView& view) {
+ImageView<std::uint8_t> matte_of(const TrayView& view) {
   return {view.matte_storage.data, view.frame.width, view.frame.height};
 }
 
 }  // namespace
 
-bool is_cut_off(const BestView& view, const LabelSet& labels) {
-  return view.regions.touches_edge(box_of(view.regions, labels));
+bool is_cut_off(const TrayView& view, const LabelSet& labels) {
+  return view.regions().touches_edge(box_of(view.regions(), labels));
 }
 
 void make_matte(const ViewPair& views, const MatteParams& params) {
-  for (const BestView* view : views) convert_to_matte(view->frame, params, matte_of(*view));
+  for (const TrayView* view : views) convert_to_matte(view->frame, params, matte_of(*view));
 }
 
 std::array<StoredView, 2> matte_views(const ViewPair& views, const TableCameras& camera_from_table,
                                       const LabelSet& labels) {
   std::array<StoredView, 2> stored;
   for (std::size_t v = 0; v < 2; ++v) {
-    stored[v] = {matte_of(*views[v]), views[v]->labels, box_of(views[v]->regions, labels), views[v]->lens,
+    stored[v] = {matte_of(*views[v]), views[v]->labels, box_of(views[v]->regions(), labels), views[v]->lens,
                  camera_from_table[v]};
   }
   return stored;

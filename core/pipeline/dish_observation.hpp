@@ -6,14 +6,14 @@
 #include "core/dish/dish_profile.hpp"
 #include "core/dish/rim_residual.hpp"
 #include "core/image/specular_suppression.hpp"
-#include "core/pipeline/best_view.hpp"
 #include "core/pipeline/scene_geometry.hpp"
+#include "core/pipeline/tray_view.hpp"
 #include "core/stereo/plane_rectification.hpp"
 
 namespace traygauge {
 
 // The picture's edge cuts off something that has one of `labels`.
-bool is_cut_off(const BestView& view, const LabelSet& labels);
+bool is_cut_off(const TrayView& view, const LabelSet& labels);
 
 // Makes both views matte, for all dishes.
 void make_matte(const ViewPair& views, const MatteParams& params);

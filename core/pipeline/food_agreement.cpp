@@ -11,7 +11,7 @@ struct Count {
 };
 
 // The stored pixel that shows a point; false outside of the picture.
-bool find_pixel(const Vec3& point_mm, const Pose& camera_from_table, const BestView& view, int& x, int& y) {
+bool find_pixel(const Vec3& point_mm, const Pose& camera_from_table, const TrayView& view, int& x, int& y) {
   const Vec3 seen = camera_from_table * point_mm;
   if (!(seen.z() > 0.0)) return false;
   const Vec2 pixel = view.lens.pixel(seen.hnormalized());
@@ -21,7 +21,7 @@ bool find_pixel(const Vec3& point_mm, const Pose& camera_from_table, const BestV
   return view.labels.contains(x, y);
 }
 
-void compare(const SurfaceGrid& grid, const BestView& other, const Pose& other_from_table, int step,
+void compare(const SurfaceGrid& grid, const TrayView& other, const Pose& other_from_table, int step,
              Count& count) {
   for (int row = 0; row < grid.points.height; row += step) {
     for (int column = 0; column < grid.points.width; column += step) {

@@ -4,8 +4,8 @@
 #include <array>
 
 #include "core/geometry/table_frame.hpp"
-#include "core/pipeline/best_view.hpp"
 #include "core/pipeline/food_agreement_params.hpp"
+#include "core/pipeline/tray_view.hpp"
 #include "core/stereo/surface_grid.hpp"
 
 namespace traygauge {

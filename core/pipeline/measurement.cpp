@@ -15,6 +15,11 @@ const char* name(Stage stage) {
   return kStageNames[static_cast<std::size_t>(stage)];
 }
 
+bool is_measured(const Measurement& measurement) {
+  const StatusCode code = measurement.status.code();
+  return code == StatusCode::ok || code == StatusCode::partial;
+}
+
 Status summarise(std::span<const ItemResult> items) {
   const auto is_measured = [](const ItemResult& item) { return item.status == StatusCode::ok; };
   const auto measured = std::count_if(items.begin(), items.end(), is_measured);

@@ -10,8 +10,6 @@
 #include "core/geometry/camera.hpp"
 #include "core/geometry/geometry.hpp"
 #include "core/geometry/table_frame.hpp"
-#include "core/image_view/image_view.hpp"
-#include "core/paper/surface/food_mesh.hpp"
 #include "core/quality/view_checks.hpp"
 #include "core/quality/warning.hpp"
 #include "core/stereo/disparity.hpp"
@@ -47,7 +45,12 @@ struct ItemResult {
   double max_height_mm = 0.0;
 };
 
+struct Measurement;
+
 inline constexpr std::size_t kMaxItems = 198;  // labels 2…199
+
+// True when at least one item was measured.
+bool is_measured(const Measurement& measurement);
 
 // ok when all items are, partial when some are, else the first one's status.
 Status summarise(std::span<const ItemResult> items);
@@ -65,7 +68,7 @@ struct MeasurementReport {
   double mm_per_baseline = 0.0;
   int rim_points = 0;
   double rim_height_mm = 0.0;  // measured, above the table
-  double rim_rms_px = 0.0;     // profile best: of the outlines' points on the rim
+  double rim_rms_px = 0.0;     // of the outlines' points on the rim
   double rim_inlier_share = 0.0;
   int dish_index = -1;  // among the candidates of the configuration
   int rectified_rows = 0;
@@ -83,20 +86,13 @@ struct MeasuredSurface {
   InnerSurface inner;
 };
 
-// Pictures and surfaces of the last measurement, for drawing and for evaluation. Valid until the next one.
+// Surfaces of the last measurement, for drawing and for evaluation. Valid until the next one.
 struct MeasurementViews {
-  std::array<PinholeCamera, 2> cameras;               // of the working pictures
-  std::array<ImageView<const std::uint8_t>, 2> gray;  // undistorted, dish resized
-  std::array<ImageView<const std::uint8_t>, 2> labels;
-  std::array<ImageView<const std::uint8_t>, 2> rectified;
-  ImageView<const Disparity> disparity;
-  ImageView<const float> depth_mm;  // of the reference view, along its axis; NaN where unknown
-  FoodMesh mesh;                    // in the reference camera, mm
-  int reference_view = 0;           // 0 or 1: the view that depth and mesh belong to
-  Plane dish_bottom;                // in the reference camera, mm
+  int reference_view = 0;  // 0 or 1: the view whose camera the planes are given in
+  Plane dish_bottom;       // mm
   Plane table;
-  TableCameras camera_from_table;             // profile best; frames as in table_frame.hpp
-  std::span<const MeasuredSurface> surfaces;  // profile best: one a dish
+  TableCameras camera_from_table;             // frames as in table_frame.hpp
+  std::span<const MeasuredSurface> surfaces;  // one a dish
 };
 
 struct Measurement {

@@ -1,61 +1,60 @@
 #include "core/pipeline/memory_report.hpp"
 
-#include "core/pipeline/estimator_memory.hpp"
+#include "core/pipeline/tray_estimator.hpp"
+#include "core/pipeline/tray_memory.hpp"
 
 namespace traygauge {
 namespace {
 
-std::array<MemoryRow, kMemoryRowCount> describe_best(const Configuration& configuration) {
-  BestMemory memory;
-  const auto view = bytes_of([&](ArenaPlan& plan) { memory.views[0].allocate(plan, configuration.limits); });
-  return {{
-      {"state", estimator_state_bytes(), false},
-      {"card pattern",
-       bytes_of([&](ArenaPlan& plan) { memory.pattern.allocate(plan, configuration.best.card.pattern); }),
-       false},
-      {"first view", view, false},
-      {"second view", view, false},
-      {"cameras and dishes", bytes_of([](ArenaPlan& plan) { plan.take<SceneGeometry>(1); }), false},
-      {"height maps and items",
-       bytes_of([&](ArenaPlan& plan) { memory.dish.allocate_kept(plan, configuration); }), false},
-      {"view preparation",
-       bytes_of([&](ArenaPlan& plan) { memory.preparation.allocate(plan, configuration); }), true},
-      {"tracks, dense matching, volume", bytes_of([&](ArenaPlan& plan) {
-         memory.geometry.allocate(plan, configuration);
-         memory.dish.allocate(plan, configuration);
-       }),
-       true},
-  }};
-}
-
-std::array<MemoryRow, kMemoryRowCount> describe_paper(const Configuration& configuration) {
-  EstimatorMemory memory;
-  const auto view = bytes_of([&](ArenaPlan& plan) { memory.views[0].allocate(plan, configuration.limits); });
-  return {{
-      {"state", estimator_state_bytes(), false},
-      {"card pattern",
-       bytes_of([&](ArenaPlan& plan) { memory.pattern.allocate(plan, configuration.limits); }), false},
-      {"first view", view, false},
-      {"second view", view, false},
-      {"calibrated pair", bytes_of([&](ArenaPlan& plan) {
-         memory.given.allocate(plan, configuration.limits);
-         memory.extrinsics.allocate(plan, configuration.limits);
-       }),
-       false},
-      {"view preparation",
-       bytes_of([&](ArenaPlan& plan) { memory.preparation.allocate(plan, configuration); }), true},
-      {"extrinsic calibration",
-       bytes_of([&](ArenaPlan& plan) { memory.calibration.allocate(plan, configuration); }), true},
-      {"dense reconstruction and volume",
-       bytes_of([&](ArenaPlan& plan) { memory.allocate_reconstruction(plan, configuration); }), true},
-  }};
+// Of finding labels: what is kept while its stages follow each other counts with the largest of them.
+std::size_t segmentation_bytes(const Configuration& configuration, const auto& allocate_stage) {
+  if (!configuration.finds_labels) return 0;
+  SegmenterMemory memory;
+  return bytes_of([&](ArenaPlan& plan) {
+    memory.allocate_kept(plan, configuration.segmentation);
+    allocate_stage(memory, plan);
+  });
 }
 
 }  // namespace
 
 std::array<MemoryRow, kMemoryRowCount> describe_memory(const Configuration& configuration) {
-  return configuration.profile == Profile::best ? describe_best(configuration)
-                                                : describe_paper(configuration);
+  TrayMemory memory;
+  const SegmenterParams& segmentation = configuration.segmentation;
+  const auto view = bytes_of([&](ArenaPlan& plan) { memory.views[0].allocate(plan, configuration.limits); });
+  const auto labels = bytes_of([&](ArenaPlan& plan) {
+    if (configuration.finds_labels) memory.allocate_labels(plan, configuration.limits);
+  });
+  return {{
+      {"state", estimator_state_bytes(), false},
+      {"card pattern", bytes_of([&](ArenaPlan& plan) {
+         memory.pattern.allocate(plan, configuration.card_alignment.pattern);
+       }),
+       false},
+      {"first view", view, false},
+      {"second view", view, false},
+      {"labels found", labels, false},
+      {"cameras and dishes", bytes_of([](ArenaPlan& plan) { plan.take<SceneGeometry>(1); }), false},
+      {"height maps and items",
+       bytes_of([&](ArenaPlan& plan) { memory.dish.allocate_kept(plan, configuration); }), false},
+      {"finding the card",
+       segmentation_bytes(configuration, [&](SegmenterMemory& parts,
+                                             ArenaPlan& plan) { parts.card.allocate(plan, configuration); }),
+       true},
+      {"finding dishes",
+       segmentation_bytes(
+           configuration,
+           [&](SegmenterMemory& parts, ArenaPlan& plan) { parts.dish.allocate(plan, segmentation.dish); }),
+       true},
+      {"finding food",
+       segmentation_bytes(configuration, [&](SegmenterMemory& parts,
+                                             ArenaPlan& plan) { parts.food.allocate(plan, segmentation); }),
+       true},
+      {"view preparation",
+       bytes_of([&](ArenaPlan& plan) { memory.preparation.allocate(plan, configuration); }), true},
+      {"tracks, dense matching, volume",
+       bytes_of([&](ArenaPlan& plan) { memory.allocate_measurement(plan, configuration); }), true},
+  }};
 }
 
 }  // namespace traygauge

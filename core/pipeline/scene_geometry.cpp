@@ -17,7 +17,7 @@ std::span<const DishModel> candidates_for(std::uint8_t label, std::span<const Di
 }
 
 bool is_seen(const ViewPair& views, std::uint8_t label) {
-  return views[0]->regions.pixels[label] > 0 || views[1]->regions.pixels[label] > 0;
+  return views[0]->regions().pixels[label] > 0 || views[1]->regions().pixels[label] > 0;
 }
 
 Status trace_outlines(const ViewPair& views, const Configuration& configuration,
@@ -26,9 +26,9 @@ Status trace_outlines(const ViewPair& views, const Configuration& configuration,
     const DishRegion region{geometry.dishes[d].label, geometry.dishes[d].labels};
     for (std::size_t v = 0; v < 2; ++v) {
       workspace.outlines[d][v].clear();
-      if (views[v]->regions.pixels[region.dish] == 0) continue;
+      if (views[v]->regions().pixels[region.dish] == 0) continue;
       const Status status =
-          trace_dish_outline(views[v]->labels, views[v]->lens, region, configuration.best.outline,
+          trace_dish_outline(views[v]->labels, views[v]->lens, region, configuration.outline,
                              workspace.outline, workspace.outlines[d][v]);
       if (!status.ok()) return status;
     }
@@ -65,10 +65,9 @@ Status list_dishes(const ViewPair& views, const Configuration& configuration,
   }
   if (geometry.dish_count == 0) return StatusCode::no_dish_label;
   const std::array<ImageView<const std::uint8_t>, 2> labels = {views[0]->labels, views[1]->labels};
-  const DishOfItem owners =
-      geometry.dish_count > 1
-          ? find_dishes_of_items(labels, configuration.best.membership, workspace.membership)
-          : DishOfItem{};
+  const DishOfItem owners = geometry.dish_count > 1
+                                ? find_dishes_of_items(labels, configuration.membership, workspace.membership)
+                                : DishOfItem{};
   for (int value = kFirstItemLabel; value <= kLastItemLabel; ++value) {
     const auto label = static_cast<std::uint8_t>(value);
     if (!is_seen(views, label)) continue;
@@ -83,14 +82,14 @@ Status list_dishes(const ViewPair& views, const Configuration& configuration,
 Status find_geometry(const ViewPair& views, const Configuration& configuration, Random& random,
                      SceneGeometryWorkspace& workspace, StageClock& clock, MeasurementReport& report,
                      SceneGeometry& geometry) {
-  const BestParams& best = configuration.best;
   clock.enter(Stage::matching);
   const TrackedView first{views[0]->gray, views[0]->labels, views[0]->lens};
   const TrackedView second{views[1]->gray, views[1]->labels, views[1]->lens};
   PointTrackingReport tracking;
-  Status status = track_points(
-      first, second, {views[0]->card().camera_from_table, views[1]->card().camera_from_table},
-      configuration.card.thickness_mm, best.tracking, random, workspace.tracking, geometry.tracks, tracking);
+  Status status =
+      track_points(first, second, {views[0]->card().camera_from_table, views[1]->card().camera_from_table},
+                   configuration.card.thickness_mm, configuration.tracking, random, workspace.tracking,
+                   geometry.tracks, tracking);
   report.corners = static_cast<int>(tracking.corners);
   report.matches = static_cast<int>(tracking.tracks);
   if (!status.ok()) return status;
@@ -98,9 +97,9 @@ Status find_geometry(const ViewPair& views, const Configuration& configuration, 
   clock.enter(Stage::pose);
   status = trace_outlines(views, configuration, workspace, geometry);
   if (!status.ok()) return status;
-  status = refine_geometry(views, configuration.card, best.joint, workspace, geometry);
+  status = refine_geometry(views, configuration.card, configuration.joint, workspace, geometry);
   report.inliers = geometry.joint.lines.inliers;
-  report.inlier_threshold_px = best.joint.robust_sigmas * geometry.joint.lines.rms;
+  report.inlier_threshold_px = configuration.joint.robust_sigmas * geometry.joint.lines.rms;
   report.pose_iterations = geometry.joint.iterations;
   report.rim_points = geometry.joint.rims.inliers;
   return status;

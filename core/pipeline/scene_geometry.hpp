@@ -9,8 +9,8 @@
 #include "core/base/bounded_list.hpp"
 #include "core/base/random.hpp"
 #include "core/base/status.hpp"
-#include "core/pipeline/best_view.hpp"
 #include "core/pipeline/measurement.hpp"
+#include "core/pipeline/tray_view.hpp"
 
 namespace traygauge {
 
@@ -37,18 +37,17 @@ struct SceneGeometryWorkspace {
 
   template <class Allocator>
   constexpr void allocate(Allocator& arena, const Configuration& configuration) {
-    const BestParams& best = configuration.best;
-    const EstimatorLimits& limits = configuration.limits;
-    tracking.allocate(arena, limits.max_frame_width, limits.max_frame_height, best.tracking);
+    const FrameLimits& limits = configuration.limits;
+    tracking.allocate(arena, limits.max_frame_width, limits.max_frame_height, configuration.tracking);
     membership.allocate(arena);
-    outline.allocate(arena, best.pipeline.max_contour_sides);
+    outline.allocate(arena, configuration.pipeline.max_contour_sides);
     for (auto& views : outlines) {
       for (BoundedList<Vec2>& rays : views) {
-        rays = BoundedList<Vec2>(arena.template take<Vec2>(best.pipeline.max_outline_points));
+        rays = BoundedList<Vec2>(arena.template take<Vec2>(configuration.pipeline.max_outline_points));
       }
     }
-    joint.allocate(arena, static_cast<std::size_t>(best.tracking.max_corners),
-                   best.pipeline.max_outline_points);
+    joint.allocate(arena, static_cast<std::size_t>(configuration.tracking.max_corners),
+                   configuration.pipeline.max_outline_points);
   }
 };
 

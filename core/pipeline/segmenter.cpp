@@ -1,6 +1,7 @@
 #include "core/pipeline/segmenter.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <numbers>
 
@@ -9,6 +10,7 @@
 #include "core/image/resample.hpp"
 #include "core/labels/convex_fill.hpp"
 #include "core/pipeline/dish_observation.hpp"
+#include "core/pipeline/stage_clock.hpp"
 #include "core/quality/exposure.hpp"
 #include "core/quality/view_input.hpp"
 
@@ -46,56 +48,42 @@ void clear(ImageView<std::uint8_t> labels) {
 
 }  // namespace
 
-Segmenter::Segmenter(std::span<std::byte> block, const Configuration& configuration,
-                     const CardPattern& pattern)
-    : configuration_(configuration), pattern_(pattern) {
-  status_ = validate(configuration);
-  if (!status_.ok()) return;
-  std::copy(configuration.dishes.begin(), configuration.dishes.end(), dishes_.begin());
-  configuration_.dishes = std::span<const DishModel>(dishes_).first(configuration.dishes.size());
-  configuration_.card.pattern = {};
-  Arena arena(block);
-  memory_.allocate(arena, configuration_);
-  if (arena.exhausted()) {
-    status_ = StatusCode::out_of_memory;
-    return;
-  }
+Segmenter::Segmenter(const Configuration& configuration, const CardPattern& pattern, SegmenterMemory& memory,
+                     Segmentation& result)
+    : configuration_(configuration), pattern_(pattern), memory_(memory), result_(result) {
+  result_ = {};
   status_ = learn_print_corners(pattern_, params_.card, memory_.card.search, memory_.print);
+  result_.status = status_;
 }
 
 Status Segmenter::add_view(const SegmentedView& view) {
   if (!status_.ok()) return status_;
-  if (view_count_ == views_.size()) return StatusCode::wrong_call;
+  assert(view_count_ < views_.size());
   StageClock clock;
   clock.enter(Stage::scale);
   const std::size_t index = view_count_++;
-  const LensModel lens = view.lens.value_or(configuration_.lens);
   views_[index] = view;
-  Status status = check_view(view, lens);
-  if (status.ok()) status = find_card(view, lens, index);
+  Status status = check_view(view, view.lens);
+  if (status.ok()) status = find_card(view, view.lens, index);
   const FrameView gray{view.gray.data, view.gray.width, view.gray.height, view.gray.stride,
                        PixelFormat::gray8};
-  cameras_[index] = {gray, lens, result_.cards[index].camera_from_table};
+  cameras_[index] = {gray, view.lens, result_.cards[index].camera_from_table};
   if (result_.status.ok()) result_.status = status;
   clock.stop();
   result_.card_ms += clock.total_ms();
   return status;
 }
 
-void Segmenter::reset() {
-  view_count_ = 0;
-  result_ = {};
-}
-
-const Segmentation& Segmenter::segment() {
-  if (!status_.ok()) result_.status = status_;
-  if (result_.status.ok() && view_count_ != views_.size()) result_.status = StatusCode::frame_missing;
-  if (!result_.status.ok()) return result_;
+void Segmenter::segment() {
+  assert(view_count_ == views_.size());
+  if (!result_.status.ok()) return;
   StageClock clock;
   clock.enter(Stage::surface);
   result_.status = find_dishes();
   if (result_.status.ok()) {
     clock.enter(Stage::volume);
+    draw_dishes();
+    look_at_dishes();
     draw_items(params_.food);
     if (params_.items > 0) {
       meet_hint();
@@ -108,7 +96,6 @@ const Segmentation& Segmenter::segment() {
   clock.stop();
   result_.dish_ms = clock.stage_ms()[static_cast<std::size_t>(Stage::surface)];
   result_.food_ms = clock.stage_ms()[static_cast<std::size_t>(Stage::volume)];
-  return result_;
 }
 
 Status Segmenter::check_view(const SegmentedView& view, const LensModel& lens) const {
@@ -133,7 +120,7 @@ Status Segmenter::find_card(const SegmentedView& view, const LensModel& lens, st
   const Status status =
       locate_card(gray, view.labels, lens,
                   {pattern_, memory_.print, params_.card, configuration_.card_search,
-                   configuration_.best.card, rounds, memory_.card.search, memory_.card.alignment},
+                   configuration_.card_alignment, rounds, memory_.card.search, memory_.card.alignment},
                   card, outline_px);
   if (!status.ok()) return status;
   if (card.correlation < params_.sure_card_correlation) result_.is_card_doubtful = true;
@@ -185,19 +172,17 @@ void Segmenter::draw_items(const FoodOutlineParams& params) {
   draw_food(params);
 }
 
-void Segmenter::draw_food(const FoodOutlineParams& params) {
+// Dense matching over every dish, once a pair: it does not depend on how food is drawn.
+void Segmenter::look_at_dishes() {
   const std::array<LabelRegions, 2> regions = {measure_regions(views_[0].labels),
                                                measure_regions(views_[1].labels)};
   for (std::size_t d = 0; d < result_.dish_count; ++d) {
-    SegmentedDish& dish = result_.dishes[d];
-    dish.items = 0;
-    dish.is_split_doubtful = false;
-    if (!dish.status.ok()) continue;
-    const auto first = static_cast<std::uint8_t>(kFirstItemLabel + result_.items);
-    const int room = kLastItemLabel + 1 - first;
-    DishInViews scene;
+    const SegmentedDish& dish = result_.dishes[d];
+    DishInViews& scene = scenes_[d];
+    scene = {};
+    if (!dish.status.ok() || !scene.inner.profile.set(dish.model).ok()) continue;
+    scene.is_described = true;
     scene.inner.place = frame_of(dish.found.place);
-    if (!scene.inner.profile.set(dish.model).ok()) continue;
     for (std::size_t v = 0; v < 2; ++v) {
       scene.stored[v] = {views_[v].gray, views_[v].labels, regions[v].boxes[dish.label], cameras_[v].lens,
                          cameras_[v].camera_from_table};
@@ -205,9 +190,22 @@ void Segmenter::draw_food(const FoodOutlineParams& params) {
     LabelTable kept{};
     kept[dish.label] = kDishLabel;
     // Without a relief colour has to do.
-    if (!measure_relief(scene.stored, kept, scene.inner, params_.relief, memory_.food.relief, scene.relief)
+    if (!measure_relief(scene.stored, kept, scene.inner, params_.relief, memory_.food.reliefs[d],
+                        memory_.food.matching, scene.relief)
              .ok())
       scene.relief = {};
+  }
+}
+
+void Segmenter::draw_food(const FoodOutlineParams& params) {
+  for (std::size_t d = 0; d < result_.dish_count; ++d) {
+    SegmentedDish& dish = result_.dishes[d];
+    dish.items = 0;
+    dish.is_split_doubtful = false;
+    const DishInViews& scene = scenes_[d];
+    if (!scene.is_described) continue;
+    const auto first = static_cast<std::uint8_t>(kFirstItemLabel + result_.items);
+    const int room = kLastItemLabel + 1 - first;
     DishRaster raster;
     ImageView<const ReliefSample> relief;
     ImageView<std::uint8_t> cells;

@@ -1,6 +1,7 @@
-// Where every part of a segmenter lies in its block: written once, for planning and for taking.
+// Where every part of a segmenter lies in memory: written once, for planning and for taking.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -21,24 +22,26 @@ struct CardStageWorkspace {
     edges.allocate(arena, configuration.segmentation.dish.edges);
     search.allocate(arena, configuration.limits.max_frame_width, configuration.limits.max_frame_height,
                     configuration.segmentation.card);
-    alignment.allocate(arena, configuration.best.card);
+    alignment.allocate(arena, configuration.card_alignment);
   }
 };
 
-// Of one dish: its relief stays while its food is outlined.
+// Of all dishes: their reliefs stay while food is outlined.
 struct FoodStageWorkspace {
-  DishReliefWorkspace relief;
+  std::array<DishReliefStorage, kMaxPlacedDishes> reliefs;
+  DishReliefWorkspace matching;
   std::span<std::uint8_t> cells;
   FoodOutlineWorkspace outline;
 
   template <class Allocator>
   constexpr void allocate(Allocator& arena, const SegmenterParams& params) {
-    relief.allocate_kept(arena, params.relief);
-    const std::size_t shared = arena.mark();
-    relief.allocate_scratch(arena, params.relief);
-    arena.rewind(shared);
-    cells = arena.template take<std::uint8_t>(static_cast<std::size_t>(params.food.raster.max_cells));
-    outline.allocate(arena, params.food);
+    for (DishReliefStorage& relief : reliefs) relief.allocate(arena, params.relief);
+    const auto max_cells = static_cast<std::size_t>(params.food.raster.max_cells);
+    arena.overlay([&] { matching.allocate(arena, params.relief); },
+                  [&] {
+                    cells = arena.template take<std::uint8_t>(max_cells);
+                    outline.allocate(arena, params.food);
+                  });
   }
 };
 
@@ -64,21 +67,10 @@ struct SegmenterMemory {
   template <class Allocator>
   constexpr void allocate(Allocator& arena, const Configuration& configuration) {
     allocate_kept(arena, configuration.segmentation);
-    const std::size_t shared = arena.mark();
-    card.allocate(arena, configuration);
-    arena.rewind(shared);
-    dish.allocate(arena, configuration.segmentation.dish);
-    arena.rewind(shared);
-    food.allocate(arena, configuration.segmentation);
+    arena.overlay([&] { card.allocate(arena, configuration); },
+                  [&] { dish.allocate(arena, configuration.segmentation.dish); },
+                  [&] { food.allocate(arena, configuration.segmentation); });
   }
 };
-
-// Bytes that a segmenter takes from its block.
-constexpr std::size_t segmenter_bytes(const Configuration& configuration) {
-  ArenaPlan plan;
-  SegmenterMemory memory;
-  memory.allocate(plan, configuration);
-  return plan.high_water_bytes();
-}
 
 }  // namespace traygauge

@@ -1,4 +1,4 @@
-// A look at what a stage of profile `best` gave before the next one takes it: an evaluation compares it with
+// A look at what a stage gave before the next one takes it: an evaluation compares it with
 // the truth, or puts the truth in its place.
 #pragma once
 
@@ -9,18 +9,18 @@
 
 namespace traygauge {
 
-class StageTap {
+class StageObserver {
  public:
   // Which view of the pair is worked first: its camera and its grid come first, too.
   virtual void on_order(int first_view) = 0;
   // Cameras and dishes are found; both may be replaced.
   virtual void on_geometry(JointResult& joint, std::span<const DishOnTray> dishes) = 0;
-  // Both views' surfaces over one dish; a grid may be replaced by one of the same size, which the tap keeps
-  // until the measurement ends.
+  // Both views' surfaces over one dish; a grid may be replaced by one of the same size, which the observer
+  // keeps until the measurement ends.
   virtual void on_surfaces(const TableCameras& camera_from_table, std::array<SurfaceGrid, 2>& grids) = 0;
 
  protected:
-  ~StageTap() = default;
+  ~StageObserver() = default;
 };
 
 }  // namespace traygauge

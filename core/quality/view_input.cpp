@@ -5,7 +5,7 @@
 namespace traygauge {
 
 Status check_sizes(const FrameView& frame, ImageView<const std::uint8_t> labels, const LensModel& lens,
-                   const EstimatorLimits& limits) {
+                   const FrameLimits& limits) {
   if (frame.empty()) return StatusCode::frame_missing;
   if (frame.width != lens.width || frame.height != lens.height) return StatusCode::frame_size_mismatch;
   if (frame.width > limits.max_frame_width || frame.height > limits.max_frame_height) {

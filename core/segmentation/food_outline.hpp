@@ -43,7 +43,6 @@ struct FoodOutlineWorkspace {
   ItemAssignmentWorkspace assignment;
   GeodesicWorkspace geodesic;
 
-  // Nothing may be taken behind it that is used at the same time.
   template <class Allocator>
   constexpr void allocate(Allocator& arena, const FoodOutlineParams& params) {
     const auto cells = static_cast<std::size_t>(params.raster.max_cells);
@@ -51,16 +50,13 @@ struct FoodOutlineWorkspace {
     relief = arena.template take<ReliefSample>(cells);
     sums = arena.template take<std::uint8_t>(cells);
     queue = arena.template take<std::int32_t>(cells);
-    const std::size_t shared = arena.mark();
-    field.allocate(arena, params.raster.max_cells / (params.field.fold * params.field.fold));
-    arena.rewind(shared);
-    column_sums = arena.template take<std::int32_t>(cells / 3);  // a raster has three rows and more
-    arena.rewind(shared);
-    split.allocate(arena, params.split);
-    arena.rewind(shared);
-    assignment.allocate(arena, params.raster.max_cells, params.assignment);
-    arena.rewind(shared);
-    geodesic.allocate(arena, params.raster.max_cells);
+    arena.overlay(
+        [&] { field.allocate(arena, params.raster.max_cells / (params.field.fold * params.field.fold)); },
+        // A raster has three rows and more.
+        [&] { column_sums = arena.template take<std::int32_t>(cells / 3); },
+        [&] { split.allocate(arena, params.split); },
+        [&] { assignment.allocate(arena, params.raster.max_cells, params.assignment); },
+        [&] { geodesic.allocate(arena, params.raster.max_cells); });
   }
 };
 

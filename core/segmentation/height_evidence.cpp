@@ -65,7 +65,8 @@ void average(std::span<const std::uint8_t> costs, int width, int height, int rad
 
 // The costs of one view's samples on the surface found and on the dish's own, and their heights.
 void compare_view(std::size_t v, const std::array<SurfaceGrid, 2>& grids, const InnerSurface& dish,
-                  const DishReliefParams& params, DishReliefWorkspace& workspace, DishRelief& relief) {
+                  const DishReliefParams& params, DishReliefStorage& storage, DishReliefWorkspace& workspace,
+                  DishRelief& relief) {
   const ImageView<ReliefSample> samples = relief.views[v];
   const int width = samples.width;
   const int sign = v == 0 ? 1 : -1;
@@ -102,7 +103,7 @@ void compare_view(std::size_t v, const std::array<SurfaceGrid, 2>& grids, const 
       sample.is_confirmed = grid.evidence.at(x, y) == SurfaceEvidence::both;
     }
   }
-  const std::span<ReliefSample> all = workspace.samples[v];
+  const std::span<ReliefSample> all = storage.samples[v];
   average(workspace.costs[0], width, samples.height, params.window_radius, workspace,
           [&](std::size_t at, std::uint8_t cost) { all[at].food_cost = cost; });
   average(workspace.costs[1], width, samples.height, params.window_radius, workspace,
@@ -112,7 +113,7 @@ void compare_view(std::size_t v, const std::array<SurfaceGrid, 2>& grids, const 
 }  // namespace
 
 Status measure_relief(const std::array<StoredView, 2>& views, const LabelTable& kept,
-                      const InnerSurface& dish, const DishReliefParams& params,
+                      const InnerSurface& dish, const DishReliefParams& params, DishReliefStorage& storage,
                       DishReliefWorkspace& workspace, DishRelief& relief) {
   TwoViewSurfaceReport report;
   std::array<SurfaceGrid, 2> grids;
@@ -121,16 +122,16 @@ Status measure_relief(const std::array<StoredView, 2>& views, const LabelTable& 
                                       workspace.surface, grids, report);
   if (!status.ok()) return status;
   // The same grid in memory that is kept.
-  status = relief.grid.build(views, kept, bottom_mm, params.surface.rectification, workspace.rows);
+  status = relief.grid.build(views, kept, bottom_mm, params.surface.rectification, storage.rows);
   if (!status.ok()) return status;
   const int width = grids[0].labels.width;
   const int height = grids[0].labels.height;
   for (std::size_t v = 0; v < 2; ++v) {
-    relief.views[v] = {workspace.samples[v].data(), width, height};
+    relief.views[v] = {storage.samples[v].data(), width, height};
     transform_symmetric_census(workspace.surface.views[v].gray[0],
                                {workspace.codes[v].data(), width, height});
   }
-  for (std::size_t v = 0; v < 2; ++v) compare_view(v, grids, dish, params, workspace, relief);
+  for (std::size_t v = 0; v < 2; ++v) compare_view(v, grids, dish, params, storage, workspace, relief);
   return StatusCode::ok;
 }
 

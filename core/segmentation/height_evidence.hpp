@@ -34,9 +34,22 @@ struct DishReliefParams {
   int node_step = 4;  // samples between those at which the dish's own disparity is worked out
 };
 
-struct DishReliefWorkspace {
+// What a DishRelief refers to.
+struct DishReliefStorage {
   std::array<std::span<ReliefSample>, 2> samples;
   std::span<PlaneRow> rows;
+
+  template <class Allocator>
+  constexpr void allocate(Allocator& arena, const DishReliefParams& params) {
+    for (auto& view : samples)
+      view = arena.template take<ReliefSample>(
+          static_cast<std::size_t>(params.surface.rectification.max_samples));
+    rows = arena.template take<PlaneRow>(static_cast<std::size_t>(params.surface.rectification.max_rows));
+  }
+};
+
+// Scratch of measure_relief.
+struct DishReliefWorkspace {
   TwoViewSurfaceWorkspace surface;
   std::array<std::span<std::uint32_t>, 2> codes;
   std::array<std::span<std::uint8_t>, 2> costs;  // on the surface found and on the dish's own
@@ -44,17 +57,8 @@ struct DishReliefWorkspace {
   std::span<std::int32_t> column_sums;
   std::span<float> nodes;
 
-  // What a DishRelief refers to.
   template <class Allocator>
-  constexpr void allocate_kept(Allocator& arena, const DishReliefParams& params) {
-    for (auto& view : samples)
-      view = arena.template take<ReliefSample>(
-          static_cast<std::size_t>(params.surface.rectification.max_samples));
-    rows = arena.template take<PlaneRow>(static_cast<std::size_t>(params.surface.rectification.max_rows));
-  }
-  // Used by measure_relief alone.
-  template <class Allocator>
-  constexpr void allocate_scratch(Allocator& arena, const DishReliefParams& params) {
+  constexpr void allocate(Allocator& arena, const DishReliefParams& params) {
     const auto count = static_cast<std::size_t>(params.surface.rectification.max_samples);
     surface.allocate(arena, params.surface);
     for (auto& view : codes) view = arena.template take<std::uint32_t>(count);
@@ -65,7 +69,7 @@ struct DishReliefWorkspace {
   }
 };
 
-// Both views' samples over the dish; they and the grid's rows live in the workspace.
+// Both views' samples over the dish; they and the grid's rows live in the storage.
 struct DishRelief {
   PlaneRectification grid;
   std::array<ImageView<ReliefSample>, 2> views;
@@ -73,7 +77,7 @@ struct DishRelief {
 
 // Fails where reconstruct_surface does.
 Status measure_relief(const std::array<StoredView, 2>& views, const LabelTable& kept,
-                      const InnerSurface& dish, const DishReliefParams& params,
+                      const InnerSurface& dish, const DishReliefParams& params, DishReliefStorage& storage,
                       DishReliefWorkspace& workspace, DishRelief& relief);
 
 // Lays one view's samples into the cells of its raster; cells without any are not known.

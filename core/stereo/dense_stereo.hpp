@@ -78,7 +78,6 @@ struct TwoViewSurfaceWorkspace {
   SemiGlobalWorkspace semi_global;
   SurfaceRefinementWorkspace refinement;
 
-  // Matching, refinement and points follow one another and share their memory.
   template <class Allocator>
   constexpr void allocate(Allocator& arena, const TwoViewSurfaceParams& params) {
     const auto samples = static_cast<std::size_t>(params.rectification.max_samples);
@@ -95,25 +94,22 @@ struct TwoViewSurfaceWorkspace {
       view.evidence = arena.template take<SurfaceEvidence>(samples);
     }
     rows = arena.template take<PlaneRow>(static_cast<std::size_t>(params.rectification.max_rows));
-    const std::size_t shared = arena.mark();
-    for (View& view : views) {
-      view.codes = arena.template take<std::uint32_t>(samples);
-      view.consistent = arena.template take<Disparity>(samples);
-    }
-    census_mask = arena.template take<std::uint32_t>(samples);
-    first_disparity = arena.template take<std::int16_t>(samples);
     const int of_bands = max_level_samples(params, levels.finest) * params.band_lanes;
     const int of_coarsest = max_level_samples(params, levels.count - 1) * kMaxBandLanes;
-    semi_global.allocate(arena, params.max_columns, of_bands > of_coarsest ? of_bands : of_coarsest);
-    const std::size_t matched = arena.mark();
-    arena.rewind(shared);
-    refinement.allocate(arena, params.max_columns, params.rectification.max_samples);
-    const std::size_t refined = arena.mark();
-    arena.rewind(shared);
-    for (View& view : views) view.points = arena.template take<SurfacePoint>(samples);
-    const std::size_t triangulated = arena.mark();
-    arena.rewind(matched > refined ? (matched > triangulated ? matched : triangulated)
-                                   : (refined > triangulated ? refined : triangulated));
+    arena.overlay(
+        [&] {  // matching
+          for (View& view : views) {
+            view.codes = arena.template take<std::uint32_t>(samples);
+            view.consistent = arena.template take<Disparity>(samples);
+          }
+          census_mask = arena.template take<std::uint32_t>(samples);
+          first_disparity = arena.template take<std::int16_t>(samples);
+          semi_global.allocate(arena, params.max_columns, of_bands > of_coarsest ? of_bands : of_coarsest);
+        },
+        [&] { refinement.allocate(arena, params.max_columns, params.rectification.max_samples); },
+        [&] {  // triangulation
+          for (View& view : views) view.points = arena.template take<SurfacePoint>(samples);
+        });
   }
 };
 

@@ -94,10 +94,8 @@ struct HeightMapWorkspace {
     corners = arena.template take<Corner>(kCornerRows * max_grid_width);
     static_assert(sizeof(Source) <= sizeof(HeightCell));
     first = arena.template take<HeightCell>(max_cells);
-    const std::size_t mark = arena.mark();
-    sources = arena.template take<Source>(max_cells);
-    arena.rewind(mark);
-    second = arena.template take<HeightCell>(max_cells);
+    arena.overlay([&] { sources = arena.template take<Source>(max_cells); },
+                  [&] { second = arena.template take<HeightCell>(max_cells); });
   }
 };
 

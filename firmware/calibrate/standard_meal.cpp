@@ -4,7 +4,7 @@
 #include <numbers>
 #include <vector>
 
-#include "core/card/card.hpp"
+#include "core/card/card_size.hpp"
 #include "core/geometry/levenberg_marquardt.hpp"
 #include "core/geometry/table_frame.hpp"
 #include "core/paper/pose/triangulation.hpp"

@@ -6,7 +6,7 @@
 #include <functional>
 #include <type_traits>
 
-#include "core/pipeline/parameters.hpp"
+#include "core/paper/pipeline/parameters.hpp"
 #include "firmware/base/exit_status.hpp"
 #include "firmware/base/text.hpp"
 #include "firmware/config/profile.hpp"
@@ -92,22 +92,51 @@ class ParameterList {
   std::vector<Parameter> parameters_;
 };
 
-ParameterList shared_parameters(Configuration& configuration) {
+// When pictures are refused or doubted.
+void visit_tray(TraySetup& tray, ParameterList& visit) {
+  using Range = ParameterRange;
+  ViewGeometryParams& geometry = tray.geometry;
+  visit("geometry.min_angle_deg", geometry.min_angle_deg, Range{0, 180});
+  visit("geometry.max_angle_deg", geometry.max_angle_deg, Range{0, 180});
+  visit("geometry.small_angle_deg", geometry.small_angle_deg, Range{0, 180});
+  visit("geometry.large_angle_deg", geometry.large_angle_deg, Range{0, 180});
+  visit("geometry.max_arm_deviation_deg", geometry.max_arm_deviation_deg, Range{0, 180});
+  ViewCheckParams& checks = tray.view_checks;
+  visit("pictures.max_blur_px", checks.max_blur_px, Range{0, 100});
+  visit("pictures.underexposed_white", checks.underexposed_white, Range{0, 255});
+  visit("pictures.min_visible_card", checks.min_visible_card, Range{0, 1});
+  visit("pictures.max_clipped", checks.max_clipped, Range{0, 1});
+  visit("pictures.max_exposure_ratio", checks.max_exposure_ratio, Range{1, 100});
+  visit("pictures.max_white_balance_ratio", checks.max_white_balance_ratio, Range{1, 100});
+}
+
+TraySetup& tray_of(ProfileParameters& parameters) {
+  if (parameters.profile == Profile::paper) return parameters.paper;
+  return parameters.best;
+}
+
+ParameterList shared_parameters(ProfileParameters& parameters) {
   ParameterList list;
-  visit_shared_parameters(configuration, list);
+  visit_tray(tray_of(parameters), list);
   return list;
 }
 
-ParameterList parameters_of(Profile profile, Configuration& configuration) {
+// When an item is doubted.
+ParameterList best_parameters(Configuration& configuration) {
   ParameterList list;
-  visit_parameters_of(profile, configuration, list);
+  list("items.min_matched_share", configuration.pipeline.min_matched_share, ParameterRange{0, 1});
+  list("items.max_sigma_share", configuration.pipeline.max_sigma_share, ParameterRange{0, 100});
   return list;
 }
 
-ParameterList segmentation_parameters(Configuration& configuration) {
+ParameterList paper_parameters(paper::Configuration& configuration) {
   ParameterList list;
-  visit_segmentation_parameters(configuration.segmentation, list);
+  paper::visit_parameters(configuration, list);
   return list;
+}
+
+ParameterList parameters_of(Profile profile, ProfileParameters& parameters) {
+  return profile == Profile::paper ? paper_parameters(parameters.paper) : best_parameters(parameters.best);
 }
 
 void append_lines(const std::string& title, const ParameterList& list, std::vector<std::string>& lines) {
@@ -120,21 +149,18 @@ void append_lines(const std::string& title, const ParameterList& list, std::vect
 
 }  // namespace
 
-void set_parameter(Configuration& configuration, const std::string& assignment) {
+void set_parameter(ProfileParameters& parameters, const std::string& assignment) {
   const std::size_t equals = assignment.find('=');
   const std::string name = assignment.substr(0, equals);
   const std::string text = equals == std::string::npos ? std::string() : assignment.substr(equals + 1);
-  const Profile other = configuration.profile == Profile::best ? Profile::paper : Profile::best;
-  const ParameterList shared = shared_parameters(configuration);
-  const ParameterList own = parameters_of(configuration.profile, configuration);
-  const ParameterList segmentation = segmentation_parameters(configuration);
-  const Parameter* parameter = nullptr;
-  for (const ParameterList* list : {&own, &shared, &segmentation}) {
-    if (parameter == nullptr) parameter = list->find(name);
-  }
+  const Profile other = parameters.profile == Profile::best ? Profile::paper : Profile::best;
+  const ParameterList shared = shared_parameters(parameters);
+  const ParameterList own = parameters_of(parameters.profile, parameters);
+  const Parameter* parameter = own.find(name);
+  if (parameter == nullptr) parameter = shared.find(name);
   if (parameter == nullptr) {
-    if (parameters_of(other, configuration).find(name) != nullptr) {
-      throw UsageError("--set " + name + ": profile " + traygauge::name(configuration.profile) +
+    if (parameters_of(other, parameters).find(name) != nullptr) {
+      throw UsageError("--set " + name + ": profile " + traygauge::name(parameters.profile) +
                        " does not read it; add --profile " + traygauge::name(other));
     }
     throw UsageError("--set: no parameter " + printable(name) + "; see traygauge evaluate --parameters");
@@ -143,11 +169,10 @@ void set_parameter(Configuration& configuration, const std::string& assignment) 
     throw UsageError("--set " + name + ": expected " + parameter->domain + ", found " + printable(text));
 }
 
-std::vector<std::string> list_parameters(const Configuration& configuration) {
-  Configuration copy = configuration;
+std::vector<std::string> list_parameters(const ProfileParameters& parameters) {
+  ProfileParameters copy = parameters;
   std::vector<std::string> lines;
   append_lines("both profiles", shared_parameters(copy), lines);
-  append_lines("labels auto", segmentation_parameters(copy), lines);
   append_lines("profile best", parameters_of(Profile::best, copy), lines);
   append_lines("profile paper", parameters_of(Profile::paper, copy), lines);
   return lines;

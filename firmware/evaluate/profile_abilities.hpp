@@ -1,7 +1,7 @@
 // What a profile can measure, where that decides what `evaluate` does.
 #pragma once
 
-#include "core/pipeline/configuration.hpp"
+#include "firmware/config/profile.hpp"
 
 namespace traygauge {
 

@@ -98,8 +98,8 @@ PairRuns PairRunner::start() const {
   return runs;
 }
 
-Run PairRunner::measure(std::uint64_t seed, StageTap* tap) {
-  Run run = record(session_.measure(seed, tap), seed, pair_truth_, dishes_);
+Run PairRunner::measure(std::uint64_t seed, StageObserver* observer) {
+  Run run = record(session_.measure(seed, observer), seed, pair_truth_, dishes_);
   if (session_.drawn() == nullptr) return run;
   for (ItemEstimate& item : run.items) item.label = meaning_[static_cast<std::size_t>(item.label)];
   std::erase_if(run.items, [](const ItemEstimate& item) { return item.label == 0; });

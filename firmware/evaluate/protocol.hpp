@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "core/pipeline/configuration.hpp"
 #include "core/pipeline/measurement.hpp"
+#include "firmware/config/profile.hpp"
 #include "firmware/evaluate/outline_figures.hpp"
 #include "firmware/evaluate/pair_tasks.hpp"
 #include "firmware/evaluate/profile_abilities.hpp"
@@ -21,9 +21,9 @@
 namespace traygauge {
 
 struct ProtocolOptions {
-  int runs = 8;              // seeds 1 … runs (paper: 8)
-  int jobs = 1;              // captures' pairs measured at the same time
-  Configuration parameters;  // of the stages; camera, card and dish come from the captures
+  int runs = 8;                  // seeds 1 … runs (paper: 8)
+  int jobs = 1;                  // captures' pairs measured at the same time
+  ProfileParameters parameters;  // camera, card and dish come from the captures
   ProfileAbilities profile = abilities_of(Profile::best);
   std::string config;  // folder with dishes/, for captures that name no dish; empty: the usual one
   LabelSource labels = LabelSource::given;  // automatic: compared with those given
@@ -77,7 +77,7 @@ class PairRunner {
   PairRunner(const PairTask& task, const ProtocolOptions& options);
 
   PairRuns start() const;
-  Run measure(std::uint64_t seed, StageTap* tap = nullptr);
+  Run measure(std::uint64_t seed, StageObserver* observer = nullptr);
 
   const Capture& capture() const { return capture_; }
   const Truth& truth() const { return truth_; }

@@ -97,10 +97,10 @@ StageRuns run_stages(const std::filesystem::path& set, const ProtocolOptions& op
           PairRuns& pair = runs.variants[k][i];
           pair = runner.start();
           if (runner.pair_truth()) {
-            StageSubstitution tap(*runner.pair_truth(), runner.truth(), surface,
-                                  stage_variants()[k].replaced);
-            pair.runs.push_back(runner.measure(kSeed, &tap));
-            if (k == 0) runs.heights[i] = tap.height_errors();
+            StageSubstitution substitution(*runner.pair_truth(), runner.truth(), surface,
+                                           stage_variants()[k].replaced);
+            pair.runs.push_back(runner.measure(kSeed, &substitution));
+            if (k == 0) runs.heights[i] = substitution.height_errors();
           }
           done();
         }

@@ -1,4 +1,4 @@
-// Truth in the place of what a stage of profile `best` found, while it measures.
+// Truth in the place of what a stage found, while it measures.
 #pragma once
 
 #include <array>
@@ -32,8 +32,8 @@ struct HeightErrors {
 };
 using HeightErrorsByLabel = std::map<int, HeightErrors>;
 
-// `truth`'s poses are in the order of the pair. The references outlive the tap.
-class StageSubstitution final : public StageTap {
+// `truth`'s poses are in the order of the pair. The references outlive it.
+class StageSubstitution final : public StageObserver {
  public:
   StageSubstitution(const PairTruth& pair, const Truth& truth, const std::optional<TrueSurface>& surface,
                     TrueStages replaced)

@@ -31,26 +31,51 @@ bool same_lens(const LensModel& a, const LensModel& b) {
 }  // namespace
 
 CaptureSession::CaptureSession(const Capture& capture, std::array<int, 2> pair,
-                               const std::vector<DishDescription>& dishes, const Configuration& parameters,
-                               LabelSource labels)
+                               const std::vector<DishDescription>& dishes,
+                               const ProfileParameters& parameters, LabelSource labels)
     : descriptions_{view_of(capture, pair[0]), view_of(capture, pair[1])},
       views_{load_view(*descriptions_[0]), load_view(*descriptions_[1])},
-      setup_(set_up_pair(capture, pair, dishes)),
-      configuration_(configure(setup_, parameters)),
-      block_(required_bytes(configuration_)),
-      estimator_(block_.bytes(), configuration_) {
+      setup_(set_up_pair(capture, pair, dishes)) {
   check_inputs(capture);
-  if (labels == LabelSource::automatic) draw_labels();
+  if (labels == LabelSource::automatic) {
+    for (std::size_t i = 0; i < 2; ++i) std::swap(given_labels_[i], views_[i].labels);
+  }
+  build_estimators(capture, parameters, labels);
+  if (labels == LabelSource::automatic) find_labels();
 }
 
-void CaptureSession::draw_labels() {
-  drawer_.emplace(configuration_);
-  drawer_->configure(configuration_, estimator_);
-  // measure() reports the failure of a view, too; its labels stay empty.
-  for (std::size_t i = 0; i < 2; ++i) static_cast<void>(drawer_->add_view(input(i), estimator_));
+void CaptureSession::build_estimators(const Capture& capture, const ProfileParameters& parameters,
+                                      LabelSource labels) {
+  Status status;
+  if (parameters.profile == Profile::best || labels == LabelSource::automatic) {
+    Configuration configuration = configure(setup_, parameters.best);
+    configuration.finds_labels = labels == LabelSource::automatic;
+    tray_block_.emplace(required_bytes(configuration));
+    tray_.emplace(tray_block_->bytes(), configuration);
+    status = tray_->status();
+  }
+  if (parameters.profile == Profile::paper) {
+    paper_ = open_paper_estimator(configure(setup_, parameters.paper));
+    if (status.ok()) status = paper_->status();
+  }
+  if (!status.ok()) {
+    throw InputError({capture.file, ""}, "a plausible camera, card and dish",
+                     "values that contradict each other", sentence(status.code()));
+  }
+}
+
+// measure() reports the failure of a view, too; its labels stay empty.
+void CaptureSession::find_labels() {
+  for (std::size_t i = 0; i < 2; ++i) static_cast<void>(tray_->add_view(input(i)));
+  PairLabels& drawn = drawn_.emplace();
+  drawn.segmentation = *tray_->segmentation();
+  drawn.reserved_bytes = tray_->reserved_bytes();
   for (std::size_t i = 0; i < 2; ++i) {
-    given_labels_[i] = std::move(views_[i].labels);
-    views_[i].labels = drawer_->drawn().labels[i];
+    const ImageView<const std::uint8_t> labels = tray_->labels(i);
+    Picture& picture = drawn.labels[i];
+    picture = Picture({labels.width, labels.height}, PixelFormat::gray8);
+    std::copy_n(labels.data, picture.pixels.size(), picture.pixels.begin());  // rows lie close
+    views_[i].labels = picture;
   }
 }
 
@@ -67,10 +92,6 @@ void CaptureSession::check_inputs(const Capture& capture) {
                                                          ": labels without a meaning (" + unknown +
                                                          ") count as background."});
     }
-  }
-  if (!estimator_.status().ok()) {
-    throw InputError({capture.file, ""}, "a plausible camera, card and dish",
-                     "values that contradict each other", sentence(estimator_.status().code()));
   }
   const CardDescription& card = setup_.card;
   const PictureSize pattern = setup_.pattern.size;
@@ -92,14 +113,37 @@ ViewInput CaptureSession::input(std::size_t i) const {
   return input;
 }
 
-const Measurement& CaptureSession::measure(std::uint64_t seed, StageTap* tap) {
-  if (drawer_) return drawer_->measure(estimator_, seed, tap);
-  estimator_.reset();
+const Measurement& CaptureSession::measure(std::uint64_t seed, StageObserver* observer) {
+  if (paper_) return drawn_ ? measure_found_labels(seed) : paper_->measure({input(0), input(1)}, seed);
+  if (drawn_) return tray_->estimate(seed, observer);
+  tray_->reset();
   for (std::size_t i = 0; i < 2; ++i) {
     // estimate() reports the failure of a view, too.
-    if (!estimator_.add_view(input(i)).ok()) break;
+    if (!tray_->add_view(input(i)).ok()) break;
   }
-  return estimator_.estimate(seed, tap);
+  return tray_->estimate(seed, observer);
+}
+
+const Measurement& CaptureSession::measure_found_labels(std::uint64_t seed) {
+  const Segmentation& found = drawn_->segmentation;
+  measurement_ = {};
+  measurement_.status = found.status;
+  if (found.status.ok()) {
+    measurement_ = paper_->measure({input(0), input(1)}, seed);
+    warn_about_labels(found, measurement_.warnings);
+    if (found.is_card_doubtful && !is_measured(measurement_)) measurement_.status = StatusCode::card_hidden;
+  }
+  measurement_.segmentation_ms = found.total_ms();
+  measurement_.total_ms += measurement_.segmentation_ms;
+  return measurement_;
+}
+
+std::size_t CaptureSession::reserved_bytes() const {
+  return (tray_ ? tray_->reserved_bytes() : 0) + (paper_ ? paper_->reserved_bytes() : 0);
+}
+
+std::size_t CaptureSession::used_bytes() const {
+  return (tray_ ? tray_->used_bytes() : 0) + (paper_ ? paper_->used_bytes() : 0);
 }
 
 }  // namespace traygauge

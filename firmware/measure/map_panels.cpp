@@ -34,9 +34,9 @@ cv::Mat disparities_px(const ImageView<const Disparity>& disparity) {
 }
 
 // Of every pixel of the reference view whose depth is known.
-cv::Mat heights_mm(const MeasurementViews& views) {
-  const ImageView<const float>& depth = views.depth_mm;
-  const PinholeCamera& camera = views.cameras[static_cast<std::size_t>(views.reference_view)];
+cv::Mat heights_mm(const paper::WorkingPictures& pictures, const MeasurementViews& views) {
+  const ImageView<const float>& depth = pictures.depth_mm;
+  const PinholeCamera& camera = pictures.cameras[static_cast<std::size_t>(views.reference_view)];
   cv::Mat heights(depth.height, depth.width, CV_32F);
   for (int y = 0; y < depth.height; ++y) {
     auto* row = heights.ptr<float>(y);
@@ -148,8 +148,9 @@ cv::Mat draw_evidence(const MeasureReport& report, cv::Size size) {
 }
 
 cv::Mat draw_disparity(const MeasureReport& report, cv::Size size) {
-  const ImageView<const Disparity>& disparity = report.measurement->views.disparity;
-  if (disparity.empty()) return draw_unreached("Disparity", report, size);
+  if (report.pictures == nullptr || report.pictures->disparity.empty())
+    return draw_unreached("Disparity", report, size);
+  const ImageView<const Disparity>& disparity = report.pictures->disparity;
   const cv::Mat values = disparities_px(disparity);
   ColourScale scale{0.0, 1.0, "px"};
   if (!spanned_range(values, kOutlierShare, scale.low, scale.high)) {
@@ -161,16 +162,16 @@ cv::Mat draw_disparity(const MeasureReport& report, cv::Size size) {
 cv::Mat draw_heights(const MeasureReport& report, cv::Size size) {
   const MeasurementViews& views = report.measurement->views;
   // A plane through the camera itself is the one that was never set.
-  if (views.depth_mm.empty() || views.dish_bottom.offset == 0.0)
+  if (report.pictures == nullptr || report.pictures->depth_mm.empty() || views.dish_bottom.offset == 0.0)
     return draw_unreached("Heights", report, size);
-  const cv::Mat heights = heights_mm(views);
+  const cv::Mat heights = heights_mm(*report.pictures, views);
   ColourScale scale{0.0, 1.0, "mm"};
   if (!spanned_range(heights, kOutlierShare, scale.low, scale.high)) {
     return draw_missing(size, "No pixel has a height.");
   }
   scale.low = std::min(scale.low, 0.0);
   cv::Mat map = colour_values(heights, scale);
-  outline_labels(map, views.labels[static_cast<std::size_t>(views.reference_view)]);
+  outline_labels(map, report.pictures->labels[static_cast<std::size_t>(views.reference_view)]);
   return draw_map(map(known_part(heights)), scale, size);
 }
 

@@ -26,13 +26,11 @@ MeasureReport compose_report(const MeasureOptions& options, const CaptureSession
   report.seed = seed;
   report.message = compose_message(measurement);
   report.measurement = &measurement;
-  report.setup_ms = session.estimator().setup_ms();
-  report.reserved_bytes = session.estimator().reserved_bytes();
-  if (session.drawn() != nullptr) {
-    report.segmentation_ms = session.drawn()->segmentation.total_ms();
-    report.reserved_bytes += session.drawn()->reserved_bytes;
-  }
-  report.used_bytes = session.estimator().used_bytes();
+  report.pictures = session.pictures();
+  report.setup_ms = session.setup_ms();
+  report.reserved_bytes = session.reserved_bytes();
+  report.used_bytes = session.used_bytes();
+  if (session.drawn() != nullptr) report.segmentation_ms = session.drawn()->segmentation.total_ms();
   report.warnings = list_warnings(measurement, session.warnings());
   return report;
 }
@@ -42,13 +40,13 @@ void write_files(const MeasureOptions& options, const CaptureSession& session, c
   if (!options.picture.empty()) write_picture_sheet(options.picture, report, session);
   if (options.mesh.empty()) return;
   const Measurement& measurement = *report.measurement;
-  if (!has_surface(measurement)) {
+  if (!has_surface(measurement, report.pictures)) {
     error << "traygauge: " << options.mesh << " was not written: no surface was measured\n";
     return;
   }
   const int reference = measurement.views.reference_view;
-  write_mesh(options.mesh,
-             compose_mesh(measurement, session.view(reference).picture, session.lens(reference)));
+  write_mesh(options.mesh, compose_mesh(measurement, report.pictures, session.view(reference).picture,
+                                        session.lens(reference)));
 }
 
 }  // namespace
@@ -74,7 +72,7 @@ void add_measure_command(Program& program, MeasureOptions& options) {
 }
 
 int run_measure(const MeasureOptions& options, std::ostream& out, std::ostream& error) {
-  Configuration parameters;
+  ProfileParameters parameters;
   parameters.profile = choose_profile(options.profile);
   check_label_source(options.labels);
   const std::uint64_t seed = parse_seed(options.seed);
@@ -84,7 +82,7 @@ int run_measure(const MeasureOptions& options, std::ostream& out, std::ostream& 
   const std::array<int, 2> pair = choose_pair(options.pair, capture);
   const LabelSource labels = choose_labels(options.labels, capture, pair);
   check_hint(options.items, labels);
-  parameters.segmentation.items = options.items;
+  parameters.best.segmentation.items = options.items;
   if (parameters.profile == Profile::paper) require_one_dish(capture);
   CaptureSession session(capture, pair, choose_dishes(capture, options.config), parameters, labels);
   const Measurement& measurement = session.measure(seed);

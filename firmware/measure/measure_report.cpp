@@ -37,10 +37,6 @@ std::string describe_progress(const MeasurementReport& report) {
 
 }  // namespace
 
-bool is_measured(const Measurement& measurement) {
-  return measurement.status.code() == StatusCode::ok || measurement.status.code() == StatusCode::partial;
-}
-
 std::string compose_message(const Measurement& measurement) {
   const StatusCode code = measurement.status.code();
   if (code == StatusCode::ok) return sentence(code);

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "core/paper/pipeline/working_pictures.hpp"
 #include "core/pipeline/measurement.hpp"
 
 namespace traygauge {
@@ -25,16 +26,14 @@ struct MeasureReport {
   std::string profile;
   std::uint64_t seed = 0;
   std::string message;
-  const Measurement* measurement = nullptr;  // outlives the report
+  const Measurement* measurement = nullptr;          // outlives the report
+  const paper::WorkingPictures* pictures = nullptr;  // of profile paper; outlive it, too
   double setup_ms = 0.0;
   std::optional<double> segmentation_ms;  // where the labels were drawn by it; part of the total
   std::size_t reserved_bytes = 0;
   std::size_t used_bytes = 0;
   std::vector<ReportedWarning> warnings;
 };
-
-// True when at least one item was measured.
-bool is_measured(const Measurement& measurement);
 
 // The sentence of the status with what a person needs to act on it.
 std::string compose_message(const Measurement& measurement);

@@ -160,17 +160,19 @@ class CellMesh {
 
 }  // namespace
 
-bool has_surface(const Measurement& measurement) {
+bool has_surface(const Measurement& measurement, const paper::WorkingPictures* pictures) {
   const MeasurementViews& views = measurement.views;
   if (!views.surfaces.empty()) return true;
   // A plane through the camera itself is the one that was never set.
-  return !views.mesh.points.empty() && !views.mesh.triangles.empty() && views.dish_bottom.offset != 0.0;
+  return pictures != nullptr && !pictures->mesh.points.empty() && !pictures->mesh.triangles.empty() &&
+         views.dish_bottom.offset != 0.0;
 }
 
-std::string compose_mesh(const Measurement& measurement, const Picture& picture, const LensModel& lens) {
+std::string compose_mesh(const Measurement& measurement, const paper::WorkingPictures* pictures,
+                         const Picture& picture, const LensModel& lens) {
   const MeasurementViews& views = measurement.views;
   const CellMesh cells(views);
-  const FoodMesh mesh = views.surfaces.empty() ? views.mesh : cells.mesh();
+  const FoodMesh mesh = views.surfaces.empty() ? pictures->mesh : cells.mesh();
   const Plane bottom = views.surfaces.empty() ? views.dish_bottom : cells.bottom();
   const Pose pose = dish_from_camera(mesh, bottom);
   std::string bytes = compose_header(mesh);

@@ -29,8 +29,8 @@ DishModel dish_of(const DishDescription& dish) {
   return model;
 }
 
-EstimatorLimits limits_for(PictureSize first, PictureSize second) {
-  EstimatorLimits limits;
+FrameLimits limits_for(PictureSize first, PictureSize second) {
+  FrameLimits limits;
   limits.max_frame_width = std::max(first.width, second.width);
   limits.max_frame_height = std::max(first.height, second.height);
   return limits;
@@ -48,15 +48,12 @@ PairSetup set_up_pair(const Capture& capture, std::array<int, 2> pair,
   return setup;
 }
 
-Configuration configure(const PairSetup& setup, const Configuration& parameters) {
-  Configuration configuration = parameters;
-  configuration.lens = setup.lenses[0];
-  configuration.card = {setup.card.width_mm, setup.card.height_mm, setup.card.thickness_mm,
-                        setup.pattern.gray()};
-  configuration.dishes = setup.dishes;
-  configuration.limits.max_frame_width = std::max(setup.lenses[0].width, setup.lenses[1].width);
-  configuration.limits.max_frame_height = std::max(setup.lenses[0].height, setup.lenses[1].height);
-  return configuration;
+void describe_tray(const PairSetup& setup, TraySetup& tray) {
+  tray.lens = setup.lenses[0];
+  tray.card = {setup.card.width_mm, setup.card.height_mm, setup.card.thickness_mm, setup.pattern.gray()};
+  tray.dishes = setup.dishes;
+  tray.limits.max_frame_width = std::max(setup.lenses[0].width, setup.lenses[1].width);
+  tray.limits.max_frame_height = std::max(setup.lenses[0].height, setup.lenses[1].height);
 }
 
 }  // namespace traygauge

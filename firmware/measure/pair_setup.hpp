@@ -13,7 +13,7 @@ LensModel lens_of(const CameraDescription& camera);
 DishModel dish_of(const DishDescription& dish);
 
 // Caps for frames of these sizes, everything else at its default.
-EstimatorLimits limits_for(PictureSize first, PictureSize second);
+FrameLimits limits_for(PictureSize first, PictureSize second);
 
 struct PairSetup {
   std::array<LensModel, 2> lenses;
@@ -26,8 +26,15 @@ struct PairSetup {
 PairSetup set_up_pair(const Capture& capture, std::array<int, 2> pair,
                       const std::vector<DishDescription>& dishes);
 
-// `parameters` carries those of the stages; its camera (the first view's), card, dishes and frame size are
-// replaced. The result refers to pattern and dishes of `setup`.
-Configuration configure(const PairSetup& setup, const Configuration& parameters = {});
+// Fills in camera (the first view's), card, dishes and frame size; they refer to pattern and dishes of
+// `setup`.
+void describe_tray(const PairSetup& setup, TraySetup& tray);
+
+// `parameters` of the stages, with the tray filled in. `Config` is that of either profile.
+template <class Config = Configuration>
+Config configure(const PairSetup& setup, Config parameters = {}) {
+  describe_tray(setup, parameters);
+  return parameters;
+}
 
 }  // namespace traygauge

@@ -25,8 +25,8 @@ std::string headline(const MeasureReport& report) {
 }
 
 std::string view_title(const MeasureReport& report, int view) {
-  const bool is_reference =
-      !report.measurement->views.depth_mm.empty() && report.measurement->views.reference_view == view;
+  const bool is_reference = report.pictures != nullptr && !report.pictures->depth_mm.empty() &&
+                            report.measurement->views.reference_view == view;
   return "view " + std::to_string(report.pair[static_cast<std::size_t>(view)]) +
          (is_reference ? " (reference)" : "");
 }

@@ -5,13 +5,13 @@
 #include <span>
 #include <string>
 
-#include "core/pipeline/estimator.hpp"
 #include "core/pipeline/memory_report.hpp"
-#include "core/pipeline/segmenter_memory.hpp"
+#include "core/pipeline/tray_estimator.hpp"
 #include "firmware/base/exit_status.hpp"
 #include "firmware/base/text.hpp"
 #include "firmware/command/program.hpp"
 #include "firmware/config/profile.hpp"
+#include "firmware/paper/paper_profile.hpp"
 #include "simulator/capture/picture.hpp"
 
 namespace traygauge {
@@ -43,21 +43,24 @@ void add_memory_command(Program& program, MemoryOptions& options) {
 }
 
 int run_memory(const MemoryOptions& options, std::ostream& out) {
-  EstimatorLimits limits;
-  limits.max_frame_width = options.width;
-  limits.max_frame_height = options.height;
-  Configuration configuration;
-  configuration.profile = choose_profile(options.profile);
-  configuration.limits = limits;
+  const Profile profile = choose_profile(options.profile);
   out << "Frames of " << options.width << " x " << options.height << " pixels\n\n";
   out << pad_right("part", kPartWidth) << pad_left("bytes", 12) << pad_left("MiB", 10) << "\n";
-  print_parts(describe_memory(configuration), out);
-  const bool lends = configuration.profile == Profile::best;  // see LabelDrawer
-  out << row("reserved at start", required_bytes(configuration)) << "\nwhere labels are found, "
-      << (lends ? "in the memory of *, before those" : "beside it") << "\n";
-  print_parts(describe_segmenter(configuration), out);
-  out << row(lends ? "needed" : "reserved at start", segmenter_bytes(configuration))
-      << "* one after the other in the same memory: the largest counts\n\n";
+  const FrameLimits limits{options.width, options.height};
+  if (profile == Profile::best) {
+    Configuration configuration;
+    configuration.limits = limits;
+    print_parts(describe_memory(configuration), out);
+    out << row("reserved at start", required_bytes(configuration));
+    configuration.finds_labels = false;
+    out << row("the same where labels are given", required_bytes(configuration));
+  } else {
+    paper::Configuration configuration;
+    configuration.limits = limits;
+    print_parts(describe_paper_memory(configuration), out);
+    out << row("reserved at start", paper_bytes(configuration));
+  }
+  out << "* one after the other in the same memory: the largest counts\n\n";
   const auto pixels = static_cast<std::size_t>(options.width) * static_cast<std::size_t>(options.height);
   out << row("beside it: frames, labels", kFrames * kBytesPerPixel * pixels);
   return kExitMeasured;

@@ -73,8 +73,8 @@ int run_segment(const SegmentOptions& options, std::ostream& out) {
   check_output(options.picture);
   const Capture capture = read_capture(options.capture);
   const std::array<int, 2> pair = choose_pair(options.pair, capture);
-  Configuration parameters;
-  parameters.segmentation.items = options.items;
+  ProfileParameters parameters;
+  parameters.best.segmentation.items = options.items;
   const CaptureSession session(capture, pair, choose_dishes(capture, options.config), parameters,
                                LabelSource::automatic);
   SegmentReport report;

@@ -80,7 +80,7 @@ std::string compose_segment_document(const SegmentReport& report) {
                            {"dishes", segmentation.dish_ms},
                            {"food", segmentation.food_ms},
                            {"total", segmentation.total_ms()}};
-  document["memory_bytes"] = {{"reserved", report.drawn->working_bytes}};
+  document["memory_bytes"] = {{"reserved", report.drawn->reserved_bytes}};
   return document.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
@@ -119,7 +119,7 @@ std::string compose_segment_table(const SegmentReport& report) {
   text += line("time", fixed(segmentation.total_ms(), 1) + " ms (card " + fixed(segmentation.card_ms, 1) +
                            ", dishes " + fixed(segmentation.dish_ms, 1) + ", food " +
                            fixed(segmentation.food_ms, 1) + ")");
-  return text + line("memory", mebibytes(report.drawn->working_bytes) + " MiB");
+  return text + line("memory", mebibytes(report.drawn->reserved_bytes) + " MiB");
 }
 
 }  // namespace traygauge

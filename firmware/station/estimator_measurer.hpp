@@ -6,10 +6,9 @@
 #include <optional>
 #include <span>
 
-#include "core/pipeline/estimator.hpp"
+#include "core/pipeline/tray_estimator.hpp"
 #include "firmware/base/aligned_block.hpp"
 #include "firmware/card/card_guide.hpp"
-#include "firmware/segment/pair_labels.hpp"
 #include "firmware/station/measurer.hpp"
 
 namespace traygauge {
@@ -26,18 +25,18 @@ class Scene {
   // means the same content. Null when nothing is known of it; its limits are not looked at.
   virtual const Configuration* configuration() = 0;
   // The view with its labels and, where they are known, its own camera and the arm's angle. Without labels
-  // they are drawn.
+  // they are found.
   virtual ViewInput describe(const StationView& view) = 0;
   // Whether any tray's views come without labels.
   virtual bool needs_labels() const = 0;
   virtual std::string_view tray_name() const = 0;
 };
 
-// Takes its memory once, for `limits` and `profile`, and where the scene needs it for drawing labels; nothing
-// is allocated during a scan.
+// Takes its memory once, for `limits`, and where the scene needs it for finding labels; nothing is allocated
+// during a scan.
 class EstimatorMeasurer final : public Measurer {
  public:
-  EstimatorMeasurer(Scene& scene, const EstimatorLimits& limits, Profile profile, std::uint64_t seed);
+  EstimatorMeasurer(Scene& scene, const FrameLimits& limits, std::uint64_t seed);
 
   void begin_scan() override;
   Status add_view(const StationView& view) override;
@@ -47,19 +46,13 @@ class EstimatorMeasurer final : public Measurer {
   std::string_view tray_name() const override { return scene_.tray_name(); }
 
  private:
-  void configure(const Configuration& configuration);
-  std::span<std::byte> idle_memory() const;
-
   Scene& scene_;
-  EstimatorLimits limits_;
-  Profile profile_;
+  FrameLimits limits_;
   std::uint64_t seed_;
   AlignedBlock block_;
   const Configuration* configured_with_ = nullptr;
-  std::optional<Estimator> estimator_;
-  std::optional<LabelDrawer> drawer_;
-  bool is_drawing_ = false;  // this scan's labels
-  Measurement unmeasured_;   // where there is no estimator to ask
+  std::optional<TrayEstimator> estimator_;
+  Measurement unmeasured_;  // where there is no estimator to ask
   CardGuide guide_;
   std::optional<ViewInput> first_view_;  // until guide_ knows it
 };

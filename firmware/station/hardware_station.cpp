@@ -4,7 +4,6 @@
 #include "firmware/config/config_folder.hpp"
 #include "firmware/config/dish_choice.hpp"
 #include "firmware/config/dish_library.hpp"
-#include "firmware/config/profile.hpp"
 #include "firmware/station/hardware.hpp"
 #include "firmware/station/scan_printer.hpp"
 #include "firmware/station/site_scene.hpp"
@@ -29,14 +28,13 @@ int run_hardware_station(const StationCommand& command, const std::filesystem::p
     throw UsageError("--labels, --items: for played captures; a station's are in " + file.string() +
                      ", under [trays]");
   }
-  const Profile profile = choose_profile(command.profile);
   const StationFile station_file = read_station_file(file);
   if (command.by_hand && station_file.arm) {
     throw UsageError("--by-hand: " + station_file.file.string() + " has an [arm]; remove one of the two");
   }
   require_geometry(station_file);
-  SiteScene scene(station_file, choose_tray_dishes(station_file, read_dishes(file)), profile);
-  EstimatorMeasurer measurer(scene, scene.limits(), profile, command.seed);
+  SiteScene scene(station_file, choose_tray_dishes(station_file, read_dishes(file)));
+  EstimatorMeasurer measurer(scene, scene.limits(), command.seed);
   ScanPrinter printer(out, log, command.json ? ScanPrinter::Format::json : ScanPrinter::Format::text);
   Hardware hardware(station_file);
   warn_of_changed_lenses(station_file, hardware, log);

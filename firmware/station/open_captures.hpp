@@ -10,7 +10,6 @@
 namespace traygauge {
 
 class MeasurableCaptures;
-enum class Profile : std::uint8_t;
 
 // How captures are outlined, as typed.
 struct LabelChoice {
@@ -21,10 +20,10 @@ struct LabelChoice {
 // Reads what belongs to these folders, of which there is at least one; throws where a file or key of it is
 // not as expected.
 using OpenCaptures = std::unique_ptr<MeasurableCaptures>(const std::vector<std::filesystem::path>& folders,
-                                                         Profile profile, const LabelChoice& labels);
+                                                         const LabelChoice& labels);
 
 // With the real measurement: a RecordedCaptures.
 std::unique_ptr<MeasurableCaptures> open_recorded_captures(const std::vector<std::filesystem::path>& folders,
-                                                           Profile profile, const LabelChoice& labels);
+                                                           const LabelChoice& labels);
 
 }  // namespace traygauge

@@ -16,7 +16,7 @@ class MeasurableCaptures : public CaptureSource {
   // The camera of view 0 or 1 of the pair, where the view carries one of its own.
   virtual std::optional<LensModel> lens(int view) const = 0;
   // Holds every capture.
-  virtual EstimatorLimits limits() const = 0;
+  virtual FrameLimits limits() const = 0;
   // Whether any capture is played without labels.
   virtual bool needs_labels() const = 0;
 };

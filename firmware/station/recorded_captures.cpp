@@ -7,12 +7,12 @@
 
 namespace traygauge {
 
-RecordedCaptures::RecordedCaptures(const std::vector<std::filesystem::path>& folders, Profile profile,
+RecordedCaptures::RecordedCaptures(const std::vector<std::filesystem::path>& folders,
                                    const LabelChoice& labels) {
-  for (const auto& folder : folders) add(folder, profile, labels);
+  for (const auto& folder : folders) add(folder, labels);
 }
 
-void RecordedCaptures::add(const std::filesystem::path& folder, Profile profile, const LabelChoice& labels) {
+void RecordedCaptures::add(const std::filesystem::path& folder, const LabelChoice& labels) {
   const Capture capture = read_capture(folder);
   auto recording = std::make_unique<Recording>();
   recording->name = capture.file.parent_path().filename().string();
@@ -25,10 +25,8 @@ void RecordedCaptures::add(const std::filesystem::path& folder, Profile profile,
   recording->labels = choose_labels(labels.source, capture, pair);
   check_hint(labels.items, recording->labels);
   needs_labels_ = needs_labels_ || recording->labels == LabelSource::automatic;
-  if (profile == Profile::paper) require_one_dish(capture);
   recording->setup = set_up_pair(capture, pair, choose_dishes(capture, ""));
   Configuration parameters;
-  parameters.profile = profile;
   parameters.segmentation.items = labels.items;
   recording->configuration = configure(recording->setup, parameters);
   recordings_.push_back(std::move(recording));
@@ -51,14 +49,14 @@ bool RecordedCaptures::open(std::size_t index) {
   return true;
 }
 
-EstimatorLimits RecordedCaptures::limits() const {
+FrameLimits RecordedCaptures::limits() const {
   const PictureSize size{largest_.width, largest_.height};
   return limits_for(size, size);
 }
 
 std::unique_ptr<MeasurableCaptures> open_recorded_captures(const std::vector<std::filesystem::path>& folders,
-                                                           Profile profile, const LabelChoice& labels) {
-  return std::make_unique<RecordedCaptures>(folders, profile, labels);
+                                                           const LabelChoice& labels) {
+  return std::make_unique<RecordedCaptures>(folders, labels);
 }
 
 }  // namespace traygauge

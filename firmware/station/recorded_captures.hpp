@@ -19,8 +19,7 @@ class RecordedCaptures final : public MeasurableCaptures {
  public:
   // Reads every capture.json and card pattern; throws InputError and UsageError. Captures without a dish take
   // those of the usual config folder.
-  RecordedCaptures(const std::vector<std::filesystem::path>& folders, Profile profile,
-                   const LabelChoice& labels = {});
+  RecordedCaptures(const std::vector<std::filesystem::path>& folders, const LabelChoice& labels = {});
 
   std::size_t capture_count() const override { return recordings_.size(); }
   CameraFormat largest_frame() const override { return largest_; }
@@ -33,7 +32,7 @@ class RecordedCaptures final : public MeasurableCaptures {
   std::optional<LensModel> lens(int view) const override {
     return open_->setup.lenses[static_cast<std::size_t>(view)];
   }
-  EstimatorLimits limits() const override;
+  FrameLimits limits() const override;
   bool needs_labels() const override { return needs_labels_; }
 
  private:
@@ -44,7 +43,7 @@ class RecordedCaptures final : public MeasurableCaptures {
     PairSetup setup;
     Configuration configuration;  // refers to the setup
   };
-  void add(const std::filesystem::path& folder, Profile profile, const LabelChoice& labels);
+  void add(const std::filesystem::path& folder, const LabelChoice& labels);
 
   std::vector<std::unique_ptr<Recording>> recordings_;
   CameraFormat largest_{0, 0, PixelFormat::bgr8};

@@ -6,8 +6,7 @@
 
 namespace traygauge {
 
-SiteScene::SiteScene(const StationFile& station, const std::vector<DishDescription>& dishes,
-                     Profile profile) {
+SiteScene::SiteScene(const StationFile& station, const std::vector<DishDescription>& dishes) {
   require_geometry(station);
   const std::array<const LensConfig*, 2> lenses = {
       &*station.lens, station.second_lens ? &*station.second_lens : &*station.lens};
@@ -19,7 +18,6 @@ SiteScene::SiteScene(const StationFile& station, const std::vector<DishDescripti
   setup_.pattern = load_pattern(*station.card);
   for (const DishDescription& dish : dishes) setup_.dishes.push_back(dish_of(dish));
   Configuration parameters;
-  parameters.profile = profile;
   parameters.segmentation.items = station.items;
   configuration_ = configure(setup_, parameters);
 }

@@ -14,7 +14,7 @@ class SiteScene final : public Scene {
  public:
   // Reads the card's pattern and the labels, where there are any; throws InputError, also where lens or card
   // are missing. `dishes`: those of a tray, or candidates for its only one.
-  SiteScene(const StationFile& station, const std::vector<DishDescription>& dishes, Profile profile);
+  SiteScene(const StationFile& station, const std::vector<DishDescription>& dishes);
 
   const Configuration* configuration() override {
     views_ = 0;
@@ -23,7 +23,7 @@ class SiteScene final : public Scene {
   ViewInput describe(const StationView& view) override;
   bool needs_labels() const override { return labels_[0].pixels.empty(); }
   std::string_view tray_name() const override { return {}; }
-  EstimatorLimits limits() const { return configuration_.limits; }
+  FrameLimits limits() const { return configuration_.limits; }
 
  private:
   PairSetup setup_;

@@ -5,7 +5,6 @@
 
 #include "firmware/base/exit_status.hpp"
 #include "firmware/command/program.hpp"
-#include "firmware/config/profile.hpp"
 #include "firmware/measure/measure_choices.hpp"
 #include "firmware/station/hardware_station.hpp"
 #include "firmware/station/played_scene.hpp"
@@ -31,8 +30,8 @@ std::uint64_t scan_count(const StationCommand& command, const CaptureSource& cap
   return command.scans > 0 ? command.scans : captures.capture_count();
 }
 
-int play(const StationCommand& command, Profile profile, const FaultPlan& faults,
-         MeasurableCaptures& captures, const std::atomic<bool>& stop, std::ostream& out, std::ostream& log) {
+int play(const StationCommand& command, const FaultPlan& faults, MeasurableCaptures& captures,
+         const std::atomic<bool>& stop, std::ostream& out, std::ostream& log) {
   SimulatedClock clock;
   TrayPlayer player(captures, command.by_hand ? CameraMover::hand : CameraMover::arm);
   SimulatedArm arm(clock, &player);
@@ -49,7 +48,7 @@ int play(const StationCommand& command, Profile profile, const FaultPlan& faults
   faults.apply(SimulatedDevice::clock, clock.faults());
 
   PlayedScene scene(captures, player);
-  EstimatorMeasurer measurer(scene, captures.limits(), profile, command.seed);
+  EstimatorMeasurer measurer(scene, captures.limits(), command.seed);
   ScanPrinter printer(out, log, command.json ? ScanPrinter::Format::json : ScanPrinter::Format::text);
   StationParams params;
   params.second_view_deg = command.second_view_deg;
@@ -96,8 +95,6 @@ void add_station_command(Program& program, StationCommand& command) {
       .add_option("--second-view", command.second_view_deg,
                   "Where the simulated arm goes, degrees from home; a real one's is in its station file")
       .show_default();
-  station.add_option("--profile", command.profile,
-                     "best (default), or paper: every stage as the paper describes it");
   station.add_option(
       "--labels", command.labels.source,
       "Where played captures are outlined: given (label pictures) or auto (found in the pictures); default: "
@@ -108,7 +105,6 @@ void add_station_command(Program& program, StationCommand& command) {
 
 int run_station(const StationCommand& command, OpenCaptures& open_captures, const std::atomic<bool>& stop,
                 std::ostream& out, std::ostream& log) {
-  const Profile profile = choose_profile(command.profile);
   if (command.devices.starts_with(kHardwarePrefix)) {
     return run_hardware_station(command, command.devices.substr(kHardwarePrefix.size()), stop, out, log);
   }
@@ -126,8 +122,8 @@ int run_station(const StationCommand& command, OpenCaptures& open_captures, cons
   if (command.by_hand && !faults.of(SimulatedDevice::arm).empty()) {
     throw UsageError("--faults: the script has faults of the arm, and --by-hand plays none; remove one");
   }
-  const auto captures = open_captures(folders, profile, command.labels);
-  return play(command, profile, faults, *captures, stop, out, log);
+  const auto captures = open_captures(folders, command.labels);
+  return play(command, faults, *captures, stop, out, log);
 }
 
 }  // namespace traygauge

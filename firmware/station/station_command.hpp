@@ -20,7 +20,6 @@ struct StationCommand {
   bool json = false;
   bool by_hand = false;  // no arm: a second press takes the second view
   double second_view_deg = StationParams{}.second_view_deg;
-  std::string profile;  // empty: the default
   std::uint64_t seed = 0;
   LabelChoice labels;  // of captures
 };

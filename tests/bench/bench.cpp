@@ -10,7 +10,6 @@
 int main(int argc, char** argv) {
   using namespace traygauge::bench;
   using traygauge::PixelFormat;
-  using traygauge::Profile;
   cv::setNumThreads(1);
   std::vector<Scene> scenes;
   for (const char* capture : {"meals/m01", "meals/m06"}) {
@@ -23,8 +22,8 @@ int main(int argc, char** argv) {
 
   bool holds = true;
   for (const Scene& scene : scenes) {
-    for (const Profile profile : {Profile::best, Profile::paper})
-      holds = check_reported_time(scene, profile) && holds;
+    holds = check_reported_time(scene) && holds;
+    holds = check_reported_paper_time(scene) && holds;
   }
   if (!holds) return 1;
 
@@ -45,8 +44,8 @@ int main(int argc, char** argv) {
   for (const Scene& scene : scenes) {
     const bool is_coloured = scene.frames[0].format != PixelFormat::gray8;
     if (is_coloured) comparisons.push_back(compare_segmentation(scene));
-    for (const Profile profile : {Profile::best, Profile::paper})
-      comparisons.push_back(compare_measurement(scene, profile));
+    comparisons.push_back(compare_measurement(scene));
+    comparisons.push_back(compare_paper_measurement(scene));
   }
   return run_comparisons(comparisons, argc, argv) ? 0 : 1;
 }

@@ -24,16 +24,16 @@ double highest_mm(std::span<const MeasuredSurface> surfaces) {
 
 BestData::BestData(const Scene& scene_)
     : scene(scene_),
-      configuration(scene_.configuration(Profile::best)),
-      pattern(configuration.best.card.pattern),
+      configuration(scene_.configuration<Configuration>()),
+      pattern(configuration.card_alignment.pattern),
       pyramids{OwnedWorkspace<PyramidWorkspace>(scene_.lens.width, scene_.lens.height),
                OwnedWorkspace<PyramidWorkspace>(scene_.lens.width, scene_.lens.height)} {
-  Session session(scene, Profile::best);
+  Session session(scene);
   const Measurement& measurement = session.measure();
   if (!measurement.status.ok()) return;
   const ReferenceCard& card = configuration.card;
   if (!prepare_card_pattern(card.pattern, {card.width_mm, card.height_mm, card.thickness_mm},
-                            configuration.best.card.pattern, *pattern)
+                            configuration.card_alignment.pattern, *pattern)
            .ok()) {
     return;
   }
@@ -42,7 +42,7 @@ BestData::BestData(const Scene& scene_)
     views[i].camera_from_table = measurement.views.camera_from_table[views[i].index];
     if (!prepare_view(i)) return;
   }
-  top_mm = highest_mm(measurement.views.surfaces) + configuration.best.pipeline.summit_margin_mm;
+  top_mm = highest_mm(measurement.views.surfaces) + configuration.pipeline.summit_margin_mm;
   is_complete = sample_views();
 }
 
@@ -55,10 +55,10 @@ bool BestData::prepare_view(std::size_t i) {
       cv::Mat(labels.size.height, labels.size.width, CV_8U, const_cast<std::uint8_t*>(labels.pixels.data()));
   view.regions = measure_regions(labels.gray());
   view.pyramid = build_pyramid(view_of(view.gray), *pyramids[i]);
-  OwnedWorkspace<CardAlignmentWorkspace> workspace(configuration.best.card);
+  OwnedWorkspace<CardAlignmentWorkspace> workspace(configuration.card_alignment);
   CardAlignment alignment;
   const Status status = align_card(view_of(view.gray), view_of(view.labels), view.regions.card, scene.lens,
-                                   *pattern, configuration.best.card, *workspace, alignment);
+                                   *pattern, configuration.card_alignment, *workspace, alignment);
   view.from_card = alignment.camera_from_table;
   return status.ok();
 }
@@ -77,7 +77,7 @@ std::array<StoredView, 2> BestData::stored() const {
 }
 
 bool BestData::sample_views() {
-  const TwoViewSurfaceParams& params = configuration.best.surface;
+  const TwoViewSurfaceParams& params = configuration.surface;
   OwnedWorkspace<TwoViewSurfaceWorkspace> workspace(params);
   std::array<SurfaceGrid, 2> grids;
   TwoViewSurfaceReport report;

@@ -29,7 +29,7 @@ std::array<cv::Mat, 2> sample_maps(const BestData& data, const PlaneRectificatio
 
 // Ours works out where the samples lie, and averages where it reduces; the peer does neither.
 Comparison compare_sampling(const BestData& data) {
-  const PlaneRectificationParams& params = data.configuration.best.surface.rectification;
+  const PlaneRectificationParams& params = data.configuration.surface.rectification;
   const LabelTable kept = labels_on_dish(labels_of_single_dish());
   const double bottom_mm = data.scene.dish.bottom_height_mm;
   const cv::Mat& like = data.views[0].sampled;
@@ -89,7 +89,7 @@ Method our_semi_global(const BestData& data) {
             mask_symmetric_census(pair.labels[0], masks);
             pair.mask = masks;
             match_semi_global(pair, view_of<std::int16_t>(first), lanes,
-                              data.configuration.best.surface.semi_global, **workspace,
+                              data.configuration.surface.semi_global, **workspace,
                               target_of<Disparity>(disparity));
             return percent_matched(disparity != kNoDisparity, data.views[0].sampled_labels);
           }};
@@ -128,7 +128,7 @@ Comparison compare_semi_global(const BestData& data) {
 // Ours samples, matches coarse to fine, refines below the pixel, checks and triangulates; the peer matches
 // the samples with either view as the reference and filters.
 Comparison compare_surface(const BestData& data) {
-  const TwoViewSurfaceParams& params = data.configuration.best.surface;
+  const TwoViewSurfaceParams& params = data.configuration.surface;
   const auto ours = [&data, &params,
                      workspace = std::make_shared<OwnedWorkspace<TwoViewSurfaceWorkspace>>(params)] {
     std::array<SurfaceGrid, 2> grids;

@@ -60,7 +60,7 @@ double card_error_px(const BestData& data, const Pose& camera_from_table) {
 
 Comparison compare_card(const BestData& data) {
   const BestDataView& view = data.views[0];
-  const CardAlignmentParams& params = data.configuration.best.card;
+  const CardAlignmentParams& params = data.configuration.card_alignment;
   const auto ours = [&data, &view, &params,
                      workspace = std::make_shared<OwnedWorkspace<CardAlignmentWorkspace>>(params)] {
     CardAlignment alignment;
@@ -89,7 +89,7 @@ Comparison compare_card(const BestData& data) {
 
 Comparison compare_corners(const BestData& data) {
   const ImageView<const std::uint8_t> picture = data.views[0].pyramid.levels[kCornerLevel];
-  const PointTrackingParams& params = data.configuration.best.tracking;
+  const PointTrackingParams& params = data.configuration.tracking;
   const auto ours = [&data, picture, &params,
                      workspace = std::make_shared<OwnedWorkspace<CornerWorkspace>>(
                          picture.width, picture.height, params.corners),
@@ -134,7 +134,7 @@ class TrueTracks {
 Method opencv_flow(const BestData& data) {
   return {
       "cv::calcOpticalFlowPyrLK", [&data, truth = TrueTracks(data)] {
-        const int count = data.configuration.best.tracking.max_corners;
+        const int count = data.configuration.tracking.max_corners;
         std::vector<cv::Point2f> first;
         std::vector<cv::Point2f> second;
         std::vector<std::uint8_t> found;
@@ -172,7 +172,7 @@ Method opencv_sift(const BestData& data) {
 
 // From pyramids and the card's poses, which ours needs, and from whole pictures, which the peers need.
 Comparison compare_tracks(const BestData& data) {
-  const PointTrackingParams& params = data.configuration.best.tracking;
+  const PointTrackingParams& params = data.configuration.tracking;
   const auto ours = [&data, &params, truth = TrueTracks(data),
                      workspace = std::make_shared<OwnedWorkspace<PointTrackingWorkspace>>(
                          data.scene.lens.width, data.scene.lens.height, params)] {

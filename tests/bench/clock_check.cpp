@@ -19,10 +19,9 @@ double median(Times times) {
   return times[kRuns / 2];
 }
 
-}  // namespace
-
-bool check_reported_time(const Scene& scene, Profile profile) {
-  Session session(scene, profile);
+template <class AnySession>
+bool check(const Scene& scene) {
+  AnySession session(scene);
   Times outside_ms{};
   Times reported_ms{};
   Times share{};
@@ -32,7 +31,7 @@ bool check_reported_time(const Scene& scene, Profile profile) {
     const Measurement& measurement = session.measure();
     const std::chrono::duration<double, std::milli> elapsed = std::chrono::steady_clock::now() - start;
     if (!measurement.status.ok()) {
-      std::printf("%s, %s: not measured: %s\n", scene.name.c_str(), name_of(profile),
+      std::printf("%s, %s: not measured: %s\n", scene.name.c_str(), name_of<AnySession>(),
                   sentence(measurement.status.code()));
       return false;
     }
@@ -43,13 +42,23 @@ bool check_reported_time(const Scene& scene, Profile profile) {
   }
   const double deviation = std::abs(median(share) - 1.0);
   std::printf("%s, %s: outside clock %.1f ms, reported total %.1f ms, apart by %.2f %% (at most %.0f %%)\n ",
-              scene.name.c_str(), name_of(profile), median(outside_ms), median(reported_ms),
+              scene.name.c_str(), name_of<AnySession>(), median(outside_ms), median(reported_ms),
               100.0 * deviation, 100.0 * kTolerance);
   for (std::size_t i = 0; i < kStageCount; ++i) {
     std::printf(" %s %.1f", name(static_cast<Stage>(i)), median(stage_ms[i]));
   }
   std::printf("\n");
   return deviation <= kTolerance;
+}
+
+}  // namespace
+
+bool check_reported_time(const Scene& scene) {
+  return check<Session>(scene);
+}
+
+bool check_reported_paper_time(const Scene& scene) {
+  return check<PaperSession>(scene);
 }
 
 }  // namespace traygauge::bench

@@ -17,6 +17,7 @@ std::vector<Comparison> compare_best_dense_stages(const BestData& data);
 // Labels drawn in two views.
 Comparison compare_segmentation(const Scene& scene);
 // From decoded frames to volumes.
-Comparison compare_measurement(const Scene& scene, Profile profile);
+Comparison compare_measurement(const Scene& scene);
+Comparison compare_paper_measurement(const Scene& scene);
 
 }  // namespace traygauge::bench

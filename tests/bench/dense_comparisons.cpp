@@ -123,7 +123,7 @@ Comparison compare_rectification(const StageData& data) {
 }
 
 Method our_stereo(const StageData& data) {
-  const Configuration& configuration = data.session.configuration;
+  const paper::Configuration& configuration = data.session.configuration;
   const auto workspace = std::make_shared<OwnedWorkspace<StereoWorkspace>>(
       configuration.rectification.max_columns, configuration.rectification.max_rows,
       configuration.disparity_range.max_count, configuration.stereo);
@@ -202,17 +202,18 @@ double volume_by_subdivision(const FoodMesh& mesh, const PinholeCamera& camera, 
 }
 
 Comparison compare_volume(const StageData& data) {
-  const Configuration& configuration = data.session.configuration;
+  const paper::Configuration& configuration = data.session.configuration;
   const auto points = static_cast<std::size_t>(configuration.mesh.points);
   const cv::Size size = data.working[0].size();
   const auto mesh_workspace = std::make_shared<OwnedWorkspace<FoodMeshWorkspace>>(
       points, static_cast<std::size_t>(size.width), static_cast<std::size_t>(size.height));
   const auto volume_workspace = std::make_shared<OwnedWorkspace<VolumeWorkspace>>(points);
   const MeasurementViews& views = data.measurement.views;
-  const auto ours = [&data, &configuration, &views, mesh_workspace, volume_workspace] {
+  const paper::WorkingPictures& pictures = data.session.estimator.pictures();
+  const auto ours = [&data, &configuration, &views, &pictures, mesh_workspace, volume_workspace] {
     FoodMesh mesh;
-    Status status = build_food_mesh(views.depth_mm, view_of(data.working_labels[0]), data.cutouts[0].camera,
-                                    configuration.mesh, **mesh_workspace, mesh);
+    Status status = build_food_mesh(pictures.depth_mm, view_of(data.working_labels[0]),
+                                    data.cutouts[0].camera, configuration.mesh, **mesh_workspace, mesh);
     if (!status.ok()) return 0.0;
     status = integrate_volume(mesh, views.dish_bottom, configuration.volume, **volume_workspace);
     if (!status.ok()) return 0.0;
@@ -220,8 +221,8 @@ Comparison compare_volume(const StageData& data) {
     for (const ItemVolume& item : (**volume_workspace).items) total_ml += item.volume_ml;
     return total_ml;
   };
-  const auto peer = [&data, &views, size] {
-    return volume_by_subdivision(views.mesh, data.cutouts[0].camera, views.dish_bottom, size);
+  const auto peer = [&data, &views, &pictures, size] {
+    return volume_by_subdivision(pictures.mesh, data.cutouts[0].camera, views.dish_bottom, size);
   };
   return {"mesh, volume", "ml", {{"ours", ours}, {"cv::Subdiv2D, its triangles", peer}}};
 }

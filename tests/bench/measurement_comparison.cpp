@@ -15,17 +15,26 @@ std::map<int, double> volumes_of(const Measurement& measurement) {
   return volumes_ml;
 }
 
-}  // namespace
-
-Comparison compare_measurement(const Scene& scene, Profile profile) {
-  const auto session = std::make_shared<Session>(scene, profile);
+template <class AnySession>
+Comparison compare(const Scene& scene) {
+  const auto session = std::make_shared<AnySession>(scene);
   const auto ours = [&scene, session] { return scene.error_percent(volumes_of(session->measure())); };
   const auto peer = [&scene, pattern = prepare_pattern(scene)] {
     return scene.error_percent(measure_by_opencv(scene, pattern));
   };
-  return {scene.name + ", " + name_of(profile),
+  return {scene.name + ", " + name_of<AnySession>(),
           "% volume error",
           {{"ours, whole measurement", ours}, {"OpenCV's parts, no joint fit", peer}}};
+}
+
+}  // namespace
+
+Comparison compare_measurement(const Scene& scene) {
+  return compare<Session>(scene);
+}
+
+Comparison compare_paper_measurement(const Scene& scene) {
+  return compare<PaperSession>(scene);
 }
 
 }  // namespace traygauge::bench

@@ -70,16 +70,14 @@ void draw_card(const SyntheticCamera& camera, const ReferenceCard& card, Picture
 
 }  // namespace
 
-Configuration Scene::configuration(Profile profile) const {
-  Configuration configuration;
-  configuration.profile = profile;
-  configuration.lens = lens;
-  configuration.card = card;
-  configuration.card.pattern = pattern.gray();
-  configuration.dishes = {&dish, 1};
-  configuration.limits.max_frame_width = lens.width;
-  configuration.limits.max_frame_height = lens.height;
-  return configuration;
+TraySetup Scene::setup() const {
+  TraySetup setup;
+  setup.lens = lens;
+  setup.card = card;
+  setup.card.pattern = pattern.gray();
+  setup.dishes = {&dish, 1};
+  setup.limits = {lens.width, lens.height};
+  return setup;
 }
 
 ViewInput Scene::view(std::size_t i) const {
@@ -147,20 +145,6 @@ Scene render_scene() {
     scene.lens = {kWidth, kHeight, camera.pinhole};
   }
   return scene;
-}
-
-Session::Session(const Scene& scene_, Profile profile)
-    : scene(scene_),
-      configuration(scene_.configuration(profile)),
-      block(required_bytes(configuration)),
-      estimator(block.bytes(), configuration) {}
-
-const Measurement& Session::measure() {
-  estimator.reset();
-  for (std::size_t i = 0; i < 2; ++i) {
-    if (!estimator.add_view(scene.view(i)).ok()) break;
-  }
-  return estimator.estimate(1);
 }
 
 }  // namespace traygauge::bench

@@ -5,9 +5,11 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <type_traits>
 #include <vector>
 
-#include "core/pipeline/estimator.hpp"
+#include "core/paper/pipeline/estimator.hpp"
+#include "core/pipeline/tray_estimator.hpp"
 #include "firmware/base/aligned_block.hpp"
 #include "simulator/capture/picture.hpp"
 
@@ -24,7 +26,14 @@ struct Scene {
   std::map<int, double> truth_ml;  // by label; empty when it is not known
 
   // Points into the scene.
-  Configuration configuration(Profile profile) const;
+  TraySetup setup() const;
+  // As an estimator of either profile takes it.
+  template <class Config>
+  Config configuration() const {
+    Config configuration;
+    static_cast<TraySetup&>(configuration) = setup();
+    return configuration;
+  }
   ViewInput view(std::size_t i) const;
   // Mean of |measured − true| / true, in %; NaN without truth.
   double error_percent(const std::map<int, double>& volumes_ml) const;
@@ -36,19 +45,35 @@ std::optional<Scene> load_capture_scene(const std::string& capture);
 // The same size in closed form: a cosine hill on a flat dish, and a card with random spots.
 Scene render_scene();
 
-inline const char* name_of(Profile profile) {
-  return profile == Profile::best ? "best" : "paper";
-}
-
 // An estimator and its memory for a scene, which outlives it.
-struct Session {
-  Session(const Scene& scene, Profile profile);
-  const Measurement& measure();
+template <class Estimator, class Config>
+struct SessionOf {
+  explicit SessionOf(const Scene& scene_)
+      : scene(scene_),
+        configuration(scene_.configuration<Config>()),
+        block(required_bytes(configuration)),
+        estimator(block.bytes(), configuration) {}
+
+  const Measurement& measure() {
+    estimator.reset();
+    for (std::size_t i = 0; i < 2; ++i) {
+      if (!estimator.add_view(scene.view(i)).ok()) break;
+    }
+    return estimator.estimate(1);
+  }
 
   const Scene& scene;
-  Configuration configuration;
+  Config configuration;
   AlignedBlock block;
   Estimator estimator;
 };
+
+using Session = SessionOf<TrayEstimator, Configuration>;
+using PaperSession = SessionOf<paper::Estimator, paper::Configuration>;
+
+template <class AnySession>
+const char* name_of() {
+  return std::is_same_v<AnySession, Session> ? "best" : "paper";
+}
 
 }  // namespace traygauge::bench

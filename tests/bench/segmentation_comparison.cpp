@@ -1,10 +1,10 @@
 // Card, dishes and food found in two views, beside the same put together from OpenCV's parts.
+#include <algorithm>
 #include <memory>
 #include <opencv2/calib3d.hpp>
 #include <opencv2/features2d.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "core/pipeline/segmenter.hpp"
 #include "firmware/segment/label_scores.hpp"
 #include "tests/bench/comparisons.hpp"
 
@@ -30,36 +30,28 @@ double food_percent(const Scene& scene, const std::array<Picture, 2>& labels) {
   return sum;
 }
 
-// A segmenter with what it needs, for a scene that outlives it.
+// Finds the labels of a scene, which outlives it.
 struct Drawing {
-  explicit Drawing(const Scene& scene_)
-      : scene(scene_),
-        session(scene, Profile::best),
-        block(segmenter_bytes(session.configuration)),
-        segmenter(block.bytes(), session.configuration, *session.estimator.card_pattern()) {
-    for (std::size_t v = 0; v < 2; ++v) {
-      const PictureSize size = scene.frames[v].size;
-      labels[v] = Picture(size, PixelFormat::gray8);
-      gray[v] = Picture(size, PixelFormat::gray8);
-      views[v].frame = scene.frames[v].frame();
-      views[v].labels = {labels[v].pixels.data(), size.width, size.height};
-      views[v].gray = {gray[v].pixels.data(), size.width, size.height};
-    }
-  }
+  explicit Drawing(const Scene& scene_) : scene(scene_), session(scene_) {}
 
-  void draw() {
-    segmenter.reset();
-    for (const SegmentedView& view : views) static_cast<void>(segmenter.add_view(view));
-    static_cast<void>(segmenter.segment());
+  std::array<Picture, 2> draw() {
+    session.estimator.reset();
+    std::array<Picture, 2> drawn;
+    for (std::size_t v = 0; v < 2; ++v) {
+      ViewInput view = scene.view(v);
+      view.labels = {};
+      static_cast<void>(session.estimator.add_view(view));
+    }
+    for (std::size_t v = 0; v < 2; ++v) {
+      const ImageView<const std::uint8_t> labels = session.estimator.labels(v);
+      drawn[v] = Picture({labels.width, labels.height}, PixelFormat::gray8);
+      std::copy_n(labels.data, drawn[v].pixels.size(), drawn[v].pixels.begin());
+    }
+    return drawn;
   }
 
   const Scene& scene;
   Session session;
-  AlignedBlock block;
-  Segmenter segmenter;
-  std::array<Picture, 2> labels;
-  std::array<Picture, 2> gray;
-  std::array<SegmentedView, 2> views;
 };
 
 struct PrintFeatures {
@@ -152,10 +144,7 @@ std::array<Picture, 2> draw_by_opencv(const Scene& scene, const PrintFeatures& p
 
 Comparison compare_segmentation(const Scene& scene) {
   const auto drawing = std::make_shared<Drawing>(scene);
-  const auto ours = [&scene, drawing] {
-    drawing->draw();
-    return food_percent(scene, drawing->labels);
-  };
+  const auto ours = [&scene, drawing] { return food_percent(scene, drawing->draw()); };
   const cv::Ptr<cv::ORB> orb = cv::ORB::create(2000);
   const auto peer = [&scene, orb, print = describe_print(scene, *orb)] {
     return food_percent(scene, draw_by_opencv(scene, print, *orb));

@@ -17,10 +17,10 @@ constexpr int kSiftPoints = 4000;
 
 Method surf_method(const StageData& data) {
   const cv::Mat& picture = data.features[0].picture;
-  const Configuration& configuration = data.session.configuration;
+  const paper::Configuration& configuration = data.session.configuration;
   const auto workspace =
       std::make_shared<OwnedWorkspace<SurfWorkspace>>(picture.cols, picture.rows, configuration.surf);
-  const auto cap = static_cast<std::size_t>(configuration.limits.max_keypoints);
+  const auto cap = static_cast<std::size_t>(configuration.caps.max_keypoints);
   return {"ours", [&picture, &configuration, workspace, keypoints = std::vector<Keypoint>(cap),
                    descriptors = std::vector<Descriptor>(cap),
                    sums = std::vector<std::uint32_t>(static_cast<std::size_t>(picture.cols + 1) *
@@ -50,14 +50,14 @@ Comparison compare_features(const StageData& data) {
           {surf_method(data),
            opencv_features("cv::SIFT, 4000 points", data, cv::SIFT::create(kSiftPoints, 3, 0.02)),
            opencv_features("cv::ORB, 3000 points", data,
-                           cv::ORB::create(data.session.configuration.limits.max_keypoints))}};
+                           cv::ORB::create(data.session.configuration.caps.max_keypoints))}};
 }
 
 Method our_matching(const std::string& name, const StageData& data, MatcherParams::Search search) {
   MatcherParams params = data.session.configuration.matcher;
   params.search = search;
   const auto workspace =
-      std::make_shared<OwnedWorkspace<MatcherWorkspace>>(data.session.configuration.limits.max_keypoints);
+      std::make_shared<OwnedWorkspace<MatcherWorkspace>>(data.session.configuration.caps.max_keypoints);
   return {name, [&data, params, workspace,
                  storage = std::vector<Match>(data.features[0].keypoints.size())]() mutable {
             BoundedList<Match> matches(storage);
@@ -150,7 +150,7 @@ Method opencv_pose(const std::string& name, const StageData& data, int method) {
 }
 
 Comparison compare_pose(const StageData& data) {
-  const Configuration& configuration = data.session.configuration;
+  const paper::Configuration& configuration = data.session.configuration;
   const auto workspace = std::make_shared<OwnedWorkspace<RelativePoseWorkspace>>(
       data.rays.size(), static_cast<std::size_t>(configuration.pose.noise_sample));
   const auto ours = [&data, &configuration, workspace,

@@ -17,24 +17,25 @@ cv::Mat copy_of(ImageView<const std::uint8_t> view) {
   return copy;
 }
 
-cv::Mat reduce_to_features(const cv::Mat& gray, const Picture& labels, const Configuration& configuration) {
+cv::Mat reduce_to_features(const cv::Mat& gray, const Picture& labels,
+                           const paper::Configuration& configuration) {
   const double dish_px = measure_regions(labels.gray()).dish_pixels;
-  const double scale = std::min(
-      {1.0, std::sqrt(configuration.view.feature_dish_px / dish_px),
-       std::sqrt(configuration.limits.max_feature_px / (static_cast<double>(gray.cols) * gray.rows))});
+  const double scale =
+      std::min({1.0, std::sqrt(configuration.view.feature_dish_px / dish_px),
+                std::sqrt(configuration.caps.max_feature_px / (static_cast<double>(gray.cols) * gray.rows))});
   cv::Mat reduced(static_cast<int>(gray.rows * scale), static_cast<int>(gray.cols * scale), CV_8U);
   reduce_area(view_of(gray), target_of(reduced));
   return reduced;
 }
 
-void find_features(const Configuration& configuration, ViewFeatures& features) {
+void find_features(const paper::Configuration& configuration, ViewFeatures& features) {
   const cv::Mat& picture = features.picture;
   std::vector<std::uint32_t> sums(static_cast<std::size_t>(picture.cols + 1) *
                                   static_cast<std::size_t>(picture.rows + 1));
   const ImageView<std::uint32_t> integral(sums.data(), picture.cols + 1, picture.rows + 1);
   build_integral(view_of(picture), integral);
   OwnedWorkspace<SurfWorkspace> workspace(picture.cols, picture.rows, configuration.surf);
-  features.keypoints.resize(static_cast<std::size_t>(configuration.limits.max_keypoints));
+  features.keypoints.resize(static_cast<std::size_t>(configuration.caps.max_keypoints));
   BoundedList<Keypoint> found(features.keypoints);
   detect_surf(integral, configuration.surf, *workspace, found);
   features.keypoints.resize(found.size());
@@ -43,8 +44,8 @@ void find_features(const Configuration& configuration, ViewFeatures& features) {
 }
 
 std::vector<RayMatch> match_rays(const std::array<ViewFeatures, 2>& features, const LensModel& lens,
-                                 const Configuration& configuration) {
-  OwnedWorkspace<MatcherWorkspace> workspace(configuration.limits.max_keypoints);
+                                 const paper::Configuration& configuration) {
+  OwnedWorkspace<MatcherWorkspace> workspace(configuration.caps.max_keypoints);
   std::vector<Match> storage(features[0].keypoints.size());
   BoundedList<Match> matches(storage);
   match_features(features[0].set(), features[1].set(), configuration.matcher, *workspace, matches);
@@ -66,7 +67,7 @@ std::vector<RayMatch> match_rays(const std::array<ViewFeatures, 2>& features, co
 }
 
 std::vector<RayMatch> find_inliers(const std::vector<RayMatch>& rays, const Scene& scene,
-                                   const Configuration& configuration, bool swap) {
+                                   const paper::Configuration& configuration, bool swap) {
   OwnedWorkspace<RelativePoseWorkspace> workspace(rays.size(),
                                                   static_cast<std::size_t>(configuration.pose.noise_sample));
   Random random(1);
@@ -106,9 +107,8 @@ void rectify_views(StageData& data) {
 
 }  // namespace
 
-StageData::StageData(const Scene& scene_)
-    : scene(scene_), session(scene_, Profile::paper), measurement(session.measure()) {
-  const Configuration& configuration = session.configuration;
+StageData::StageData(const Scene& scene_) : scene(scene_), session(scene_), measurement(session.measure()) {
+  const paper::Configuration& configuration = session.configuration;
   for (std::size_t i = 0; i < 2; ++i) {
     gray[i].create(scene.lens.height, scene.lens.width, CV_8U);
     convert_to_gray(scene.frames[i].frame(), target_of(gray[i]));
@@ -116,17 +116,17 @@ StageData::StageData(const Scene& scene_)
     find_features(configuration, features[i]);
   }
   rays = match_rays(features, scene.lens, configuration);
-  const MeasurementViews& views = measurement.views;
-  const bool swap = views.reference_view == 1;
+  const paper::WorkingPictures& pictures = session.estimator.pictures();
+  const bool swap = measurement.views.reference_view == 1;
   inliers = find_inliers(rays, scene, configuration, swap);
   const Pose& motion = measurement.second_from_first;
   other_from_reference = swap ? motion.inverse() : motion;
   for (std::size_t i = 0; i < 2; ++i) {
     const std::size_t from = swap ? 1 - i : i;
     frames[i] = &scene.frames[from];
-    working[i] = copy_of(views.gray[from]);
-    working_labels[i] = copy_of(views.labels[from]);
-    cutouts[i] = {views.cameras[from], working[i].cols, working[i].rows};
+    working[i] = copy_of(pictures.gray[from]);
+    working_labels[i] = copy_of(pictures.labels[from]);
+    cutouts[i] = {pictures.cameras[from], working[i].cols, working[i].rows};
     regions[i] = (working_labels[i] >= kDishLabel) & (working_labels[i] <= kLastItemLabel);
   }
   rectify_views(*this);

@@ -23,7 +23,7 @@ struct StageData {
   explicit StageData(const Scene& scene);
 
   const Scene& scene;
-  Session session;
+  PaperSession session;
   const Measurement& measurement;  // of `session`; its views are the dense stages' input
 
   std::array<cv::Mat, 2> gray;  // of the frames

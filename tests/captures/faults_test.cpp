@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "core/pipeline/best_params.hpp"
+#include "core/pipeline/configuration.hpp"
 #include "core/pipeline/measurement.hpp"
 #include "firmware/measure/capture_session.hpp"
 #include "tests/firmware/command_runner.hpp"
@@ -309,7 +309,7 @@ TEST(PicturesWithoutAFault, RaiseNoDoubt) {
                                               Warning::white_balance_unequal};
   int pairs = 0;
   int unsure_pairs = 0;
-  const double max_sigma_share = BestPipelineParams().max_sigma_share;
+  const double max_sigma_share = PipelineParams().max_sigma_share;
   for (const fs::path& folder : capture_folders()) {
     const Capture capture = read_capture(folder);
     for (const auto& pair : capture.pairs) {

@@ -18,7 +18,7 @@ StatusCode measure_with_labels(Profile profile, const Capture& original, std::ar
     capture.views[static_cast<std::size_t>(pair[i])].labels =
         original.views[static_cast<std::size_t>(labels[i])].labels;
   }
-  Configuration parameters;
+  ProfileParameters parameters;
   parameters.profile = profile;
   CaptureSession session(capture, pair, capture.dishes, parameters);
   const Measurement& measurement = session.measure(1);

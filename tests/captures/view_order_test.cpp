@@ -15,7 +15,7 @@ namespace {
 constexpr double kMaxDifference = 0.02;
 
 std::map<int, double> volumes_of(Profile profile, const Capture& capture, std::array<int, 2> pair) {
-  Configuration parameters;
+  ProfileParameters parameters;
   parameters.profile = profile;
   CaptureSession session(capture, pair, capture.dishes, parameters);
   const Measurement& measurement = session.measure(1);

@@ -77,10 +77,10 @@ TEST(MethodsOnCaptures, MatchTheWholePictureWithoutARegionOfInterest) {
   const Measurement& by_all = whole.measure(1);
   ASSERT_EQ(by_all.status.code(), StatusCode::ok) << name(by_all.status.code());
   for (std::size_t i = 0; i < 2; ++i) {
-    const double scale = by_all.views.cameras[i].fx_px / capture.views[i].camera.fx_px;
-    EXPECT_NEAR(scale, by_dish.views.cameras[i].fx_px / capture.views[i].camera.fx_px, 1e-12);
-    EXPECT_GT(by_all.views.gray[i].width, 0.95 * scale * capture.views[i].camera.size.width);
-    EXPECT_GT(by_all.views.gray[i].height, 0.95 * scale * capture.views[i].camera.size.height);
+    const double scale = whole.pictures()->cameras[i].fx_px / capture.views[i].camera.fx_px;
+    EXPECT_NEAR(scale, usual.pictures()->cameras[i].fx_px / capture.views[i].camera.fx_px, 1e-12);
+    EXPECT_GT(whole.pictures()->gray[i].width, 0.95 * scale * capture.views[i].camera.size.width);
+    EXPECT_GT(whole.pictures()->gray[i].height, 0.95 * scale * capture.views[i].camera.size.height);
   }
   EXPECT_DOUBLE_EQ(by_all.relative_angle_deg, by_dish.relative_angle_deg);
   ASSERT_EQ(by_all.items.size(), by_dish.items.size());

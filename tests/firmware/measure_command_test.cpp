@@ -25,6 +25,7 @@ class MeasureCommand : public testing::Test {
   MeasureCommand() : scene_(TemporaryCapture::kWidth, TemporaryCapture::kHeight) {
     fake_estimator() = {};
     fake_estimator().measurement = scene_.measurement();
+    fake_estimator().pictures = scene_.pictures();
   }
 
   CommandResult measure(std::vector<std::string> options) const {
@@ -238,7 +239,7 @@ TEST_F(MeasureCommand, OutputsThatCannotBeWrittenAreWrongUse) {
   expect_wrong_use({"--mesh", files_.folder().string()}, "it is a folder");
   if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "no /dev/full";
   for (const char* option : {"--mesh", "--picture"}) {
-    const CommandResult result = measure({option, "/dev/full", "--json"});
+    const CommandResult result = measure({"--profile", "paper", option, "/dev/full", "--json"});
     EXPECT_EQ(result.status, 2);
     EXPECT_EQ(result.out, "");
     EXPECT_NE(result.error.find("/dev/full"), std::string::npos) << result.error;

@@ -71,8 +71,12 @@ Ply parse(const std::filesystem::path& file) {
 
 class MeshFile : public testing::Test {
  protected:
-  MeshFile() : scene_(320, 240), measurement_(scene_.measurement()), picture_({320, 240}, PixelFormat::rgb8) {
-    lens_.pinhole = measurement_.views.cameras[0];
+  MeshFile()
+      : scene_(320, 240),
+        measurement_(scene_.measurement()),
+        pictures_(scene_.pictures()),
+        picture_({320, 240}, PixelFormat::rgb8) {
+    lens_.pinhole = pictures_.cameras[0];
     for (std::size_t i = 0; i < picture_.pixels.size(); i += 3) {  // the colour tells the pixel
       const std::size_t x = i / 3 % 320;
       picture_.pixels[i] = static_cast<std::uint8_t>(x % 256);
@@ -82,21 +86,22 @@ class MeshFile : public testing::Test {
   }
 
   Ply written() {
-    write_mesh(folder_.path() / "out.ply", compose_mesh(measurement_, picture_, lens_));
+    write_mesh(folder_.path() / "out.ply", compose_mesh(measurement_, &pictures_, picture_, lens_));
     return parse(folder_.path() / "out.ply");
   }
 
   TemporaryFolder folder_;
   SyntheticScene scene_;
   Measurement measurement_;
+  paper::WorkingPictures pictures_;
   Picture picture_;
   LensModel lens_;
 };
 
 TEST_F(MeshFile, HeightsStandOverTheBottomOfTheDish) {
-  ASSERT_TRUE(has_surface(measurement_));
+  ASSERT_TRUE(has_surface(measurement_, &pictures_));
   const Ply ply = written();
-  ASSERT_EQ(ply.vertices.size(), measurement_.views.mesh.points.size());
+  ASSERT_EQ(ply.vertices.size(), pictures_.mesh.points.size());
   ASSERT_GT(ply.vertices.size(), 50U);
   for (const PlyVertex& vertex : ply.vertices) {
     const double height = vertex.label == 2 ? SyntheticScene::kHeight2Mm : SyntheticScene::kHeight3Mm;
@@ -106,7 +111,7 @@ TEST_F(MeshFile, HeightsStandOverTheBottomOfTheDish) {
 
 TEST_F(MeshFile, TheFrameIsRigidAndCentred) {
   const Ply ply = written();
-  const auto& points = measurement_.views.mesh.points;
+  const auto& points = pictures_.mesh.points;
   double sum_x = 0.0;
   double sum_y = 0.0;
   const auto distance = [](const auto& a, const auto& b) {
@@ -132,7 +137,7 @@ TEST_F(MeshFile, TheFrameIsRigidAndCentred) {
 TEST_F(MeshFile, ColoursComeFromThePicture) {
   const Ply ply = written();
   for (std::size_t i = 0; i < ply.vertices.size(); ++i) {
-    const Vec3& point = measurement_.views.mesh.points[i].position_mm;
+    const Vec3& point = pictures_.mesh.points[i].position_mm;
     const Vec2 pixel = lens_.pinhole.pixel({point.x() / point.z(), point.y() / point.z()});
     EXPECT_NEAR(ply.vertices[i].colour[0] + 256.0 * ply.vertices[i].colour[2], pixel.x(), 0.51);
     EXPECT_NEAR(ply.vertices[i].colour[1], pixel.y(), 0.51);
@@ -141,22 +146,22 @@ TEST_F(MeshFile, ColoursComeFromThePicture) {
 
 TEST_F(MeshFile, FacesLookUpAndKeepTheirLabel) {
   const Ply ply = written();
-  ASSERT_EQ(ply.faces.size(), measurement_.views.mesh.triangles.size());
+  ASSERT_EQ(ply.faces.size(), pictures_.mesh.triangles.size());
   for (std::size_t i = 0; i < ply.faces.size(); ++i) {
     const auto& c = ply.faces[i].corners;
     const auto& a = ply.vertices[static_cast<std::size_t>(c[0])].position;
     const auto& b = ply.vertices[static_cast<std::size_t>(c[1])].position;
     const auto& d = ply.vertices[static_cast<std::size_t>(c[2])].position;
     EXPECT_GT((b[0] - a[0]) * (d[1] - a[1]) - (b[1] - a[1]) * (d[0] - a[0]), 0.0F);
-    EXPECT_EQ(ply.faces[i].label, measurement_.views.mesh.triangles[i].label);
+    EXPECT_EQ(ply.faces[i].label, pictures_.mesh.triangles[i].label);
   }
 }
 
 TEST_F(MeshFile, NoSurfaceWithoutMeshOrPlane) {
   Measurement without_plane = measurement_;
   without_plane.views.dish_bottom = Plane{};
-  EXPECT_FALSE(has_surface(without_plane));
-  EXPECT_FALSE(has_surface(Measurement{}));
+  EXPECT_FALSE(has_surface(without_plane, &pictures_));
+  EXPECT_FALSE(has_surface(measurement_, nullptr));
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Whatever value a parameter may have, a measurement ends: with numbers or with a status.
+// Whatever value a parameter of profile paper may have, a measurement ends: with numbers or with a status.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -11,12 +11,10 @@
 #include <vector>
 
 #include "core/base/random.hpp"
-#include "core/pipeline/estimator.hpp"
-#include "core/pipeline/parameters.hpp"
+#include "core/paper/pipeline/estimator.hpp"
+#include "core/paper/pipeline/parameters.hpp"
 #include "firmware/base/aligned_block.hpp"
-#include "firmware/config/profile.hpp"
 #include "firmware/measure/pair_setup.hpp"
-#include "firmware/segment/pair_labels.hpp"
 #include "simulator/capture/capture.hpp"
 #include "tests/support/random_seed.hpp"
 
@@ -60,13 +58,12 @@ class Changer {
 };
 
 template <class Change>
-void change_parameters(Configuration& configuration, Change change) {
+void change_parameters(paper::Configuration& configuration, Change change) {
   Changer<Change> changer(change);
-  visit_shared_parameters(configuration, changer);
-  visit_parameters_of(configuration.profile, configuration, changer);
+  paper::visit_parameters(configuration, changer);
 }
 
-int count_parameters(Configuration configuration) {
+int count_parameters(paper::Configuration configuration) {
   int count = 0;
   change_parameters(configuration, [&](const Slot& slot) {
     ++count;
@@ -96,7 +93,7 @@ double draw(const Slot& slot, Random& random) {
   return slot.is_whole ? std::max(whole(value, range), range.low) : value;
 }
 
-class ParameterSweep : public ::testing::TestWithParam<Profile> {
+class ParameterSweep : public testing::Test {
  protected:
   static void SetUpTestSuite() {
     const std::string folder = TRAYGAUGE_SOURCE_DIR "/simulator/demo/fish_and_potatoes";
@@ -115,20 +112,16 @@ class ParameterSweep : public ::testing::TestWithParam<Profile> {
     std::cout << "TRAYGAUGE_SWEEP_SHARE=" << share_ << std::endl;
   }
 
-  static Configuration configuration() {
-    Configuration parameters;
-    parameters.profile = GetParam();
-    return configure(*setup_, parameters);
-  }
+  static paper::Configuration configuration() { return configure<paper::Configuration>(*setup_); }
 
   // Measures, and looks at what is said to be measured.
-  void measure(const Configuration& configuration, const std::string& what) {
+  void measure(const paper::Configuration& configuration, const std::string& what) {
     SCOPED_TRACE(what);
-    ASSERT_TRUE(validate(configuration).ok());
+    ASSERT_TRUE(paper::validate(configuration).ok());
     const std::size_t bytes = required_bytes(configuration);
     ASSERT_LT(bytes, std::size_t{4} << 30U);
     const AlignedBlock block(bytes);
-    Estimator estimator(block.bytes(), configuration);
+    paper::Estimator estimator(block.bytes(), configuration);
     for (const LoadedView& view : *views_) {
       ViewInput input;
       input.frame = view.picture.frame();
@@ -153,17 +146,14 @@ class ParameterSweep : public ::testing::TestWithParam<Profile> {
   static inline std::array<LoadedView, 2>* views_ = nullptr;
 };
 
-INSTANTIATE_TEST_SUITE_P(Both, ParameterSweep, ::testing::Values(Profile::best, Profile::paper),
-                         [](const auto& profile) { return std::string(name(profile.param)); });
-
-TEST_P(ParameterSweep, OneAtATime) {
+TEST_F(ParameterSweep, OneAtATime) {
   Random random(seed_);
   const int count = count_parameters(configuration());
   int tried = 0;
   for (int i = 0; i < count; ++i) {
     if (random.uniform() >= share_) continue;
     ++tried;
-    Configuration changed = configuration();
+    paper::Configuration changed = configuration();
     int at = 0;
     std::string what;
     change_parameters(changed, [&](const Slot& slot) {
@@ -177,65 +167,12 @@ TEST_P(ParameterSweep, OneAtATime) {
   EXPECT_GT(volumes_, tried);  // two items; most parameters alone spoil neither
 }
 
-// Labels that are found, one parameter at a time: they are drawn, or a status says why not.
-TEST_P(ParameterSweep, OfTheSegmentation) {
-  if (GetParam() != Profile::best) GTEST_SKIP() << "both profiles are given the same labels";
-  Random random(seed_);
-  const Configuration usual = configuration();
-  const AlignedBlock block(required_bytes(usual));
-  const Estimator estimator(block.bytes(), usual);
-  int drawn = 0;
-  int tried = 0;
-  int count = 0;
-  Configuration unchanged = usual;
-  Changer counter([&](const Slot& slot) {
-    ++count;
-    return slot.value;
-  });
-  visit_segmentation_parameters(unchanged.segmentation, counter);
-  for (int i = 0; i < count; ++i) {
-    if (random.uniform() >= share_) continue;
-    ++tried;
-    Configuration changed = usual;
-    int at = 0;
-    std::string what;
-    Changer changer([&](const Slot& slot) {
-      if (at++ != i) return slot.value;
-      const double value = draw(slot, random);
-      what = slot.name + "=" + std::to_string(value);
-      return value;
-    });
-    visit_segmentation_parameters(changed.segmentation, changer);
-    SCOPED_TRACE(what);
-    ASSERT_TRUE(validate(changed).ok());
-    LabelDrawer drawer(changed);
-    drawer.configure(changed, estimator);
-    for (const LoadedView& view : *views_) {
-      ViewInput input;
-      input.frame = view.picture.frame();
-      static_cast<void>(drawer.add_view(input, estimator));
-    }
-    const Segmentation& segmentation = drawer.drawn().segmentation;
-    if (!segmentation.status.ok()) continue;
-    ++drawn;
-    EXPECT_GT(segmentation.items, 0);
-    EXPECT_LE(segmentation.items, static_cast<int>(kMaxItems));
-    for (const Picture& labels : drawer.drawn().labels) {
-      EXPECT_TRUE(std::all_of(labels.pixels.begin(), labels.pixels.end(), [&](std::uint8_t label) {
-        return label == kBackgroundLabel || label == kCardLabel || label == kDishLabel ||
-               (label >= kFirstItemLabel && label < kFirstItemLabel + segmentation.items);
-      }));
-    }
-  }
-  EXPECT_GT(2 * drawn, tried);  // most parameters alone spoil nothing
-}
-
-TEST_P(ParameterSweep, SeveralAtOnce) {
+TEST_F(ParameterSweep, SeveralAtOnce) {
   constexpr int kDraws = 40;
   constexpr double kShare = 0.04;
   Random random(seed_);
   for (int i = 0; i < kDraws * share_; ++i) {
-    Configuration changed = configuration();
+    paper::Configuration changed = configuration();
     std::string what;
     change_parameters(changed, [&](const Slot& slot) {
       if (random.uniform() > kShare) return slot.value;
@@ -247,11 +184,11 @@ TEST_P(ParameterSweep, SeveralAtOnce) {
   }
 }
 
-TEST_P(ParameterSweep, BeyondTheRangeNothingIsMeasured) {
+TEST_F(ParameterSweep, BeyondTheRangeNothingIsMeasured) {
   const int count = count_parameters(configuration());
   for (int i = 0; i < count; ++i) {
     for (const int which : {0, 1, 2, 3}) {
-      Configuration changed = configuration();
+      paper::Configuration changed = configuration();
       int at = 0;
       std::string what;
       change_parameters(changed, [&](const Slot& slot) {
@@ -266,7 +203,7 @@ TEST_P(ParameterSweep, BeyondTheRangeNothingIsMeasured) {
         return wrong;
       });
       if (what.empty()) continue;
-      EXPECT_EQ(validate(changed).code(), StatusCode::invalid_configuration) << what;
+      EXPECT_EQ(paper::validate(changed).code(), StatusCode::invalid_configuration) << what;
     }
   }
 }

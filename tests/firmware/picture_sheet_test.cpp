@@ -19,6 +19,7 @@ class PictureSheet : public testing::Test {
   PictureSheet() : scene_(TemporaryCapture::kWidth, TemporaryCapture::kHeight) {
     fake_estimator() = {};
     fake_estimator().measurement = scene_.measurement();
+    fake_estimator().pictures = scene_.pictures();
   }
 
   cv::Mat written() {
@@ -56,6 +57,7 @@ TEST_F(PictureSheet, ShowsWhatWasReached) {
   EXPECT_GT(saturation(half, 2), 20.0);
   EXPECT_LT(saturation(half, 3), 60.0);
   measurement = {};
+  fake_estimator().pictures = {};
   measurement.status = StatusCode::too_few_matches;
   const cv::Mat none = written();
   ASSERT_EQ(none.size(), half.size());
@@ -65,8 +67,8 @@ TEST_F(PictureSheet, ShowsWhatWasReached) {
 TEST_F(PictureSheet, SurvivesMapsWithoutAKnownPixel) {
   std::vector<Disparity> unknown(64, kNoDisparity);
   std::vector<float> nowhere(64, std::numeric_limits<float>::quiet_NaN());
-  fake_estimator().measurement.views.disparity = {unknown.data(), 8, 8};
-  fake_estimator().measurement.views.depth_mm = {nowhere.data(), 8, 8};
+  fake_estimator().pictures.disparity = {unknown.data(), 8, 8};
+  fake_estimator().pictures.depth_mm = {nowhere.data(), 8, 8};
   EXPECT_FALSE(written().empty());
 }
 

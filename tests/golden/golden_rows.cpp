@@ -85,7 +85,7 @@ std::string header_row() {
 
 std::vector<std::string> measure_rows(const std::filesystem::path& folder, const Route& route) {
   std::vector<std::string> rows;
-  Configuration parameters;
+  ProfileParameters parameters;
   parameters.profile = route.profile;
   for (const std::filesystem::path& path : capture_folders(folder)) {
     const Capture capture = read_capture(path);

@@ -5,7 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "core/pipeline/configuration.hpp"
+#include "firmware/config/profile.hpp"
+#include "firmware/segment/label_source.hpp"
 #include "firmware/segment/pair_labels.hpp"
 
 namespace traygauge::golden {

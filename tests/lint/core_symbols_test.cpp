@@ -1,13 +1,18 @@
-// The core library refers to no symbol that allocates or throws. Unoptimised builds keep calls that can never
-// be reached, so this looks at Release builds.
+// The core libraries refer to no symbol that allocates or throws, and the station's program holds nothing
+// that it does not use of them. Unoptimised builds keep calls that can never be reached, so this looks at
+// Release builds.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdio>
+#include <iterator>
 #include <memory>
 #include <regex>
 #include <set>
+#include <sstream>
 #include <string>
+#include <vector>
 
 namespace {
 
@@ -47,11 +52,48 @@ std::set<std::string> forbidden_symbols(const std::string& archive) {
   return found;
 }
 
+// Separated by '|'.
+std::vector<std::string> core_archives() {
+  std::vector<std::string> archives;
+  std::istringstream list(TRAYGAUGE_CORE_ARCHIVES);
+  for (std::string archive; std::getline(list, archive, '|');) archives.push_back(archive);
+  return archives;
+}
+
 TEST(CoreSymbols, NoneAllocates) {
   if (std::string(TRAYGAUGE_BUILD_TYPE) != "Release") GTEST_SKIP() << "a " TRAYGAUGE_BUILD_TYPE " build";
-  EXPECT_FALSE(read_symbols(TRAYGAUGE_CORE_ARCHIVE).defined.empty()) << "nm said nothing";
-  for (const std::string& symbol : forbidden_symbols(TRAYGAUGE_CORE_ARCHIVE)) {
-    ADD_FAILURE() << TRAYGAUGE_CORE_ARCHIVE << " refers to " << symbol;
+  for (const std::string& archive : core_archives()) {
+    EXPECT_FALSE(read_symbols(archive).defined.empty()) << archive << ": nm said nothing";
+    for (const std::string& symbol : forbidden_symbols(archive)) {
+      ADD_FAILURE() << archive << " refers to " << symbol;
+    }
+  }
+}
+
+// What is in none of the other archives of core, and in the station's program.
+std::set<std::string> in_station(const std::string& archive) {
+  std::set<std::string> own = read_symbols(archive).defined;
+  for (const std::string& other : core_archives()) {
+    if (other == archive) continue;
+    for (const std::string& symbol : read_symbols(other).defined) own.erase(symbol);
+  }
+  const std::set<std::string> shipped = read_symbols(TRAYGAUGE_STATION).defined;
+  std::set<std::string> both;
+  std::set_intersection(own.begin(), own.end(), shipped.begin(), shipped.end(),
+                        std::inserter(both, both.end()));
+  std::erase_if(both,
+                [](const std::string& symbol) { return symbol.find("traygauge::") == std::string::npos; });
+  return both;
+}
+
+TEST(StationSymbols, HoldNothingOfThePaperNorOfEnrolment) {
+  const std::vector<std::string> archives = core_archives();
+  ASSERT_EQ(archives.size(), 3U) << "core, enrolment, paper";
+  EXPECT_GT(in_station(archives[0]).size(), 100U) << "the product's own are there";
+  for (const std::string& archive : {archives[1], archives[2]}) {
+    for (const std::string& symbol : in_station(archive)) {
+      ADD_FAILURE() << "traygauge-station holds " << symbol << " of " << archive;
+    }
   }
 }
 

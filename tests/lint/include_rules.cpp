@@ -13,6 +13,11 @@ namespace fs = std::filesystem;
 constexpr std::string_view kCommandLineParser = "firmware/command/program.cpp";
 constexpr auto kFolders = std::to_array<std::string_view>({"core", "drivers", "simulator", "firmware"});
 
+// Folders of core in the order in which the data flows: each knows itself and those before it.
+constexpr auto kCoreOrder = std::to_array<std::string_view>(
+    {"image_view", "base", "geometry", "image", "labels", "quality", "features", "card", "dish", "tracking",
+     "adjustment", "stereo", "volume", "segmentation", "pipeline", "enrolment", "paper"});
+
 // The part of the standard library that neither allocates nor does input or output.
 constexpr auto kCoreHeaders = std::to_array<std::string_view>(
     {"algorithm", "array",   "atomic",      "bit",     "cassert",          "cfloat",
@@ -43,6 +48,25 @@ bool may_know(std::string_view folder, std::string_view included) {
   if (folder == "simulator") return other == "core" || other == "drivers";
   if (folder == "firmware") return holds(kFolders, other);
   return false;  // core and drivers
+}
+
+// Of "core/stereo/sgm.hpp": "stereo".
+std::string_view subject_of(std::string_view path) {
+  const std::string_view below = path.substr(path.find('/') + 1);
+  return below.substr(0, below.find('/'));
+}
+
+// Where `included` comes later than `path` in the order of core.
+std::optional<std::string> forbids_upward(std::string_view path, std::string_view included) {
+  const std::string_view own = subject_of(path);
+  const std::string_view other = subject_of(included);
+  const auto* const own_at = std::find(kCoreOrder.begin(), kCoreOrder.end(), own);
+  const auto* const other_at = std::find(kCoreOrder.begin(), kCoreOrder.end(), other);
+  if (own_at == kCoreOrder.end())
+    return "core has no folder " + std::string(own) + " in its order of folders";
+  if (other_at <= own_at) return std::nullopt;
+  return "core/" + std::string(own) + " comes before core/" + std::string(other) +
+         " in the order of the data";
 }
 
 bool is_system_header(std::string_view path) {
@@ -101,6 +125,7 @@ std::optional<std::string> forbids(std::string_view path, const IncludedFile& in
     const auto reason = forbids_foreign(folder, included.path);
     return reason ? reason : forbids_heavy(path, included.path);
   }
+  if (folder == "core" && begins(included.path, "core/")) return forbids_upward(path, included.path);
   if (may_know(folder, included.path)) return std::nullopt;
   return std::string(folder) + " does not know \"" + included.path + "\"";
 }

@@ -35,7 +35,7 @@ bool may(const char* path, const char* line) {
 TEST(IncludeRules, KeepCoreAlone) {
   for (const char* line : {"#include <span>", "#include <Eigen/Core>", "#include <hwy/highway.h>",
                            "#include \"core/base/arena.hpp\""}) {
-    EXPECT_TRUE(may("core/pose/a.cpp", line)) << line;
+    EXPECT_TRUE(may("core/stereo/a.cpp", line)) << line;
   }
   for (const char* line :
        {"#include <vector>", "#include <string>", "#include <map>", "#include <iostream>",
@@ -43,8 +43,18 @@ TEST(IncludeRules, KeepCoreAlone) {
         "#include <sys/mman.h>", "#include <nlohmann/json.hpp>", "#include \"drivers/camera.hpp\"",
         "#include \"simulator/a.hpp\"", "#include \"firmware/a.hpp\"", "#include \"tests/a.hpp\"",
         "#include \"arena.hpp\""}) {
-    EXPECT_FALSE(may("core/pose/a.cpp", line)) << line;
+    EXPECT_FALSE(may("core/stereo/a.cpp", line)) << line;
   }
+}
+
+TEST(IncludeRules, KeepTheOrderOfCoreAndTheProductApartFromThePaper) {
+  EXPECT_TRUE(may("core/stereo/a.cpp", "#include \"core/image/a.hpp\""));
+  EXPECT_TRUE(may("core/paper/stereo/a.cpp", "#include \"core/stereo/a.hpp\""));
+  EXPECT_TRUE(may("core/paper/stereo/a.cpp", "#include \"core/paper/pipeline/a.hpp\""));
+  EXPECT_FALSE(may("core/image/a.cpp", "#include \"core/stereo/a.hpp\""));
+  EXPECT_FALSE(may("core/pipeline/a.cpp", "#include \"core/paper/pose/a.hpp\""));
+  EXPECT_FALSE(may("core/pipeline/a.cpp", "#include \"core/enrolment/a.hpp\""));
+  EXPECT_FALSE(may("core/elsewhere/a.cpp", "#include \"core/base/a.hpp\"")) << "no folder of the order";
 }
 
 TEST(IncludeRules, LetDriversKnowOnlyTheImageViewOfCore) {
@@ -79,17 +89,17 @@ TEST(IncludeRules, KeepHeavyHeadersOutOfMostSources) {
 
 TEST(IncludeRules, AreAppliedToEveryFileOfATree) {
   const fs::path root = fs::path(testing::TempDir()) / ("include_rules_" + std::to_string(getpid()));
-  for (const char* folder : {"core/deep/er", "drivers", "simulator", "firmware"}) {
+  for (const char* folder : {"core/base/er", "drivers", "simulator", "firmware"}) {
     fs::create_directories(root / folder);
   }
-  std::ofstream(root / "core/deep/er/a.hpp") << "#pragma once\n#include <vector>\n";
-  std::ofstream(root / "firmware/b.cpp") << "#include \"core/deep/er/a.hpp\"\n#include \"core/absent.hpp\"\n";
+  std::ofstream(root / "core/base/er/a.hpp") << "#pragma once\n#include <vector>\n";
+  std::ofstream(root / "firmware/b.cpp") << "#include \"core/base/er/a.hpp\"\n#include \"core/absent.hpp\"\n";
   const ScanOfIncludes scan = scan_includes(root);
   fs::remove_all(root);
   EXPECT_EQ(scan.files, 2);
   EXPECT_EQ(scan.includes, 3);
   ASSERT_EQ(scan.breaches.size(), 2U);
-  EXPECT_EQ(scan.breaches[0].path, "core/deep/er/a.hpp");
+  EXPECT_EQ(scan.breaches[0].path, "core/base/er/a.hpp");
   EXPECT_EQ(scan.breaches[0].line, 2);
   EXPECT_EQ(scan.breaches[1].path, "firmware/b.cpp");
   EXPECT_EQ(scan.breaches[1].line, 2);

@@ -38,8 +38,8 @@ PlaneFitParams plane_fit_params(const CardPlaneParams& params, std::size_t point
 }  // namespace
 
 Status fit_card_plane(std::span<const CardTrack> tracks, std::span<const std::uint8_t> inliers,
-                      double card_length_mm, double mm_per_baseline, const CardParams& params, Random& random,
-                      CardWorkspace& workspace, Plane& card_plane_in_first) {
+                      double card_length_mm, double mm_per_baseline, const CardScaleParams& params,
+                      Random& random, CardScaleWorkspace& workspace, Plane& card_plane_in_first) {
   if (params.plane.source == CardPlaneSource::absolute_pose) {
     Mat3 homography;
     CardPose pose;

@@ -6,8 +6,8 @@
 
 #include "core/base/random.hpp"
 #include "core/base/status.hpp"
-#include "core/card/card.hpp"
 #include "core/geometry/geometry.hpp"
+#include "core/paper/card/card_scale.hpp"
 
 namespace traygauge {
 
@@ -15,7 +15,7 @@ namespace traygauge {
 // card's absolute pose (CardPlaneParams::source). mm; the normal points to the camera; the table is
 // `card_plane_in_first.raised(-thickness)`. table_not_found when too few points agree or nearly on a line.
 Status fit_card_plane(std::span<const CardTrack> tracks, std::span<const std::uint8_t> inliers,
-                      double card_length_mm, double mm_per_baseline, const CardParams& params, Random& random,
-                      CardWorkspace& workspace, Plane& card_plane_in_first);
+                      double card_length_mm, double mm_per_baseline, const CardScaleParams& params,
+                      Random& random, CardScaleWorkspace& workspace, Plane& card_plane_in_first);
 
 }  // namespace traygauge

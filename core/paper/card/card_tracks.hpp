@@ -5,7 +5,7 @@
 #include <span>
 
 #include "core/base/bounded_list.hpp"
-#include "core/card/card.hpp"
+#include "core/paper/card/card_scale.hpp"
 #include "core/paper/matching/match.hpp"
 
 namespace traygauge {

@@ -66,8 +66,8 @@ bool scale_from_card_motion(std::span<const CardTrack> tracks, std::span<const s
 }  // namespace
 
 Status estimate_scale(std::span<const CardTrack> tracks, std::span<const std::uint8_t> inliers,
-                      double card_length_mm, const CardParams& params, Random& random,
-                      CardWorkspace& workspace, ScaleEstimate& estimate) {
+                      double card_length_mm, const CardScaleParams& params, Random& random,
+                      CardScaleWorkspace& workspace, ScaleEstimate& estimate) {
   estimate = {};
   const auto points = list_inliers(inliers, workspace.indices);
   BoundedList<double> ratios(workspace.ratios);

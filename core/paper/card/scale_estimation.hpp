@@ -6,7 +6,7 @@
 
 #include "core/base/random.hpp"
 #include "core/base/status.hpp"
-#include "core/card/card.hpp"
+#include "core/paper/card/card_scale.hpp"
 
 namespace traygauge {
 
@@ -20,7 +20,7 @@ struct ScaleEstimate {
 // over pairs of inliers; ScaleParams::method has the alternatives. scale_not_found with too few pairs or when
 // the ratios scatter too much. O(pairs log pairs), drawn at random when the workspace cannot hold all.
 Status estimate_scale(std::span<const CardTrack> tracks, std::span<const std::uint8_t> inliers,
-                      double card_length_mm, const CardParams& params, Random& random,
-                      CardWorkspace& workspace, ScaleEstimate& estimate);
+                      double card_length_mm, const CardScaleParams& params, Random& random,
+                      CardScaleWorkspace& workspace, ScaleEstimate& estimate);
 
 }  // namespace traygauge

@@ -3,7 +3,7 @@
 #include "core/paper/stereo/disparity_range.hpp"
 #include "core/paper/surface/depth_map.hpp"
 
-namespace traygauge {
+namespace traygauge::paper {
 namespace {
 
 constexpr std::uint8_t kInRegion = 255;
@@ -48,7 +48,7 @@ std::span<double> collect_match_disparities(const ReferencePair& pair,
 
 Status reconstruct_dense(const ReferencePair& pair, const Configuration& configuration,
                          DenseWorkspace& workspace, StageClock& clock, MeasurementReport& report,
-                         MeasurementViews& views) {
+                         WorkingPictures& pictures) {
   clock.enter(Stage::rectification);
   const std::array<const PreparedView*, 2> sides{pair.reference, pair.other};
   std::array<ImageView<const std::uint8_t>, 2> regions;
@@ -68,7 +68,7 @@ Status reconstruct_dense(const ReferencePair& pair, const Configuration& configu
     masks[i] = {workspace.rectified_region[i].data(), rectification.columns(view), rectification.rows()};
     rectification.rectify(view, sides[i]->gray, gray[i]);
     rectification.rectify_labels(view, regions[i], masks[i]);
-    views.rectified[i] = gray[i];
+    pictures.rectified[i] = gray[i];
   }
   report.rectified_rows = rectification.rows();
   report.rectified_columns = rectification.columns(0);
@@ -83,7 +83,7 @@ Status reconstruct_dense(const ReferencePair& pair, const Configuration& configu
   status = match_dense(gray[0], masks[0], gray[1], masks[1], report.disparity_range, configuration.stereo,
                        workspace.stereo, disparity);
   if (!status.ok()) return status;
-  views.disparity = disparity;
+  pictures.disparity = disparity;
 
   clock.enter(Stage::surface);
   const ImageView<float> depth{workspace.depth_mm.data(), regions[0].width, regions[0].height};
@@ -98,9 +98,9 @@ Status reconstruct_dense(const ReferencePair& pair, const Configuration& configu
   const DepthMapReport filled =
       fill_depth_map(pair.reference->working_labels, pair.cameras(), correspondence, depth);
   report.matched_share = filled.known_share();
-  views.depth_mm = depth;
+  pictures.depth_mm = depth;
   return filled.known_share() < configuration.view.min_matched_share ? StatusCode::too_little_depth
                                                                      : StatusCode::ok;
 }
 
-}  // namespace traygauge
+}  // namespace traygauge::paper

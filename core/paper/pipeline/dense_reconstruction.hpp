@@ -8,15 +8,16 @@
 #include "core/base/arena.hpp"
 #include "core/base/status.hpp"
 #include "core/geometry/triangulation.hpp"
+#include "core/paper/pipeline/configuration.hpp"
 #include "core/paper/pipeline/view_preparation.hpp"
+#include "core/paper/pipeline/working_pictures.hpp"
 #include "core/paper/pose/relative_pose.hpp"
 #include "core/paper/rectification/polar_rectification.hpp"
 #include "core/paper/stereo/stereo.hpp"
-#include "core/pipeline/configuration.hpp"
 #include "core/pipeline/measurement.hpp"
 #include "core/pipeline/stage_clock.hpp"
 
-namespace traygauge {
+namespace traygauge::paper {
 
 // The two views with the reference first, whichever was taken first.
 struct ReferencePair {
@@ -42,26 +43,26 @@ struct DenseWorkspace {
 
   template <class Allocator>
   constexpr void allocate(Allocator& arena, const Configuration& configuration) {
-    const EstimatorLimits& limits = configuration.limits;
-    const RectificationParams& caps = configuration.rectification;
-    const auto working = static_cast<std::size_t>(limits.max_working_px);
-    const auto rectified =
-        static_cast<std::size_t>(caps.max_rows) * static_cast<std::size_t>(caps.max_columns);
+    const Caps& caps = configuration.caps;
+    const RectificationParams& rectified_caps = configuration.rectification;
+    const auto working = static_cast<std::size_t>(caps.max_working_px);
+    const auto rectified = static_cast<std::size_t>(rectified_caps.max_rows) *
+                           static_cast<std::size_t>(rectified_caps.max_columns);
     for (auto& region : regions) region = arena.template take<std::uint8_t>(working);
-    rectification.allocate(arena, caps);
+    rectification.allocate(arena, rectified_caps);
     for (auto& picture : rectified_gray) picture = arena.template take<std::uint8_t>(rectified);
     for (auto& picture : rectified_region) picture = arena.template take<std::uint8_t>(rectified);
-    match_disparities = arena.template take<double>(static_cast<std::size_t>(limits.max_keypoints));
-    stereo.allocate(arena, caps.max_columns, caps.max_rows, configuration.disparity_range.max_count,
-                    configuration.stereo);
+    match_disparities = arena.template take<double>(static_cast<std::size_t>(caps.max_keypoints));
+    stereo.allocate(arena, rectified_caps.max_columns, rectified_caps.max_rows,
+                    configuration.disparity_range.max_count, configuration.stereo);
     disparity = arena.template take<Disparity>(rectified);
     depth_mm = arena.template take<float>(working);
   }
 };
 
-// Fills rectified, disparity, depth_mm of `views` and the dense part of the report.
+// Fills rectified, disparity, depth_mm of `pictures` and the dense part of the report.
 Status reconstruct_dense(const ReferencePair& pair, const Configuration& configuration,
                          DenseWorkspace& workspace, StageClock& clock, MeasurementReport& report,
-                         MeasurementViews& views);
+                         WorkingPictures& pictures);
 
-}  // namespace traygauge
+}  // namespace traygauge::paper

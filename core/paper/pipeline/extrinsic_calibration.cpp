@@ -14,7 +14,7 @@
 #include "core/paper/pose/model_search.hpp"
 #include "core/paper/pose/triangulation.hpp"
 
-namespace traygauge {
+namespace traygauge::paper {
 namespace {
 
 bool has_given(const ExtrinsicInput& input) {
@@ -230,4 +230,4 @@ Status calibrate_extrinsics(const ExtrinsicInput& input, const Configuration& co
   return scale_by_card(fit, pose.second_from_first, configuration, random, workspace, report, extrinsics);
 }
 
-}  // namespace traygauge
+}  // namespace traygauge::paper

@@ -8,18 +8,18 @@
 #include "core/base/bounded_list.hpp"
 #include "core/base/random.hpp"
 #include "core/base/status.hpp"
-#include "core/card/card.hpp"
 #include "core/card/card_detection.hpp"
 #include "core/geometry/geometry.hpp"
+#include "core/paper/card/card_scale.hpp"
 #include "core/paper/matching/matcher.hpp"
+#include "core/paper/pipeline/configuration.hpp"
 #include "core/paper/pipeline/view_preparation.hpp"
 #include "core/paper/pose/motion_search.hpp"
 #include "core/paper/pose/relative_pose.hpp"
-#include "core/pipeline/configuration.hpp"
 #include "core/pipeline/measurement.hpp"
 #include "core/pipeline/stage_clock.hpp"
 
-namespace traygauge {
+namespace traygauge::paper {
 
 // Corresponding points that the caller brought; they replace matching when there are any.
 struct GivenCorrespondences {
@@ -27,11 +27,11 @@ struct GivenCorrespondences {
   BoundedList<CardTrack> card_tracks;
 
   template <class Allocator>
-  constexpr void allocate(Allocator& arena, const EstimatorLimits& limits) {
+  constexpr void allocate(Allocator& arena, const Caps& caps) {
     matches =
-        BoundedList<RayMatch>(arena.template take<RayMatch>(static_cast<std::size_t>(limits.max_keypoints)));
+        BoundedList<RayMatch>(arena.template take<RayMatch>(static_cast<std::size_t>(caps.max_keypoints)));
     card_tracks = BoundedList<CardTrack>(
-        arena.template take<CardTrack>(static_cast<std::size_t>(limits.max_pattern_keypoints)));
+        arena.template take<CardTrack>(static_cast<std::size_t>(caps.max_pattern_keypoints)));
   }
 };
 
@@ -60,9 +60,9 @@ struct ExtrinsicStorage {
   std::span<Vec3> card_points;
 
   template <class Allocator>
-  constexpr void allocate(Allocator& arena, const EstimatorLimits& limits) {
-    inliers = arena.template take<RayMatch>(static_cast<std::size_t>(limits.max_keypoints));
-    card_points = arena.template take<Vec3>(static_cast<std::size_t>(limits.max_pattern_keypoints));
+  constexpr void allocate(Allocator& arena, const Caps& caps) {
+    inliers = arena.template take<RayMatch>(static_cast<std::size_t>(caps.max_keypoints));
+    card_points = arena.template take<Vec3>(static_cast<std::size_t>(caps.max_pattern_keypoints));
   }
 };
 
@@ -78,13 +78,13 @@ struct ExtrinsicWorkspace {
   std::span<Vec3> cloud;
   RelativePoseWorkspace pose;
   BoundedList<CardTrack> tracks;
-  CardWorkspace card;
+  CardScaleWorkspace card;
 
   template <class Allocator>
   constexpr void allocate(Allocator& arena, const Configuration& configuration) {
-    const EstimatorLimits& limits = configuration.limits;
-    const auto matches = static_cast<std::size_t>(limits.max_keypoints);
-    const auto pattern = static_cast<std::size_t>(limits.max_pattern_keypoints);
+    const Caps& caps = configuration.caps;
+    const auto matches = static_cast<std::size_t>(caps.max_keypoints);
+    const auto pattern = static_cast<std::size_t>(caps.max_pattern_keypoints);
     view_matches = BoundedList<Match>(arena.template take<Match>(matches));
     first_pattern_matches = BoundedList<Match>(arena.template take<Match>(pattern));
     second_pattern_matches = BoundedList<Match>(arena.template take<Match>(pattern));
@@ -94,9 +94,9 @@ struct ExtrinsicWorkspace {
     triangulated = arena.template take<std::uint8_t>(matches);
     cloud = arena.template take<Vec3>(matches);
     tracks = BoundedList<CardTrack>(arena.template take<CardTrack>(pattern));
-    matcher.allocate(arena, limits.max_keypoints);
+    matcher.allocate(arena, caps.max_keypoints);
     pose.allocate(arena, matches, static_cast<std::size_t>(configuration.pose.noise_sample));
-    card.allocate(arena, limits.max_pattern_keypoints);
+    card.allocate(arena, caps.max_pattern_keypoints);
   }
 };
 
@@ -105,4 +105,4 @@ Status calibrate_extrinsics(const ExtrinsicInput& input, const Configuration& co
                             ExtrinsicWorkspace& workspace, StageClock& clock, MeasurementReport& report,
                             Extrinsics& extrinsics);
 
-}  // namespace traygauge
+}  // namespace traygauge::paper

@@ -6,7 +6,7 @@
 #include "core/paper/image/enlarge.hpp"
 #include "core/paper/image/integral.hpp"
 
-namespace traygauge {
+namespace traygauge::paper {
 namespace {
 
 // A scaled cut-out of the grey frame, in which points are looked for.
@@ -28,7 +28,7 @@ SearchPicture search_frame(const Configuration& configuration, PreparationWorksp
   const ImageView<const std::uint8_t> gray = workspace.frame_gray;
   const double by_dish = std::sqrt(configuration.view.feature_dish_px / view.regions.dish_pixels);
   const double by_memory =
-      std::sqrt(configuration.limits.max_feature_px / (static_cast<double>(gray.width) * gray.height));
+      std::sqrt(configuration.caps.max_feature_px / (static_cast<double>(gray.width) * gray.height));
   const double scale = std::min({1.0, by_dish, by_memory});
   const int width = std::max(1, static_cast<int>(gray.width * scale));
   const int height = std::max(1, static_cast<int>(gray.height * scale));
@@ -50,7 +50,7 @@ bool search_card(const Configuration& configuration, PreparationWorkspace& works
   const double seen_px_per_mm = std::sqrt(view.regions.pixels[kCardLabel] / card_mm2);
   const double wanted =
       std::min(configuration.view.card_px_per_mm / seen_px_per_mm, configuration.view.max_card_enlargement);
-  const double scale = fit_search_scale(wanted, box.width(), box.height(), configuration.limits);
+  const double scale = fit_search_scale(wanted, box.width(), box.height(), configuration);
   if (scale <= 1.0) return false;
   const ImageView<const std::uint8_t> source =
       ImageView<const std::uint8_t>(workspace.frame_gray).sub(box.left, box.top, box.width(), box.height());
@@ -101,8 +101,9 @@ void append_features(const SearchPicture& picture, bool card_apart, std::size_t 
 
 }  // namespace
 
-double fit_search_scale(double wanted, int width, int height, const EstimatorLimits& limits) {
-  const double by_area = std::sqrt(limits.max_feature_px / (static_cast<double>(width) * height));
+double fit_search_scale(double wanted, int width, int height, const Configuration& configuration) {
+  const FrameLimits& limits = configuration.limits;
+  const double by_area = std::sqrt(configuration.caps.max_feature_px / (static_cast<double>(width) * height));
   return std::min({wanted, by_area, static_cast<double>(limits.max_frame_width) / width,
                    static_cast<double>(limits.max_frame_height) / height});
 }
@@ -114,7 +115,7 @@ Status prepare_features(const Configuration& configuration, PreparationWorkspace
   SearchPicture card;
   const bool card_apart = search_card(configuration, workspace, view, card);
   if (card_apart) {
-    append_features(card, true, static_cast<std::size_t>(configuration.limits.max_card_keypoints),
+    append_features(card, true, static_cast<std::size_t>(configuration.caps.max_card_keypoints),
                     configuration, workspace, view);
   }
   append_features(search_frame(configuration, workspace, view), card_apart, view.keypoints.capacity(),
@@ -124,4 +125,4 @@ Status prepare_features(const Configuration& configuration, PreparationWorkspace
              : StatusCode::ok;
 }
 
-}  // namespace traygauge
+}  // namespace traygauge::paper

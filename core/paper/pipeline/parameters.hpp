@@ -3,13 +3,13 @@
 #pragma once
 
 #include "core/base/parameter_range.hpp"
+#include "core/paper/pipeline/configuration.hpp"
 #include "core/paper/stereo/hierarchy.hpp"
 #include "core/paper/stereo/smoothness.hpp"
-#include "core/pipeline/configuration.hpp"
 #include "core/stereo/median.hpp"
 #include "core/stereo/row_lanes.hpp"
 
-namespace traygauge {
+namespace traygauge::paper {
 
 // Each calls visit(name, field, ParameterRange) for a number, visit(name, field) for a switch and
 // visit(name, field, ParameterChoices) for an enumeration. `Config` is Configuration, const or not.
@@ -23,10 +23,10 @@ void visit_paper_features(Config& c, Visit&& visit) {
   visit("view.card_px_per_mm", c.view.card_px_per_mm, Range{0.5, 50});
   visit("view.max_card_enlargement", c.view.max_card_enlargement, Range{0.1, 20});
   visit("view.max_card_rotation_deg", c.view.max_card_rotation_deg, Range{0, 180});
-  visit("limits.max_keypoints", c.limits.max_keypoints, Range{16, 1 << 16});
-  visit("limits.max_card_keypoints", c.limits.max_card_keypoints, Range{0, 1 << 16});
-  visit("limits.max_pattern_keypoints", c.limits.max_pattern_keypoints, Range{16, 1 << 16});
-  visit("limits.max_feature_px", c.limits.max_feature_px, Range{1024, 1 << 26});
+  visit("limits.max_keypoints", c.caps.max_keypoints, Range{16, 1 << 16});
+  visit("limits.max_card_keypoints", c.caps.max_card_keypoints, Range{0, 1 << 16});
+  visit("limits.max_pattern_keypoints", c.caps.max_pattern_keypoints, Range{16, 1 << 16});
+  visit("limits.max_feature_px", c.caps.max_feature_px, Range{1024, 1 << 26});
   visit("surf.octaves", c.surf.octaves, Range{1, kMaxOctaves});
   visit("surf.first_step_px", c.surf.first_step_px, Range{1, 4});
   visit("surf.min_response", c.surf.min_response, Range{1e-9, 1});
@@ -65,7 +65,7 @@ void visit_paper_pose(Config& c, Visit&& visit) {
   visit("card.min_distance_share", card.scale.min_distance_share, Range{0, 1});
   visit("card.plane", card.plane.source, Choices{{"sparse_points", "absolute_pose"}});
   visit("card.plane_inlier_mm", card.plane.inlier_mm, Range{0.001, 1000});
-  visit("geometry.reference_is_steeper", c.geometry.reference_is_steeper);
+  visit("geometry.reference_is_steeper", c.pair.reference_is_steeper);
 }
 
 template <class Config, class Visit>
@@ -96,4 +96,12 @@ void visit_paper_surface(Config& c, Visit&& visit) {
   visit("volume.folded", c.volume.folded, Choices{{"subtracted", "added"}});
 }
 
-}  // namespace traygauge
+// All of them, in the order of the stages.
+template <class Config, class Visit>
+void visit_parameters(Config& configuration, Visit&& visit) {
+  visit_paper_features(configuration, visit);
+  visit_paper_pose(configuration, visit);
+  visit_paper_surface(configuration, visit);
+}
+
+}  // namespace traygauge::paper

@@ -1,10 +1,10 @@
 #include <algorithm>
 
 #include "core/paper/image/integral.hpp"
+#include "core/paper/pipeline/estimator_state.hpp"
 #include "core/paper/pipeline/feature_preparation.hpp"
-#include "core/pipeline/estimator_state.hpp"
 
-namespace traygauge {
+namespace traygauge::paper {
 
 // The card's picture is reduced to about the scale at which cameras see it, so that box filters meet like
 // structures.
@@ -12,7 +12,7 @@ void EstimatorState::set_up_pattern(ImageView<const std::uint8_t> picture) {
   PreparationWorkspace& scratch = memory.preparation;
   const double wanted_px = configuration.view.card_px_per_mm * configuration.card.width_mm;
   const double scale = fit_search_scale(std::min(1.0, wanted_px / picture.width), picture.width,
-                                        picture.height, configuration.limits);
+                                        picture.height, configuration);
   const int width = std::max(1, static_cast<int>(picture.width * scale));
   const int height = std::max(1, static_cast<int>(picture.height * scale));
   const ImageView<std::uint8_t> reduced{scratch.feature_picture.data(), width, height};
@@ -26,4 +26,4 @@ void EstimatorState::set_up_pattern(ImageView<const std::uint8_t> picture) {
   place_pattern(width);
 }
 
-}  // namespace traygauge
+}  // namespace traygauge::paper

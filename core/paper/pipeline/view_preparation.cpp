@@ -6,7 +6,7 @@
 #include "core/quality/exposure.hpp"
 #include "core/quality/view_input.hpp"
 
-namespace traygauge {
+namespace traygauge::paper {
 namespace {
 
 // Scale that brings `pixels` to `target_pixels`.
@@ -55,8 +55,8 @@ Status choose_cutout(const Configuration& configuration, PreparedView& view) {
     view.cutout = configuration.view.match_dish_only ? view.dish : cut_out(view.lens, whole, scale, 0.0);
     const double pixels = static_cast<double>(view.cutout.width) * view.cutout.height;
     if (view.cutout.width <= 0) return StatusCode::invalid_configuration;
-    if (pixels <= configuration.limits.max_working_px) return StatusCode::ok;
-    scale *= 0.98 * area_scale(pixels, configuration.limits.max_working_px);
+    if (pixels <= configuration.caps.max_working_px) return StatusCode::ok;
+    scale *= 0.98 * area_scale(pixels, configuration.caps.max_working_px);
   }
   return StatusCode::out_of_memory;
 }
@@ -90,4 +90,4 @@ Status prepare_picture(const FrameView& frame, const Configuration& configuratio
   return StatusCode::ok;
 }
 
-}  // namespace traygauge
+}  // namespace traygauge::paper

@@ -16,10 +16,10 @@
 #include "core/labels/label_regions.hpp"
 #include "core/paper/features/keypoint.hpp"
 #include "core/paper/features/surf.hpp"
-#include "core/pipeline/configuration.hpp"
+#include "core/paper/pipeline/configuration.hpp"
 #include "core/quality/view_checks.hpp"
 
-namespace traygauge {
+namespace traygauge::paper {
 
 // What is kept of a view until the measurement is done.
 struct PreparedView {
@@ -41,13 +41,13 @@ struct PreparedView {
   std::size_t keypoints_found = 0;         // of which the strongest were kept
 
   template <class Allocator>
-  constexpr void allocate(Allocator& arena, const EstimatorLimits& limits) {
-    const auto keypoint_count = static_cast<std::size_t>(limits.max_keypoints);
+  constexpr void allocate(Allocator& arena, const Caps& caps) {
+    const auto keypoint_count = static_cast<std::size_t>(caps.max_keypoints);
     keypoint_storage = arena.template take<Keypoint>(keypoint_count);
     keypoints = BoundedList<Keypoint>(keypoint_storage);
     descriptor_storage = arena.template take<Descriptor>(keypoint_count);
     ray_storage = arena.template take<Vec2>(keypoint_count);
-    const auto pixels = static_cast<std::size_t>(limits.max_working_px);
+    const auto pixels = static_cast<std::size_t>(caps.max_working_px);
     gray_storage = arena.template take<std::uint8_t>(pixels);
     label_storage = arena.template take<std::uint8_t>(pixels);
     quality_storage = arena.template take<ViewQuality>(1);
@@ -71,9 +71,9 @@ struct PreparationWorkspace {
 
   template <class Allocator>
   constexpr void allocate(Allocator& arena, const Configuration& configuration) {
-    const EstimatorLimits& limits = configuration.limits;
+    const FrameLimits& limits = configuration.limits;
     gray = arena.template take_image<std::uint8_t>(limits.max_frame_width, limits.max_frame_height);
-    const auto pixels = static_cast<std::size_t>(limits.max_feature_px);
+    const auto pixels = static_cast<std::size_t>(configuration.caps.max_feature_px);
     feature_picture = arena.template take<std::uint8_t>(pixels);
     // One more row and column than the picture; sides are at most the frame's.
     integral = arena.template take<std::uint32_t>(
@@ -87,4 +87,4 @@ struct PreparationWorkspace {
 Status prepare_picture(const FrameView& frame, const Configuration& configuration,
                        PreparationWorkspace& workspace, PreparedView& view);
 
-}  // namespace traygauge
+}  // namespace traygauge::paper

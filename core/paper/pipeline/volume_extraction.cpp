@@ -6,7 +6,7 @@
 
 #include "core/paper/base/half_sample_mode.hpp"
 
-namespace traygauge {
+namespace traygauge::paper {
 namespace {
 
 // Which of the candidate dishes stands there; −1 when none fits.
@@ -66,8 +66,8 @@ StatusCode judge_item(std::uint8_t label, const ReferencePair& pair, const FoodM
 Status find_dish_bottom(const ReferencePair& pair, const TableReference& table,
                         const Configuration& configuration, Random& random,
                         VolumeExtractionWorkspace& workspace, MeasurementReport& report,
-                        MeasurementViews& views) {
-  const RimInput rim_input{pair.reference->working_labels, pair.other->working_labels, views.depth_mm,
+                        WorkingPictures& pictures, MeasurementViews& views) {
+  const RimInput rim_input{pair.reference->working_labels, pair.other->working_labels, pictures.depth_mm,
                            pair.cameras()};
   Status status = collect_rim_points(rim_input, configuration.rim, workspace.rim);
   if (!status.ok()) return status;
@@ -92,13 +92,14 @@ Status find_dish_bottom(const ReferencePair& pair, const TableReference& table,
 }
 
 Status extract_volumes(const ReferencePair& pair, const Configuration& configuration,
-                       VolumeExtractionWorkspace& workspace, StageClock& clock, MeasurementViews& views) {
+                       VolumeExtractionWorkspace& workspace, StageClock& clock, WorkingPictures& pictures,
+                       MeasurementViews& views) {
   Status status =
-      build_food_mesh(views.depth_mm, pair.reference->working_labels, pair.reference->cutout.camera,
-                      configuration.mesh, workspace.mesh, views.mesh);
+      build_food_mesh(pictures.depth_mm, pair.reference->working_labels, pair.reference->cutout.camera,
+                      configuration.mesh, workspace.mesh, pictures.mesh);
   if (!status.ok()) return status;
   clock.enter(Stage::volume);
-  status = integrate_volume(views.mesh, views.dish_bottom, configuration.volume, workspace.volume);
+  status = integrate_volume(pictures.mesh, views.dish_bottom, configuration.volume, workspace.volume);
   if (!status.ok()) return status;
   workspace.items.clear();
   for (int value = kFirstItemLabel; value <= kLastItemLabel; ++value) {
@@ -107,7 +108,7 @@ Status extract_volumes(const ReferencePair& pair, const Configuration& configura
     const ItemVolume& volume = workspace.volume.items[label];
     ItemResult item;
     item.label = label;
-    item.status = judge_item(label, pair, views.mesh, volume, configuration);
+    item.status = judge_item(label, pair, pictures.mesh, volume, configuration);
     item.volume_ml = item.column_volume_ml = volume.volume_ml;
     item.area_mm2 = volume.area_mm2;
     item.mean_height_mm = volume.mean_height_mm;
@@ -117,4 +118,4 @@ Status extract_volumes(const ReferencePair& pair, const Configuration& configura
   return summarise(workspace.items.items());
 }
 
-}  // namespace traygauge
+}  // namespace traygauge::paper

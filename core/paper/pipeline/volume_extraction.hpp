@@ -10,16 +10,16 @@
 #include "core/base/random.hpp"
 #include "core/base/status.hpp"
 #include "core/dish/rim_ellipse.hpp"
+#include "core/paper/pipeline/configuration.hpp"
 #include "core/paper/pipeline/dense_reconstruction.hpp"
 #include "core/paper/surface/dish_surface.hpp"
 #include "core/paper/surface/food_mesh.hpp"
 #include "core/paper/surface/rim.hpp"
 #include "core/paper/volume/mesh_volume.hpp"
-#include "core/pipeline/configuration.hpp"
 #include "core/pipeline/measurement.hpp"
 #include "core/pipeline/stage_clock.hpp"
 
-namespace traygauge {
+namespace traygauge::paper {
 
 // The table as the card gives it, in the reference camera, mm.
 struct TableReference {
@@ -36,15 +36,15 @@ struct VolumeExtractionWorkspace {
 
   template <class Allocator>
   constexpr void allocate(Allocator& arena, const Configuration& configuration) {
-    const EstimatorLimits& limits = configuration.limits;
+    const Caps& caps = configuration.caps;
     const auto points = static_cast<std::size_t>(configuration.mesh.points);
-    const auto side = static_cast<std::size_t>(limits.max_working_side_px);
+    const auto side = static_cast<std::size_t>(caps.max_working_side_px);
     // A convex border has two sides for each row and each column; notches and stairs of hand-drawn ones
     // double it.
     const std::size_t border_sides = 8 * side;
     mesh.allocate(arena, points, side, side);
     rim.allocate(arena, border_sides, border_sides);
-    dish.allocate(arena, std::max(border_sides, static_cast<std::size_t>(limits.max_pattern_keypoints)));
+    dish.allocate(arena, std::max(border_sides, static_cast<std::size_t>(caps.max_pattern_keypoints)));
     volume.allocate(arena, points);
     items = BoundedList<ItemResult>(arena.template take<ItemResult>(kMaxItems));
   }
@@ -54,11 +54,12 @@ struct VolumeExtractionWorkspace {
 Status find_dish_bottom(const ReferencePair& pair, const TableReference& table,
                         const Configuration& configuration, Random& random,
                         VolumeExtractionWorkspace& workspace, MeasurementReport& report,
-                        MeasurementViews& views);
+                        WorkingPictures& pictures, MeasurementViews& views);
 
 // Mesh and volumes above `views.dish_bottom` into `workspace.items`; ok, partial, or why nothing was
 // measured.
 Status extract_volumes(const ReferencePair& pair, const Configuration& configuration,
-                       VolumeExtractionWorkspace& workspace, StageClock& clock, MeasurementViews& views);
+                       VolumeExtractionWorkspace& workspace, StageClock& clock, WorkingPictures& pictures,
+                       MeasurementViews& views);
 
-}  // namespace traygauge
+}  // namespace traygauge::paper

@@ -45,15 +45,32 @@ TEST(Arena, SaysWhenTheBlockIsTooSmall) {
   EXPECT_TRUE(scratch.picture.empty());
 }
 
-TEST(Arena, StagesShareMemoryBehindAMark) {
+struct Stages {
+  std::span<int> first;
+  std::span<float> second;
+  std::span<std::uint8_t> behind;
+
+  template <class Allocator>
+  constexpr void allocate(Allocator& arena) {
+    arena.overlay([&] { first = arena.template take<int>(48); },
+                  [&] { second = arena.template take<float>(16); });
+    behind = arena.template take<std::uint8_t>(1);
+  }
+};
+
+// The plan counts what the arena takes, and what follows begins behind the largest part.
+TEST(Arena, StagesShareTheMemoryOfTheLargest) {
+  ArenaPlan plan;
+  Stages().allocate(plan);
+  EXPECT_EQ(plan.high_water_bytes(), 192U + 64U);
   alignas(kArenaAlignmentBytes) std::array<std::byte, 256> block{};
   Arena arena(block);
-  const std::size_t mark = arena.mark();
-  const auto first = arena.take<int>(16);
-  arena.rewind(mark);
-  const auto second = arena.take<float>(48);
-  EXPECT_EQ(static_cast<void*>(first.data()), static_cast<void*>(second.data()));
-  EXPECT_EQ(arena.high_water_bytes(), 192U);
+  Stages stages;
+  stages.allocate(arena);
+  EXPECT_EQ(static_cast<void*>(stages.first.data()), static_cast<void*>(stages.second.data()));
+  EXPECT_EQ(static_cast<void*>(stages.behind.data()), static_cast<void*>(&block[192]));
+  EXPECT_EQ(arena.high_water_bytes(), plan.high_water_bytes());
+  EXPECT_FALSE(arena.exhausted());
 }
 
 }  // namespace

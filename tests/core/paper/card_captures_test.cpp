@@ -6,6 +6,7 @@
 #include "core/card/card_detection.hpp"
 #include "core/card/card_pose.hpp"
 #include "core/paper/card/card_plane.hpp"
+#include "core/paper/card/card_scale.hpp"
 #include "core/paper/card/scale_estimation.hpp"
 #include "tests/core/paper/card_capture.hpp"
 
@@ -26,9 +27,9 @@ TEST_P(CardCaptures, ScaleWithinOnePercentAndPlaneOnTheTable) {
   const Pair& pair = GetParam();
   const CardCapture capture = load_card_capture(captures / pair.capture, {pair.first, pair.second});
   const CardScene scene = load_card_scene(capture, 0, 1);
-  test::Allocated<CardWorkspace> memory(kMaxCaptureFeatures);
+  test::Allocated<CardScaleWorkspace> memory(kMaxCaptureFeatures);
   Random random(1);
-  const CardParams params;
+  const CardScaleParams params;
   CardFit fit;
   ASSERT_TRUE(find_card(scene.tracks, capture.size, params, random, *memory, fit).ok());
   EXPECT_GE(fit.inlier_count, 20);
@@ -71,7 +72,7 @@ TEST(CardCapturesWithoutCard, AnotherPatternIsNotFound) {
   std::shuffle(capture.pattern_mm.begin(), capture.pattern_mm.end(),
                generator);  // a pattern of the same marks
   const CardScene scene = load_card_scene(capture, 0, 1);
-  test::Allocated<CardWorkspace> memory(kMaxCaptureFeatures);
+  test::Allocated<CardScaleWorkspace> memory(kMaxCaptureFeatures);
   EXPECT_GT(scene.tracks.size(), 20U);
   for (unsigned seed = 1; seed <= 20; ++seed) {
     Random random(seed);

@@ -8,6 +8,7 @@
 
 #include "core/card/card_detection.hpp"
 #include "core/paper/card/card_plane.hpp"
+#include "core/paper/card/card_scale.hpp"
 #include "core/paper/card/card_tracks.hpp"
 #include "tests/core/card/synthetic_card.hpp"
 #include "tests/support/allocated.hpp"
@@ -21,13 +22,13 @@ constexpr CardPlaneSource kSources[] = {CardPlaneSource::sparse_points, CardPlan
 
 class Scale : public testing::Test {
  protected:
-  Status estimate(const CardScene& scene, const CardParams& params, unsigned seed = 1) {
+  Status estimate(const CardScene& scene, const CardScaleParams& params, unsigned seed = 1) {
     Random random(seed);
     const Status found = find_card(scene.tracks, size_, params, random, *memory_, fit_);
     if (!found.ok()) return found;
     return estimate_scale(scene.tracks, fit_.inliers, size_.length_mm(), params, random, *memory_, estimate_);
   }
-  Status fit_plane(const CardScene& scene, const CardParams& params, Plane& plane) {
+  Status fit_plane(const CardScene& scene, const CardScaleParams& params, Plane& plane) {
     Random random(5);
     return fit_card_plane(scene.tracks, fit_.inliers, size_.length_mm(), scene.baseline_mm, params, random,
                           *memory_, plane);
@@ -38,7 +39,7 @@ class Scale : public testing::Test {
     const double sine = plane.normal.cross(scene.first_from_card.rotation.col(2)).norm();
     angle_deg = std::asin(std::min(1.0, sine)) * 180.0 / std::numbers::pi;
   }
-  test::Allocated<CardWorkspace> memory_{1500};
+  test::Allocated<CardScaleWorkspace> memory_{1500};
   CardModelSize size_;
   CardFit fit_;
   ScaleEstimate estimate_;
@@ -50,14 +51,14 @@ TEST_F(Scale, ExactCardsGiveTheBaselineAndThePlane) {
     std::mt19937 random(seed);
     const CardScene scene = make_card_scene(random, {.count = 30});
     for (const ScaleMethod method : kMethods) {
-      CardParams params;
+      CardScaleParams params;
       params.scale.method = method;
       ASSERT_TRUE(estimate(scene, params).ok());
       EXPECT_NEAR(estimate_.mm_per_baseline, scene.baseline_mm, 1e-5 * scene.baseline_mm);
       EXPECT_LT(estimate_.spread, 1e-8);
     }
     for (const CardPlaneSource source : kSources) {
-      CardParams params;
+      CardScaleParams params;
       params.plane.source = source;
       Plane plane;
       ASSERT_TRUE(fit_plane(scene, params, plane).ok());
@@ -81,7 +82,7 @@ TEST_F(Scale, NoiseAndOutliers) {
       SCOPED_TRACE(testing::Message() << "seed " << seed);
       std::mt19937 random(seed);
       const CardScene scene = make_card_scene(random, {.count = 160, .noise_px = 0.3, .outlier_share = 0.5});
-      CardParams params;
+      CardScaleParams params;
       params.scale.method = method;
       ASSERT_TRUE(estimate(scene, params, seed).ok());
       errors.push_back(std::abs(estimate_.mm_per_baseline / scene.baseline_mm - 1.0));
@@ -102,7 +103,7 @@ TEST_F(Scale, PlaneUnderNoiseAndOutliers) {
       SCOPED_TRACE(testing::Message() << "seed " << seed);
       std::mt19937 random(seed);
       const CardScene scene = make_card_scene(random, {.count = 160, .noise_px = 0.3, .outlier_share = 0.5});
-      CardParams params;
+      CardScaleParams params;
       params.plane.source = source;
       ASSERT_TRUE(estimate(scene, params, seed).ok());
       Plane plane;
@@ -135,7 +136,7 @@ TEST_F(Scale, PairsAreDrawnWhenThereAreTooMany) {
 TEST_F(Scale, RefusesFewPairsAndScatteredRatios) {
   std::mt19937 random(1);
   CardScene scene = make_card_scene(random, {.count = 30});
-  CardParams params;
+  CardScaleParams params;
   params.scale.min_distance_share = 1.1;  // only pairs along the diagonal
   EXPECT_EQ(estimate(scene, params).code(), StatusCode::scale_not_found);
   std::vector<std::uint8_t> none(30, 0);

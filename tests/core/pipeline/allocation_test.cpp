@@ -1,13 +1,14 @@
 #include <gtest/gtest.h>
 
 #include <cstdlib>
-#include <optional>
 #include <vector>
 
-#include "simulator/capture/capture.hpp"
+#ifdef TRAYGAUGE_HAS_PAPER
+#include "core/paper/pipeline/estimator.hpp"
+#endif
 #include "tests/core/pipeline/allocation_trap.hpp"
+#include "tests/core/pipeline/demo_tray.hpp"
 #include "tests/core/pipeline/measuring_bench.hpp"
-#include "tests/simulator/capture/temporary_capture.hpp"
 
 namespace traygauge {
 namespace {
@@ -21,8 +22,10 @@ struct Course {
   int allocations = 0;
 };
 
-Course run_course(std::span<std::byte> block, const Configuration& configuration, const ViewInput& first,
-                  const ViewInput& second) {
+template <class Estimator, class Config>
+Course run_course(const Config& configuration, const ViewInput& first, const ViewInput& second) {
+  const TestBlock memory(required_bytes(configuration));
+  const std::span<std::byte> block = memory.bytes();
   Course course;
   arm_allocation_trap();
   Estimator estimator(block, configuration);
@@ -73,57 +76,30 @@ TEST(AllocationTrap, CatchesEveryWayToAllocate) {
   EXPECT_EQ(disarm_allocation_trap(), 2);
 }
 
-TEST(Allocations, NoneFromConstructionToResultOnTheSyntheticTray) {
-  const TrayScene& scene = default_tray();
-  const Configuration configuration = scene.configuration();
-  const TestBlock block(required_bytes(configuration));
-  expect_silent(run_course(block.bytes(), configuration, scene.view(0), scene.view(1)));
+TEST(Allocations, NoneWithGivenLabels) {
+  const DemoTray demo;
+  expect_silent(run_course<TrayEstimator>(demo.configuration(), demo.view(0), demo.view(1)));
+}
+
+TEST(Allocations, NoneWhereLabelsAreFound) {
+  const DemoTray demo;
+  expect_silent(run_course<TrayEstimator>(demo.configuration(), demo.bare_view(0), demo.bare_view(1)));
 }
 
 TEST(Allocations, NoneWhenAMeasurementIsRefused) {
-  const TrayScene& scene = default_tray();
-  const Configuration configuration = scene.configuration();
-  const TestBlock block(required_bytes(configuration));
-  const Course course = run_course(block.bytes(), configuration, scene.view(0), other_tray().view(1));
+  const DemoTray demo;
+  const Course course = run_course<TrayEstimator>(demo.configuration(), demo.view(0), demo.view(0));
   EXPECT_NE(course.first_result, StatusCode::ok);
   EXPECT_EQ(course.allocations, 0);
 }
 
-class AllocationsOfProfile : public testing::TestWithParam<Profile> {};
-INSTANTIATE_TEST_SUITE_P(Both, AllocationsOfProfile, testing::Values(Profile::best, Profile::paper),
-                         [](const auto& profile) {
-                           return profile.param == Profile::best ? "Best" : "Paper";
-                         });
-
-TEST_P(AllocationsOfProfile, NoneOnACapture) {
-  if (captures_folder().empty()) GTEST_SKIP() << "TRAYGAUGE_CAPTURES names no captures";
-  const Capture capture = read_capture(captures_folder() / "meals" / "m01");
-  const std::array<LoadedView, 2> views = {load_view(capture.views[0]), load_view(capture.views[1])};
-  const Picture pattern = load_pattern(capture.card);
-  const CameraDescription& camera = capture.views[0].camera;
-  const auto& [k1, k2, p1, p2, k3] = camera.distortion;
-  const DishDescription& dish = capture.dishes.front();
-  const std::array<DishModel, 1> dishes = {
-      DishModel{dish.outer_size_mm, dish.rim_height_mm, dish.bottom_height_mm}};
-  Configuration configuration;
-  configuration.profile = GetParam();
-  configuration.lens = {camera.size.width,
-                        camera.size.height,
-                        {camera.fx_px, camera.fy_px, camera.cx_px, camera.cy_px},
-                        k1,
-                        k2,
-                        p1,
-                        p2,
-                        k3};
-  configuration.card = {capture.card.width_mm, capture.card.height_mm, capture.card.thickness_mm,
-                        pattern.gray()};
-  configuration.dishes = dishes;
-  const TestBlock block(required_bytes(configuration));
-  const auto input = [&](const LoadedView& view) {
-    return ViewInput{view.picture.frame(), view.labels.gray(), {}, {}};
-  };
-  expect_silent(run_course(block.bytes(), configuration, input(views[0]), input(views[1])));
+#ifdef TRAYGAUGE_HAS_PAPER
+TEST(Allocations, NoneInProfilePaper) {
+  const DemoTray demo;
+  expect_silent(
+      run_course<paper::Estimator>(demo.configuration<paper::Configuration>(), demo.view(0), demo.view(1)));
 }
+#endif
 
 }  // namespace
 }  // namespace traygauge

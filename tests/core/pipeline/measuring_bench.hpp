@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "core/base/arena.hpp"
-#include "core/pipeline/estimator.hpp"
+#include "core/pipeline/tray_estimator.hpp"
 #include "tests/core/pipeline/tray_scene.hpp"
 
 namespace traygauge {
@@ -35,9 +35,11 @@ class TestBlock {
   std::size_t size_ = 0;
 };
 
-class MeasuringBench {
+// `Estimator` of either profile with its `Config`.
+template <class Estimator, class Config>
+class BenchOf {
  public:
-  explicit MeasuringBench(const Configuration& configuration)
+  explicit BenchOf(const Config& configuration)
       : block(required_bytes(configuration)), estimator(block.bytes(), configuration) {}
 
   // Stops at the first view that is refused, as the station does.
@@ -53,6 +55,8 @@ class MeasuringBench {
   TestBlock block;
   Estimator estimator;
 };
+
+using MeasuringBench = BenchOf<TrayEstimator, Configuration>;
 
 // Everything that a measurement says, times apart, as numbers to be compared bit by bit.
 inline std::vector<double> numbers_of(const Measurement& measurement) {

@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <vector>
 
+#include "tests/core/pipeline/demo_tray.hpp"
 #include "tests/core/pipeline/measuring_bench.hpp"
 
 namespace traygauge {
@@ -43,19 +44,31 @@ void* fill_64_kib(void*) {
   return nullptr;
 }
 
+template <class Estimator, class Config>
 struct Job {
-  const Configuration* configuration = nullptr;
+  const Config* configuration = nullptr;
   std::span<std::byte> block;
   std::array<ViewInput, 2> views;
   StatusCode status = StatusCode::ok;
+
+  static void* measure(void* argument) {
+    Job& job = *static_cast<Job*>(argument);
+    Estimator estimator(job.block, *job.configuration);
+    for (const ViewInput& view : job.views) static_cast<void>(estimator.add_view(view));
+    job.status = estimator.estimate(3).status.code();
+    return nullptr;
+  }
 };
 
-void* measure(void* argument) {
-  Job& job = *static_cast<Job*>(argument);
-  Estimator estimator(job.block, *job.configuration);
-  for (const ViewInput& view : job.views) static_cast<void>(estimator.add_view(view));
-  job.status = estimator.estimate(3).status.code();
-  return nullptr;
+template <class Estimator, class Config>
+void expect_shallow(const Config& configuration, std::array<ViewInput, 2> views) {
+  const TestBlock block(required_bytes(configuration));
+  Job<Estimator, Config> job{&configuration, block.bytes(), views};
+  const std::size_t used = measure_stack(Job<Estimator, Config>::measure, &job);
+  EXPECT_EQ(job.status, StatusCode::ok) << name(job.status);
+  std::printf("stack: %zu KiB, of which %zu KiB are the thread's own\n", used >> 10U,
+              measure_stack(do_nothing, nullptr) >> 10U);
+  EXPECT_LE(used, kMaxUsedBytes);
 }
 
 TEST(Stack, TheMeasureSeesAFunctionsFrame) {
@@ -66,15 +79,13 @@ TEST(Stack, TheMeasureSeesAFunctionsFrame) {
 }
 
 TEST(Stack, AMeasurementStaysWithin256KiB) {
-  const TrayScene& scene = default_tray();
-  const Configuration configuration = scene.configuration();
-  const TestBlock block(required_bytes(configuration));
-  Job job{&configuration, block.bytes(), {scene.view(0), scene.view(1)}};
-  const std::size_t used = measure_stack(measure, &job);
-  EXPECT_EQ(job.status, StatusCode::ok);
-  std::printf("stack: %zu KiB, of which %zu KiB are the thread's own\n", used >> 10U,
-              measure_stack(do_nothing, nullptr) >> 10U);
-  EXPECT_LE(used, kMaxUsedBytes);
+  const DemoTray demo;
+  expect_shallow<TrayEstimator>(demo.configuration(), {demo.view(0), demo.view(1)});
+}
+
+TEST(Stack, FindingLabelsStaysWithin256KiB) {
+  const DemoTray demo;
+  expect_shallow<TrayEstimator>(demo.configuration(), {demo.bare_view(0), demo.bare_view(1)});
 }
 
 }  // namespace

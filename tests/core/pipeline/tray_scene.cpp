@@ -104,16 +104,15 @@ TrayScene::TrayScene(const TrayOptions& options) : pattern(options.pattern_seed)
   dish[0].outer_size_mm = {2.0 * kDishRadius_mm, 2.0 * kDishRadius_mm};
 }
 
-Configuration TrayScene::configuration() const {
-  Configuration configuration;
-  configuration.profile = Profile::paper;
-  configuration.lens.width = kTrayWidthPx;
-  configuration.lens.height = kTrayHeightPx;
-  configuration.lens.pinhole = cameras[0].pinhole;
-  configuration.card.thickness_mm = 0.0;
-  configuration.card.pattern = pattern.view();
-  configuration.dishes = dish;
-  return configuration;
+TraySetup TrayScene::setup() const {
+  TraySetup setup;
+  setup.lens.width = kTrayWidthPx;
+  setup.lens.height = kTrayHeightPx;
+  setup.lens.pinhole = cameras[0].pinhole;
+  setup.card.thickness_mm = 0.0;
+  setup.card.pattern = pattern.view();
+  setup.dishes = dish;
+  return setup;
 }
 
 ViewInput TrayScene::view(int i) const {

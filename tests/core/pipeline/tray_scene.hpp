@@ -6,7 +6,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/pipeline/estimator.hpp"
+#include "core/pipeline/tray_setup.hpp"
+#include "core/pipeline/view_input.hpp"
 #include "tests/support/synthetic_scene.hpp"
 
 namespace traygauge {
@@ -39,7 +40,14 @@ struct TrayScene {
   explicit TrayScene(const TrayOptions& options = {});
 
   // Views and pattern stay the scene's.
-  Configuration configuration() const;
+  TraySetup setup() const;
+  // The same as the configuration of an estimator, everything else at its default.
+  template <class Config>
+  Config configuration() const {
+    Config configuration;
+    static_cast<TraySetup&>(configuration) = setup();
+    return configuration;
+  }
   ViewInput view(int i) const;
   ViewInput view(int i, ImageView<const std::uint8_t> labels) const;
   double volume_ml() const { return solid.volume_ml(); }

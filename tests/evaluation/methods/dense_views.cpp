@@ -31,7 +31,7 @@ cv::Point2f as_point(const Vec2& pixel) {
 cv::Mat card_homography(const PairMatches& by_sift) {
   std::vector<cv::Point2f> first;
   std::vector<cv::Point2f> second;
-  for (const GivenCardMatch& match : by_sift.card_matches) {
+  for (const paper::GivenCardMatch& match : by_sift.card_matches) {
     first.push_back(as_point(match.first));
     second.push_back(as_point(match.second));
   }
@@ -81,11 +81,11 @@ Run measure_dense_views(CaptureSession& session, const PairMatches& tracks, std:
   if (!pair) return run;
   const Stopwatch watch;
   run.relative_angle_deg = pair->relative_angle_deg;
-  const ImageView<const std::uint8_t> labels = pair->views.labels[0];
-  const Pose first_from_dish = frame_on(pair->dish_bottom, pair->views.cameras[0], labels);
-  const SweepView first{pair->views.cameras[0], first_from_dish, as_cv(pair->views.gray[0])};
-  const SweepView second{pair->views.cameras[1], pair->second_from_first * first_from_dish,
-                         as_cv(pair->views.gray[1])};
+  const ImageView<const std::uint8_t> labels = pair->pictures.labels[0];
+  const Pose first_from_dish = frame_on(pair->dish_bottom, pair->pictures.cameras[0], labels);
+  const SweepView first{pair->pictures.cameras[0], first_from_dish, as_cv(pair->pictures.gray[0])};
+  const SweepView second{pair->pictures.cameras[1], pair->second_from_first * first_from_dish,
+                         as_cv(pair->pictures.gray[1])};
   const cv::Mat heights = filter_heights(sweep_heights(first, second, params), first,
                                          sweep_heights(second, first, params), second, params);
   const cv::Mat picture = as_cv(labels);

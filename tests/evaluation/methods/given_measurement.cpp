@@ -1,9 +1,11 @@
 #include "tests/evaluation/methods/given_measurement.hpp"
 
+#include "core/paper/pipeline/estimator.hpp"
+
 namespace traygauge::tables {
 
 const Measurement& measure_given(CaptureSession& session, const PairMatches& matches, std::uint64_t seed) {
-  Estimator& estimator = session.estimator();
+  paper::Estimator& estimator = session.paper_estimator();
   estimator.reset();
   Status status;
   for (std::size_t i = 0; i < 2 && status.ok(); ++i)

@@ -114,7 +114,7 @@ cv::Mat labels_of(const CaptureSession& session, int view) {
 }
 
 PointFeatures find_in_view(const CaptureSession& session, int view, Detector detector) {
-  const Configuration usual;
+  const paper::Configuration usual;
   const cv::Mat gray = gray_of(session, view);
   const cv::Mat labels = labels_of(session, view);
   const LabelRegions regions = measure_regions(session.view(view).labels.gray());
@@ -126,27 +126,27 @@ PointFeatures find_in_view(const CaptureSession& session, int view, Detector det
     const double scale =
         std::clamp(usual.view.card_px_per_mm / seen_px_per_mm, 1.0, usual.view.max_card_enlargement);
     append(
-        detect(gray, {{box.left, box.top, box.width(), box.height()}, scale, usual.limits.max_card_keypoints},
+        detect(gray, {{box.left, box.top, box.width(), box.height()}, scale, usual.caps.max_card_keypoints},
                detector),
         labels, true, features);
   }
   const double pixels = static_cast<double>(gray.cols) * gray.rows;
   const double scale = std::min({1.0, std::sqrt(usual.view.feature_dish_px / regions.dish_pixels),
-                                 std::sqrt(usual.limits.max_feature_px / pixels)});
-  const int room = usual.limits.max_keypoints - static_cast<int>(features.pixels.size());
+                                 std::sqrt(usual.caps.max_feature_px / pixels)});
+  const int room = usual.caps.max_keypoints - static_cast<int>(features.pixels.size());
   append(detect(gray, {{0, 0, gray.cols, gray.rows}, scale, room}, detector), labels, false, features);
   return features;
 }
 
 PointFeatures find_on_pattern(const CaptureSession& session, Detector detector) {
-  const Configuration usual;
+  const paper::Configuration usual;
   const Picture& pattern = session.setup().pattern;
   const double width_mm = session.setup().card.width_mm;
   const cv::Mat picture(pattern.size.height, pattern.size.width, CV_8UC1,
                         const_cast<std::uint8_t*>(pattern.pixels.data()));
   const double scale = std::min(1.0, usual.view.card_px_per_mm * width_mm / picture.cols);
   PointFeatures features = detect(
-      picture, {{0, 0, picture.cols, picture.rows}, scale, usual.limits.max_pattern_keypoints}, detector);
+      picture, {{0, 0, picture.cols, picture.rows}, scale, usual.caps.max_pattern_keypoints}, detector);
   for (Vec2& pixel : features.pixels) pixel = pattern_mm(pixel, picture.cols, {width_mm});
   return features;
 }

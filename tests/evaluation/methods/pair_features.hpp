@@ -6,6 +6,7 @@
 #include <opencv2/core/mat.hpp>
 #include <vector>
 
+#include "core/paper/pipeline/estimator.hpp"
 #include "firmware/measure/capture_session.hpp"
 
 namespace traygauge::tables {
@@ -37,9 +38,9 @@ std::vector<IndexPair> match_points(const PointFeatures& first, const PointFeatu
                                     Detector detector, double ratio);
 
 struct PairMatches {
-  std::vector<GivenMatch> matches;
-  std::vector<GivenCardMatch> card_matches;  // whose three matches agree
-  double time_ms = 0.0;                      // the pattern's features apart, which a program finds once
+  std::vector<paper::GivenMatch> matches;
+  std::vector<paper::GivenCardMatch> card_matches;  // whose three matches agree
+  double time_ms = 0.0;  // the pattern's features apart, which a program finds once
 };
 PairMatches match_pair(const CaptureSession& session, Detector detector);
 

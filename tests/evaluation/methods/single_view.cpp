@@ -10,14 +10,15 @@ namespace {
 
 // The estimator's checks of the picture, and its undistorted, resized labels: the view taken twice goes as
 // far as that.
-StatusCode prepare_first_view(CaptureSession& session, MeasurementViews& views) {
-  Estimator& estimator = session.estimator();
+StatusCode prepare_first_view(CaptureSession& session, paper::WorkingPictures& pictures) {
+  paper::Estimator& estimator = session.paper_estimator();
   estimator.reset();
   for (int i = 0; i < 2; ++i) {
     const Status status = estimator.add_view_without_features(session.input(0));
     if (!status.ok()) return status.code();
   }
-  views = estimator.estimate(1).views;
+  static_cast<void>(estimator.estimate(1));
+  pictures = estimator.pictures();
   return StatusCode::ok;
 }
 
@@ -36,8 +37,8 @@ Run measure_single_view(CaptureSession& session, std::uint64_t seed, const Shape
   run.seed = seed;
   const PointFeatures pattern = find_on_pattern(session, Detector::sift);
   const Stopwatch watch;
-  MeasurementViews views;
-  run.status = prepare_first_view(session, views);
+  paper::WorkingPictures pictures;
+  run.status = prepare_first_view(session, pictures);
   if (run.status != StatusCode::ok) return run;
   const auto print = find_card_plane(session, 0, find_in_view(session, 0, Detector::sift), pattern);
   run.status = StatusCode::card_not_found;
@@ -45,9 +46,9 @@ Run measure_single_view(CaptureSession& session, std::uint64_t seed, const Shape
   const auto bottom = bottom_under_print(session, *print);
   run.status = StatusCode::dish_unknown;
   if (!bottom) return run;
-  const ImageView<const std::uint8_t> labels = views.labels[0];
+  const ImageView<const std::uint8_t> labels = pictures.labels[0];
   const cv::Mat picture = as_cv(labels);
-  ItemView item{views.cameras[0], frame_on(*bottom, views.cameras[0], labels), {}};
+  ItemView item{pictures.cameras[0], frame_on(*bottom, pictures.cameras[0], labels), {}};
   for (const std::uint8_t label : items_in(labels)) {
     item.mask = picture == label;
     run.items.push_back({label, StatusCode::ok, volume_ml(fit_prior(item, priors).solid)});

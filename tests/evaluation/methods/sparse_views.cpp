@@ -49,20 +49,20 @@ double mean_distance(const Solid& solid, std::span<const Vec3> points) {
   return sum / static_cast<double>(points.size());
 }
 
-std::uint8_t label_at(const MeasurementViews& views, std::size_t view, const Vec2& ray) {
-  const Vec2 pixel = views.cameras[view].pixel(ray);
+std::uint8_t label_at(const paper::WorkingPictures& pictures, std::size_t view, const Vec2& ray) {
+  const Vec2 pixel = pictures.cameras[view].pixel(ray);
   const auto x = static_cast<int>(std::lround(pixel.x()));
   const auto y = static_cast<int>(std::lround(pixel.y()));
-  return views.labels[view].contains(x, y) ? views.labels[view].at(x, y) : std::uint8_t{0};
+  return pictures.labels[view].contains(x, y) ? pictures.labels[view].at(x, y) : std::uint8_t{0};
 }
 
 // By label, in the dish frame: those that lie on the same item in both views.
 std::array<std::vector<Vec3>, 256> sort_points(const CalibratedPair& pair, const Pose& dish_from_camera) {
   std::array<std::vector<Vec3>, 256> sorted;
   for (const RayMatch& rays : pair.inliers) {
-    const std::uint8_t label = label_at(pair.views, 0, rays.first);
+    const std::uint8_t label = label_at(pair.pictures, 0, rays.first);
     Vec3 point;
-    if (label != label_at(pair.views, 1, rays.second) || !triangulate(rays, pair.second_from_first, point))
+    if (label != label_at(pair.pictures, 1, rays.second) || !triangulate(rays, pair.second_from_first, point))
       continue;
     sorted.at(label).push_back(dish_from_camera * point);
   }
@@ -103,9 +103,10 @@ Run measure_sparse_views(CaptureSession& session, const PairMatches& matches, st
   if (!pair) return run;
   const Stopwatch watch;
   run.relative_angle_deg = pair->relative_angle_deg;
-  const ImageView<const std::uint8_t> labels = pair->views.labels[0];
+  const ImageView<const std::uint8_t> labels = pair->pictures.labels[0];
   const cv::Mat picture = as_cv(labels);
-  ItemView item{pair->views.cameras[0], frame_on(pair->dish_bottom, pair->views.cameras[0], labels), {}};
+  ItemView item{
+      pair->pictures.cameras[0], frame_on(pair->dish_bottom, pair->pictures.cameras[0], labels), {}};
   const auto points = sort_points(*pair, item.camera_from_dish.inverse());
   for (const std::uint8_t label : items_in(labels)) {
     item.mask = picture == label;

@@ -26,7 +26,7 @@ std::optional<RayMatch> rays_of(const CaptureSession& session, const Vec2& first
 std::optional<Plane> print_in_cloud(const CaptureSession& session, const PairMatches& matches,
                                     const Pose& motion, std::uint64_t seed) {
   std::vector<Vec3> points;
-  for (const GivenCardMatch& match : matches.card_matches) {
+  for (const paper::GivenCardMatch& match : matches.card_matches) {
     Vec3 point;
     const auto rays = rays_of(session, match.first, match.second);
     if (rays && triangulate(*rays, motion, point)) points.push_back(point);
@@ -54,7 +54,7 @@ std::optional<CalibratedPair> calibrate_pair(CaptureSession& session, const Pair
   if (!measurement.has_pose || !has_angle) return {};
   CalibratedPair pair;
   pair.second_from_first = measurement.second_from_first;
-  pair.views = measurement.views;
+  pair.pictures = *session.pictures();
   pair.relative_angle_deg = measurement.relative_angle_deg;
   pair.time_ms = matches.time_ms + calibration_ms(measurement);
   refusal = StatusCode::table_not_found;
@@ -67,7 +67,7 @@ std::optional<CalibratedPair> calibrate_pair(CaptureSession& session, const Pair
   const double focal_px =
       0.5 * (session.lens(0).pinhole.mean_focal_px() + session.lens(1).pinhole.mean_focal_px());
   const Mat3 essential = essential_matrix(pair.second_from_first);
-  for (const GivenMatch& match : matches.matches) {
+  for (const paper::GivenMatch& match : matches.matches) {
     const auto rays = rays_of(session, match.first, match.second);
     if (rays &&
         symmetric_epipolar_distance_px(essential, *rays, focal_px) <= measurement.report.inlier_threshold_px)
@@ -139,7 +139,7 @@ cv::Mat as_cv(ImageView<const std::uint8_t> picture) {
 
 std::vector<std::uint8_t> items_in(ImageView<const std::uint8_t> labels) {
   const LabelRegions regions = measure_regions(labels);
-  const auto min_px = static_cast<std::uint32_t>(VolumeExtractionParams{}.min_item_px);
+  const auto min_px = static_cast<std::uint32_t>(paper::VolumeExtractionParams{}.min_item_px);
   std::vector<std::uint8_t> items;
   for (int label = kFirstItemLabel; label <= kLastItemLabel; ++label) {
     if (regions.pixels[static_cast<std::size_t>(label)] >= min_px)

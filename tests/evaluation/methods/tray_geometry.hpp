@@ -16,7 +16,7 @@ namespace traygauge::tables {
 struct CalibratedPair {
   Pose second_from_first;
   Plane dish_bottom;  // in the first camera
-  MeasurementViews views;
+  paper::WorkingPictures pictures;
   std::vector<RayMatch> inliers;
   double relative_angle_deg = 0.0;
   double time_ms = 0.0;  // from matches to scale

@@ -96,7 +96,11 @@ class Finder {
 
  private:
   const SegmenterParams& params() const { return configuration_.segmentation; }
-  std::size_t planned_bytes() const { return segmenter_bytes(configuration_); }
+  std::size_t planned_bytes() const {
+    ArenaPlan plan;
+    SegmenterMemory().allocate(plan, configuration_);
+    return plan.high_water_bytes();
+  }
   std::size_t edge_bytes() const {
     ArenaPlan plan;
     RimEdgeWorkspace().allocate(plan, params().dish.edges);

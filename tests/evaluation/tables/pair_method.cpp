@@ -2,6 +2,7 @@
 
 #include <optional>
 
+#include "core/paper/pipeline/estimator.hpp"
 #include "firmware/base/exit_status.hpp"
 #include "firmware/config/dish_choice.hpp"
 #include "firmware/measure/capture_session.hpp"
@@ -35,7 +36,7 @@ struct OpenPair {
 };
 
 void search_with(MotionSearch& search, CaptureSession& session) {
-  if (!session.estimator().set_motion_search(&search).ok())
+  if (session.pictures() == nullptr || !session.paper_estimator().set_motion_search(&search).ok())
     throw UsageError("another search for the motion needs profile paper");
 }
 

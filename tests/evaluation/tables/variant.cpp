@@ -20,15 +20,15 @@ constexpr std::array<const char*, 7> kNames = {"ours",        "sift",         "o
 constexpr double kWholePicture = 8.0;
 
 // Memory for working pictures larger than the station's.
-void make_room(Configuration& configuration) {
-  const Configuration usual;
+void make_room(paper::Configuration& configuration) {
+  const paper::Configuration usual;
   const double factor = configuration.view.matching_dish_px / usual.view.matching_dish_px *
                         (configuration.view.match_dish_only ? 1.0 : kWholePicture);
   if (factor <= 1.0) return;
   const double side = std::sqrt(factor);
   const auto grown = [](int size, double by) { return static_cast<int>(std::ceil(size * by)); };
-  configuration.limits.max_working_px = grown(usual.limits.max_working_px, factor);
-  configuration.limits.max_working_side_px = grown(usual.limits.max_working_side_px, side);
+  configuration.caps.max_working_px = grown(usual.caps.max_working_px, factor);
+  configuration.caps.max_working_side_px = grown(usual.caps.max_working_side_px, side);
   configuration.rectification.max_rows = grown(usual.rectification.max_rows, side);
   configuration.rectification.max_columns = grown(usual.rectification.max_columns, side);
   configuration.disparity_range.max_count = grown(usual.disparity_range.max_count, side);
@@ -40,12 +40,12 @@ const char* name(Method method) {
   return kNames[static_cast<std::size_t>(method)];
 }
 
-Configuration configure(const Variant& variant) {
-  Configuration configuration;
-  configuration.profile = variant.profile;
-  for (const std::string& setting : variant.settings) set_parameter(configuration, setting);
-  make_room(configuration);
-  return configuration;
+ProfileParameters configure(const Variant& variant) {
+  ProfileParameters parameters;
+  parameters.profile = variant.profile;
+  for (const std::string& setting : variant.settings) set_parameter(parameters, setting);
+  make_room(parameters.paper);
+  return parameters;
 }
 
 std::string describe(const Variant& variant) {

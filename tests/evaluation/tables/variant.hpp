@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "core/pipeline/configuration.hpp"
+#include "firmware/config/profile.hpp"
 #include "tests/evaluation/tables/picture_change.hpp"
 
 namespace traygauge::tables {
@@ -29,7 +29,7 @@ struct Variant {
 };
 
 // Throws UsageError where a setting does not hold.
-Configuration configure(const Variant& variant);
+ProfileParameters configure(const Variant& variant);
 
 // Everything in a variant that results depend on, as text.
 std::string describe(const Variant& variant);

@@ -20,13 +20,37 @@ FakeEstimator& fake_estimator() {
   return fake;
 }
 
-TRAYGAUGE_FAKE std::size_t required_bytes(const EstimatorLimits& limits, Profile /*profile*/) {
+namespace {
+
+std::size_t fake_bytes(const FrameLimits& limits) {
   return kBytesPerPixel * static_cast<std::size_t>(limits.max_frame_width) *
          static_cast<std::size_t>(limits.max_frame_height);
 }
 
+Status construct(std::span<std::byte> block, const TraySetup& setup) {
+  FakeEstimator& fake = fake_estimator();
+  fake.lens = setup.lens;
+  fake.card = setup.card;
+  fake.dishes.assign(setup.dishes.begin(), setup.dishes.end());
+  fake.limits = setup.limits;
+  return block.size() < fake_bytes(setup.limits) ? Status(StatusCode::out_of_memory) : fake.construction;
+}
+
+Status take(const ViewInput& view) {
+  fake_estimator().views.push_back(view);
+  return fake_estimator().views.size() == 2 ? fake_estimator().second_view : Status();
+}
+
+const Measurement& answer(std::uint64_t seed) {
+  fake_estimator().seed = seed;
+  ++fake_estimator().estimates;
+  return fake_estimator().measurement;
+}
+
+}  // namespace
+
 TRAYGAUGE_FAKE std::size_t required_bytes(const Configuration& configuration) {
-  return required_bytes(configuration.limits, configuration.profile);
+  return fake_bytes(configuration.limits);
 }
 
 TRAYGAUGE_FAKE std::array<MemoryRow, kMemoryRowCount> describe_memory(const Configuration& configuration) {
@@ -34,71 +58,83 @@ TRAYGAUGE_FAKE std::array<MemoryRow, kMemoryRowCount> describe_memory(const Conf
            {"stereo", required_bytes(configuration) / 2, true}}};
 }
 
-TRAYGAUGE_FAKE Status validate(const Configuration&) {
+TRAYGAUGE_FAKE Status validate(const TraySetup&) {
   return fake_estimator().construction;
 }
 
-TRAYGAUGE_FAKE Estimator::Estimator(std::span<std::byte> block, const Configuration& configuration)
-    : status_(fake_estimator().construction) {
-  FakeEstimator& fake = fake_estimator();
-  fake.lens = configuration.lens;
-  fake.card = configuration.card;
-  fake.dishes.assign(configuration.dishes.begin(), configuration.dishes.end());
-  fake.limits = configuration.limits;
-  if (block.size() < required_bytes(configuration.limits, configuration.profile))
-    status_ = StatusCode::out_of_memory;
+TRAYGAUGE_FAKE TrayEstimator::TrayEstimator(std::span<std::byte> block, const Configuration& configuration)
+    : status_(construct(block, configuration)) {}
+TRAYGAUGE_FAKE double TrayEstimator::setup_ms() const {
+  return 3.5;
+}
+TRAYGAUGE_FAKE std::size_t TrayEstimator::reserved_bytes() const {
+  return fake_bytes(fake_estimator().limits);
+}
+TRAYGAUGE_FAKE std::size_t TrayEstimator::used_bytes() const {
+  return reserved_bytes() / 2;
+}
+TRAYGAUGE_FAKE Status TrayEstimator::add_view(const ViewInput& view) {
+  return take(view);
+}
+TRAYGAUGE_FAKE const Measurement& TrayEstimator::estimate(std::uint64_t seed, StageObserver*) {
+  return answer(seed);
+}
+TRAYGAUGE_FAKE const Segmentation* TrayEstimator::segmentation() const {
+  static const Segmentation nothing;
+  return &nothing;
+}
+TRAYGAUGE_FAKE ImageView<const std::uint8_t> TrayEstimator::labels(std::size_t) const {
+  return {};
+}
+TRAYGAUGE_FAKE std::span<std::byte> TrayEstimator::scratch() const {
+  return {};
+}
+TRAYGAUGE_FAKE void TrayEstimator::reset() {
+  fake_estimator().views.clear();
 }
 
+namespace paper {
+
+TRAYGAUGE_FAKE std::size_t required_bytes(const Configuration& configuration) {
+  return fake_bytes(configuration.limits);
+}
+TRAYGAUGE_FAKE std::array<MemoryRow, kMemoryRowCount> describe_memory(const Configuration&) {
+  return {};
+}
+TRAYGAUGE_FAKE Estimator::Estimator(std::span<std::byte> block, const Configuration& configuration)
+    : status_(construct(block, configuration)) {}
 TRAYGAUGE_FAKE double Estimator::setup_ms() const {
   return 3.5;
 }
-
 TRAYGAUGE_FAKE std::size_t Estimator::reserved_bytes() const {
-  return required_bytes(fake_estimator().limits, Profile::best);
+  return fake_bytes(fake_estimator().limits);
 }
-
 TRAYGAUGE_FAKE std::size_t Estimator::used_bytes() const {
   return reserved_bytes() / 2;
 }
-
 TRAYGAUGE_FAKE Status Estimator::add_view(const ViewInput& view) {
-  fake_estimator().views.push_back(view);
-  return fake_estimator().views.size() == 2 ? fake_estimator().second_view : Status();
+  return take(view);
 }
-
 TRAYGAUGE_FAKE Status Estimator::add_view_without_features(const ViewInput& view) {
-  return add_view(view);
+  return take(view);
 }
-
 TRAYGAUGE_FAKE Status Estimator::set_matches(std::span<const GivenMatch>, std::span<const GivenCardMatch>) {
   return StatusCode::ok;
 }
-
 TRAYGAUGE_FAKE Status Estimator::set_motion_search(MotionSearch*) {
   return StatusCode::ok;
 }
-
-TRAYGAUGE_FAKE const Measurement& Estimator::estimate(std::uint64_t seed, StageTap*) {
-  fake_estimator().seed = seed;
-  ++fake_estimator().estimates;
-  return fake_estimator().measurement;
+TRAYGAUGE_FAKE const Measurement& Estimator::estimate(std::uint64_t seed) {
+  return answer(seed);
 }
-
-TRAYGAUGE_FAKE ImageView<std::uint8_t> Estimator::gray_memory(std::size_t) const {
-  return {};
+TRAYGAUGE_FAKE const WorkingPictures& Estimator::pictures() const {
+  return fake_estimator().pictures;
 }
-
-TRAYGAUGE_FAKE std::span<std::byte> Estimator::idle_memory() const {
-  return {};
-}
-
-TRAYGAUGE_FAKE const CardPattern* Estimator::card_pattern() const {
-  return nullptr;
-}
-
 TRAYGAUGE_FAKE void Estimator::reset() {
   fake_estimator().views.clear();
 }
+
+}  // namespace paper
 
 // Enrolment is not played: its tests run the real one.
 TRAYGAUGE_FAKE std::size_t survey_bytes(const Configuration&) {

@@ -4,7 +4,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/pipeline/estimator.hpp"
+#include "core/paper/pipeline/estimator.hpp"
+#include "core/pipeline/tray_estimator.hpp"
 
 namespace traygauge {
 
@@ -13,18 +14,19 @@ struct FakeEstimator {
   Status construction;
   Status second_view;  // of add_view
   Measurement measurement;
+  paper::WorkingPictures pictures;  // of profile paper
 
   // What it was given.
   LensModel lens;
   ReferenceCard card;
   std::vector<DishModel> dishes;
-  EstimatorLimits limits;
+  FrameLimits limits;
   std::vector<ViewInput> views;
   std::uint64_t seed = 0;
   int estimates = 0;
 };
 
-// The one that every Estimator of the test program plays.
+// The one that every estimator of the test program plays, of either profile.
 FakeEstimator& fake_estimator();
 
 }  // namespace traygauge

@@ -80,15 +80,19 @@ Measurement SyntheticScene::measurement() const {
   measurement.relative_angle_deg = 17.5;
   measurement.stage_ms.fill(10.0);
   measurement.total_ms = 91.0;
-  MeasurementViews& views = measurement.views;
-  views.cameras = {camera_, camera_};
-  views.labels[0] = {labels_.data(), width_, height_};
-  views.disparity = {disparity_.data(), width_, height_};
-  views.depth_mm = {depth_mm_.data(), width_, height_};
-  views.mesh.points = points_;
-  views.mesh.triangles = triangles_;
-  views.dish_bottom = bottom_;
+  measurement.views.dish_bottom = bottom_;
   return measurement;
+}
+
+paper::WorkingPictures SyntheticScene::pictures() const {
+  paper::WorkingPictures pictures;
+  pictures.cameras = {camera_, camera_};
+  pictures.labels[0] = {labels_.data(), width_, height_};
+  pictures.disparity = {disparity_.data(), width_, height_};
+  pictures.depth_mm = {depth_mm_.data(), width_, height_};
+  pictures.mesh.points = points_;
+  pictures.mesh.triangles = triangles_;
+  return pictures;
 }
 
 }  // namespace traygauge

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/paper/pipeline/working_pictures.hpp"
 #include "core/pipeline/measurement.hpp"
 #include "core/stereo/disparity.hpp"
 
@@ -21,6 +22,8 @@ class SyntheticScene {
 
   // All stages reached; points into the scene.
   Measurement measurement() const;
+  // Of the same measurement by profile paper.
+  paper::WorkingPictures pictures() const;
   Vec3 point(int x, int y) const;  // of the surface, in the camera
   double height_mm(int x, int y) const;
 

@@ -33,7 +33,7 @@ class Names final : public ResultSink {
 class Recording : public testing::Test {
  protected:
   void record(int scans) {
-    RecordedCaptures captures({demo_}, Profile::best);
+    RecordedCaptures captures({demo_});
     SimulatedClock clock;
     TrayPlayer player(captures);
     SimulatedArm arm(clock, &player);

@@ -137,18 +137,6 @@ TEST_F(StationCommandOnCaptures, ADamagedPictureSpoilsItsScanOnly) {
   EXPECT_NE(second.find(" ml"), std::string::npos) << second;
 }
 
-// Measured as one dish, the items of the others would get volumes above the wrong plane.
-TEST_F(StationCommandOnCaptures, ProfilePaperRefusesATrayWithSeveralDishes) {
-  command_.profile = "paper";
-  try {
-    play(captures_ / "trays" / "t01");
-    FAIL() << "was played: " << out_.str();
-  } catch (const InputError& problem) {
-    EXPECT_EQ(problem.problem().key, "dishes");
-  }
-  EXPECT_TRUE(out_.str().empty());
-}
-
 TEST_F(StationCommandRun, FindsTheFoodOfTraysThatNobodyOutlined) {
   command_.json = true;
   command_.scans = 3;
@@ -224,8 +212,8 @@ TEST(SiteWithoutLabels, MeasuresWhatItFinds) {
   station.lens.emplace();
   station.lens->camera = capture.views[0].camera;
   station.card = capture.card;
-  SiteScene scene(station, capture.dishes, Profile::best);
-  EstimatorMeasurer measurer(scene, scene.limits(), Profile::best, 0);
+  SiteScene scene(station, capture.dishes);
+  EstimatorMeasurer measurer(scene, scene.limits(), 0);
   CaptureSession session(capture, {0, 1}, capture.dishes, {}, LabelSource::automatic);
   for (int scan = 0; scan < 2; ++scan) {
     measurer.begin_scan();

@@ -1,0 +1,53 @@
+# Language, options, and what every target of ours is compiled with: for the whole checkout and for core alone.
+set(CMAKE_CXX_STANDARD 20)
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
+
+if(NOT CMAKE_BUILD_TYPE)
+  set(CMAKE_BUILD_TYPE Release CACHE STRING "Release, Debug" FORCE)
+endif()
+
+option(TRAYGAUGE_PAPER "Build profile paper, the method as published; without it --profile paper is refused" ON)
+option(TRAYGAUGE_PRECOMPILED_HEADERS "Parse the headers of libraries once for all sources; OFF shows which source forgets an include" ON)
+option(TRAYGAUGE_WERROR "Warnings are errors; the presets switch it on" OFF)
+set(TRAYGAUGE_SANITIZERS "" CACHE STRING "Sanitizers for all targets, e.g. address,undefined or thread")
+
+# Third-party headers are SYSTEM includes, so warnings spare them.
+add_library(traygauge_options INTERFACE)
+target_compile_options(traygauge_options INTERFACE
+  -Wall -Wextra -Wconversion -Wsign-conversion -Wshadow -Wnon-virtual-dtor -Wold-style-cast
+  $<$<BOOL:${TRAYGAUGE_WERROR}>:-Werror>
+  -ffp-contract=off)  # no fused multiply-add: the same bits on every processor
+target_include_directories(traygauge_options INTERFACE ${TRAYGAUGE_ROOT})
+
+if(TRAYGAUGE_SANITIZERS)
+  target_compile_options(traygauge_options INTERFACE
+    -fsanitize=${TRAYGAUGE_SANITIZERS} -fno-sanitize-recover=all -fno-omit-frame-pointer)
+  target_link_options(traygauge_options INTERFACE -fsanitize=${TRAYGAUGE_SANITIZERS})
+  if(TRAYGAUGE_SANITIZERS MATCHES undefined)
+    # More than a third of the time to compile Eigen's templates goes into these. The address sanitizer meets null pointers and what
+    # leaves an object as well, Eigen asserts its alignment, and there is no downcast to check.
+    target_compile_options(traygauge_options INTERFACE -fno-sanitize=null,alignment,object-size,vptr)
+  endif()
+endif()
+
+# traygauge_fast_loops(TARGET source… [OPTIONS …]): sources whose loops are written for the vectoriser, which -O2 holds back.
+# Sanitizers do without, so that these sources are merged like all others.
+function(traygauge_fast_loops target)
+  cmake_parse_arguments(arg "" "" "OPTIONS" ${ARGN})
+  if(NOT TRAYGAUGE_SANITIZERS)
+    set_source_files_properties(${arg_UNPARSED_ARGUMENTS}
+      TARGET_DIRECTORY ${target} PROPERTIES COMPILE_OPTIONS "-O3;${arg_OPTIONS}" SKIP_PRECOMPILE_HEADERS ON)
+  endif()
+endfunction()
+
+# traygauge_precompile(TARGET header…): what libraries declare is parsed once for all sources. Where sources are edited, it would
+# hide which of them forgets an include.
+function(traygauge_precompile target)
+  if(TRAYGAUGE_PRECOMPILED_HEADERS)
+    target_precompile_headers(${target} PRIVATE ${ARGN})
+  endif()
+endfunction()
+
+find_package(Eigen3 3.4 REQUIRED NO_MODULE)

@@ -1,0 +1,15 @@
+#include "core/pipeline/segmentation.hpp"
+
+namespace traygauge {
+
+void warn_about_labels(const Segmentation& segmentation, WarningSet& warnings) {
+  for (std::size_t d = 0; d < segmentation.dish_count; ++d) {
+    const SegmentedDish& dish = segmentation.dishes[d];
+    warnings.raise_if(!dish.status.ok(), Warning::dish_not_found, dish.label);
+    warnings.raise_if(dish.is_split_doubtful, Warning::items_doubtful, dish.label);
+  }
+  warnings.raise_if(segmentation.misses_hint, Warning::items_doubtful);
+  warnings.raise_if(segmentation.is_card_doubtful, Warning::card_partly_hidden);
+}
+
+}  // namespace traygauge

@@ -1,0 +1,53 @@
+// What was found on a tray that nobody outlined.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "core/base/status.hpp"
+#include "core/card/card_alignment.hpp"
+#include "core/dish/dish_search.hpp"
+#include "core/quality/warning.hpp"
+
+namespace traygauge {
+
+struct SegmentedDish {
+  std::uint8_t label = kDishLabel;
+  Status status;
+  FoundDish found;
+  DishModel model;                 // as described, where it was found
+  int items = 0;                   // that lie on it: their labels follow those of the dish before
+  bool is_split_doubtful = false;  // two of them may be one food
+};
+
+// The labels themselves are in the pictures that were to be filled.
+struct Segmentation {
+  Status status;
+  std::array<CardAlignment, 2> cards;
+  bool is_card_doubtful = false;  // in one of the views: part of its print is covered, or out of its place
+  std::array<SegmentedDish, kMaxPlacedDishes> dishes;
+  std::size_t dish_count = 0;
+  int items = 0;             // labels from kFirstItemLabel on
+  bool misses_hint = false;  // a number of items was asked for, and there are more or fewer
+  double card_ms = 0.0;
+  double dish_ms = 0.0;
+  double food_ms = 0.0;
+
+  bool has_all_dishes() const {
+    return std::all_of(dishes.begin(), dishes.begin() + static_cast<std::ptrdiff_t>(dish_count),
+                       [](const SegmentedDish& dish) { return dish.status.ok(); });
+  }
+  bool is_split_doubtful() const {
+    return misses_hint ||
+           std::any_of(dishes.begin(), dishes.begin() + static_cast<std::ptrdiff_t>(dish_count),
+                       [](const SegmentedDish& dish) { return dish.is_split_doubtful; });
+  }
+  double total_ms() const { return card_ms + dish_ms + food_ms; }
+};
+
+// Raises what is doubtful about labels that were found, where they were found at all.
+void warn_about_labels(const Segmentation& segmentation, WarningSet& warnings);
+
+}  // namespace traygauge

@@ -1,0 +1,62 @@
+// Two views of a tray in, with labels or without; dishes, items, volumes and sigmas out, over one block of
+// memory.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "core/pipeline/configuration.hpp"
+#include "core/pipeline/measurement.hpp"
+#include "core/pipeline/segmentation.hpp"
+#include "core/pipeline/view_input.hpp"
+
+namespace traygauge {
+
+struct EstimatorState;
+class StageObserver;
+
+// Bytes that an estimator with this configuration takes from its block; estimator_state_bytes() of them for
+// its own state, at the block's head.
+std::size_t required_bytes(const Configuration& configuration);
+std::size_t estimator_state_bytes();
+
+// Not thread-safe. Nothing allocates, construction included.
+class TrayEstimator {
+ public:
+  // `block` holds required_bytes(configuration), aligned to kArenaAlignmentBytes, and outlives the estimator.
+  // The card's pattern is read here only. Check status() before use.
+  TrayEstimator(std::span<std::byte> block, const Configuration& configuration);
+
+  Status status() const { return status_; }
+  double setup_ms() const;
+  std::size_t reserved_bytes() const;  // size of the block
+  std::size_t used_bytes() const;      // most of it that was ever handed out
+
+  // Takes the first, then the second view. Where the first has no labels, those of both are found: the card
+  // at once, dishes and food with the second view. What fails here is also what estimate() reports.
+  // wrong_call, which changes nothing: a third view.
+  Status add_view(const ViewInput& view);
+
+  // Measures the two views, as often as is liked; the same input and seed give the same bits. Shows its
+  // stages to `observer`, which may be null.
+  const Measurement& estimate(std::uint64_t seed, StageObserver* observer = nullptr);
+
+  // What was found where no labels were given; null where they were. Valid until reset().
+  const Segmentation* segmentation() const;
+  // Of the view added first or second, given or found; empty before it was added.
+  ImageView<const std::uint8_t> labels(std::size_t view) const;
+
+  // Memory for others between two calls; its contents are undefined after each.
+  std::span<std::byte> scratch() const;
+
+  // Forgets both views.
+  void reset();
+
+ private:
+  EstimatorState* state_ = nullptr;  // in the block
+  Status status_;
+  Measurement measurement_;
+};
+
+}  // namespace traygauge

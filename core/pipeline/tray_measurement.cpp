@@ -1,0 +1,100 @@
+#include "core/pipeline/tray_measurement.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/pipeline/dish_observation.hpp"
+#include "core/quality/view_input.hpp"
+
+namespace traygauge {
+namespace {
+
+bool works_in_reverse(const TrayMemory& memory) {
+  return memory.views[1].regions().dish_pixels > memory.views[0].regions().dish_pixels;
+}
+
+// Where the first dish stands, on the table.
+Vec3 dish_on_table(const SceneGeometry& geometry) {
+  for (std::size_t d = 0; d < geometry.dish_count; ++d) {
+    const JointDishResult& dish = geometry.joint.dishes[d];
+    if (!dish.status.ok()) continue;
+    const Vec2& centre = dish.placed.place.centre_mm;
+    return {centre.x(), centre.y(), 0.0};
+  }
+  return Vec3::Zero();
+}
+
+// The camera did not move against the card, as far as a card can tell.
+bool is_same_place(const SceneGeometry& geometry) {
+  constexpr double kSamePlaceMm = 1.0;
+  return second_from_first(geometry.joint.camera_from_table).translation.norm() < kSamePlaceMm;
+}
+
+void report_pose(const SceneGeometry& geometry, bool reversed, Measurement& measurement) {
+  const Pose motion = second_from_first(geometry.joint.camera_from_table);
+  measurement.has_pose = true;
+  measurement.second_from_first = reversed ? motion.inverse() : motion;
+  measurement.rotation_angle_deg = rotation_angle_deg(motion.rotation);
+  measurement.relative_angle_deg =
+      angle_between_views_deg(geometry.joint.camera_from_table, dish_on_table(geometry));
+  const Pose& reference = geometry.joint.camera_from_table[0];
+  const Vec3 up = reference.rotation.col(2);
+  measurement.views.table = {up, up.dot(reference.translation)};
+  measurement.views.camera_from_table = geometry.joint.camera_from_table;
+  if (reversed) std::swap(measurement.views.camera_from_table[0], measurement.views.camera_from_table[1]);
+}
+
+void warn_about_guessed_dishes(const SceneGeometry& geometry, WarningSet& warnings) {
+  for (const DishOnTray& dish : std::span(geometry.dishes).first(geometry.dish_count))
+    warnings.raise_if(dish.candidates.size() > 1, Warning::dish_guessed, dish.label);
+}
+
+}  // namespace
+
+void measure_tray(TrayMemory& memory, const Configuration& configuration, std::uint64_t seed,
+                  StageObserver* observer, StageClock& clock, Measurement& measurement) {
+  const bool reversed = works_in_reverse(memory);
+  const ViewPair views = {&memory.views[reversed ? 1 : 0], &memory.views[reversed ? 0 : 1]};
+  DishMeasurementWorkspace dish = memory.dish;
+  measurement.views.reference_view = reversed ? 1 : 0;
+  Random random(seed);
+  SceneGeometry& geometry = memory.scene.front();
+  geometry = {};
+  measurement.status =
+      compare_pictures(memory.views[0].quality(), memory.views[1].quality(), configuration.view_checks,
+                       measurement.report.pictures, measurement.warnings);
+  if (!measurement.status.ok()) return;
+  measurement.status = list_dishes(views, configuration, memory.geometry, geometry);
+  if (!measurement.status.ok()) return;
+  measurement.status =
+      find_geometry(views, configuration, random, memory.geometry, clock, measurement.report, geometry);
+  if (!measurement.status.ok()) return;
+  if (observer != nullptr) {
+    observer->on_order(measurement.views.reference_view);
+    observer->on_geometry(geometry.joint, std::span(geometry.dishes).first(geometry.dish_count));
+  }
+  report_pose(geometry, reversed, measurement);
+  warn_about_angles({measurement.relative_angle_deg, measurement.rotation_angle_deg, views[0]->arm_angle_deg,
+                     views[1]->arm_angle_deg},
+                    configuration.geometry, measurement.warnings);
+  warn_about_guessed_dishes(geometry, measurement.warnings);
+  measurement.status = is_same_place(geometry)
+                           ? StatusCode::views_identical
+                           : check_angle(measurement.relative_angle_deg, configuration.geometry);
+  if (!measurement.status.ok()) return;
+  clock.enter(Stage::stereo);
+  make_matte(views, configuration.matte);
+  for (std::size_t d = 0; d < geometry.dish_count; ++d) {
+    measure_dish(views, geometry, d, configuration, dish, observer, clock, measurement);
+  }
+  if (measurement.report.dish_index >= 0) {
+    const auto index = static_cast<std::size_t>(measurement.report.dish_index);
+    measurement.views.dish_bottom =
+        measurement.views.table.raised(configuration.dishes[index].bottom_height_mm);
+  }
+  measurement.status = dish.items.empty() ? geometry.joint.dishes[0].status : summarise(dish.items.items());
+  measurement.items = dish.items.items();
+  measurement.views.surfaces = dish.surfaces.items();
+}
+
+}  // namespace traygauge

@@ -1,0 +1,18 @@
+// From two prepared views to the volumes of what lies on every dish.
+#pragma once
+
+#include <cstdint>
+
+#include "core/pipeline/measurement.hpp"
+#include "core/pipeline/stage_clock.hpp"
+#include "core/pipeline/stage_observer.hpp"
+#include "core/pipeline/tray_memory.hpp"
+
+namespace traygauge {
+
+// Fills everything but the times. The view that shows more of the dishes is worked first, so that a pair
+// measures the same bits in either order. `observer` may be null.
+void measure_tray(TrayMemory& memory, const Configuration& configuration, std::uint64_t seed,
+                  StageObserver* observer, StageClock& clock, Measurement& measurement);
+
+}  // namespace traygauge

@@ -1,0 +1,69 @@
+// Where every part of a TrayEstimator lies in its block: written once, for planning and for taking.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "core/pipeline/configuration.hpp"
+#include "core/pipeline/dish_measurement.hpp"
+#include "core/pipeline/scene_geometry.hpp"
+#include "core/pipeline/segmenter_memory.hpp"
+#include "core/pipeline/tray_view.hpp"
+
+namespace traygauge {
+
+// The card's pattern, both views and the results stay; the stages follow each other and share the memory
+// behind them.
+struct TrayMemory {
+  CardPattern pattern;
+  std::array<TrayView, 2> views;
+  std::array<ImageView<std::uint8_t>, 2>
+      found_labels;  // memory for the largest frame; none: labels are given
+  DishMeasurementWorkspace dish;
+  std::span<SceneGeometry> scene;  // one
+  TrayViewWorkspace preparation;
+  SegmenterMemory segmentation;
+  SceneGeometryWorkspace geometry;
+  std::size_t kept_bytes = 0;          // of the arena, up to where the stages share
+  std::size_t segmentation_bytes = 0;  // of what they share, that finding labels uses
+
+  template <class Allocator>
+  constexpr void allocate_kept(Allocator& arena, const Configuration& configuration) {
+    pattern.allocate(arena, configuration.card_alignment.pattern);
+    for (TrayView& view : views) view.allocate(arena, configuration.limits);
+    if (configuration.finds_labels) allocate_labels(arena, configuration.limits);
+    scene = arena.template take<SceneGeometry>(1);
+    dish.allocate_kept(arena, configuration);
+  }
+  template <class Allocator>
+  constexpr void allocate_labels(Allocator& arena, const FrameLimits& limits) {
+    for (auto& labels : found_labels)
+      labels = arena.template take_image<std::uint8_t>(limits.max_frame_width, limits.max_frame_height);
+  }
+  // The tracks are still read while dishes are measured.
+  template <class Allocator>
+  constexpr void allocate_measurement(Allocator& arena, const Configuration& configuration) {
+    geometry.allocate(arena, configuration);
+    dish.allocate(arena, configuration);
+  }
+  template <class Allocator>
+  constexpr void allocate_segmentation(Allocator& arena, const Configuration& configuration) {
+    if (configuration.finds_labels) segmentation.allocate(arena, configuration);
+  }
+  template <class Allocator>
+  constexpr void allocate(Allocator& arena, const Configuration& configuration) {
+    allocate_kept(arena, configuration);
+    kept_bytes = arena.used_bytes();
+    arena.overlay(
+        [&] {
+          allocate_segmentation(arena, configuration);
+          segmentation_bytes = arena.used_bytes() - kept_bytes;
+        },
+        [&] { preparation.allocate(arena, configuration); },
+        [&] { allocate_measurement(arena, configuration); });
+  }
+};
+
+}  // namespace traygauge

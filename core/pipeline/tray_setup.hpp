@@ -1,0 +1,46 @@
+// What an estimator is told of cameras, card and dishes, and when it refuses a pair of pictures.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "core/base/status.hpp"
+#include "core/card/card_size.hpp"
+#include "core/dish/dish_model.hpp"
+#include "core/geometry/camera.hpp"
+#include "core/image_view/image_view.hpp"
+#include "core/quality/exposure.hpp"
+#include "core/quality/view_checks.hpp"
+#include "core/quality/view_input.hpp"
+
+namespace traygauge {
+
+// The reference card. The pattern is its printed side as a grey picture, filling width × height.
+struct ReferenceCard {
+  double width_mm = 85.60;  // ISO/IEC 7810 ID-1
+  double height_mm = 53.98;
+  double thickness_mm = 0.8;  // the print lies that much above the table
+  ImageView<const std::uint8_t> pattern;
+
+  CardModelSize size() const { return {width_mm, height_mm, thickness_mm}; }
+};
+
+inline constexpr std::size_t kMaxDishCandidates = 64;
+
+struct TraySetup {
+  LensModel lens;
+  ReferenceCard card;
+  // Candidates for the only dish: the nearest by rim size and height; none near: dish_unknown. A tray with
+  // several dishes has one for each label.
+  std::span<const DishModel> dishes;
+  FrameLimits limits;
+  ExposureParams exposure;
+  ViewCheckParams view_checks;
+  ViewGeometryParams geometry;
+};
+
+// invalid_configuration when a value is not plausible. The first without a look at the dishes.
+Status validate_apart_from_dishes(const TraySetup& setup);
+Status validate(const TraySetup& setup);
+
+}  // namespace traygauge

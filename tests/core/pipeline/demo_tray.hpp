@@ -1,0 +1,47 @@
+// A capture of the demo as an estimator is given it.
+#pragma once
+
+#include <array>
+
+#include "core/pipeline/configuration.hpp"
+#include "core/pipeline/view_input.hpp"
+#include "simulator/capture/capture.hpp"
+
+namespace traygauge {
+
+class DemoTray {
+ public:
+  DemoTray() : DemoTray(read_capture(TRAYGAUGE_SOURCE_DIR "/simulator/demo/mash_and_meatballs")) {}
+
+  template <class Config = Configuration>
+  Config configuration() const {
+    Config configuration;
+    static_cast<TraySetup&>(configuration) = setup_;
+    return configuration;
+  }
+  // With its labels.
+  ViewInput view(std::size_t i) const { return {views_[i].picture.frame(), views_[i].labels.gray(), {}, {}}; }
+  // Without.
+  ViewInput bare_view(std::size_t i) const { return {views_[i].picture.frame(), {}, {}, {}}; }
+
+ private:
+  explicit DemoTray(const Capture& capture) : pattern_(load_pattern(capture.card)) {
+    for (std::size_t i = 0; i < 2; ++i) views_[i] = load_view(capture.views[i]);
+    const CameraDescription& camera = capture.views[0].camera;
+    const auto& [k1, k2, p1, p2, k3] = camera.distortion;
+    setup_.lens = {camera.size.width, camera.size.height, {}, k1, k2, p1, p2, k3};
+    setup_.lens.pinhole = {camera.fx_px, camera.fy_px, camera.cx_px, camera.cy_px};
+    setup_.card = {capture.card.width_mm, capture.card.height_mm, capture.card.thickness_mm, pattern_.gray()};
+    const DishDescription& dish = capture.dishes.front();
+    dishes_[0] = {dish.outer_size_mm, dish.rim_height_mm, dish.bottom_height_mm};
+    setup_.dishes = dishes_;
+    setup_.limits = {camera.size.width, camera.size.height};
+  }
+
+  Picture pattern_;
+  std::array<LoadedView, 2> views_;
+  std::array<DishModel, 1> dishes_;
+  TraySetup setup_;
+};
+
+}  // namespace traygauge
