@@ -5,23 +5,23 @@
 namespace traygauge {
 namespace {
 
-struct Text {
+struct StatusText {
   const char* name;
   const char* sentence;
 };
 
 #define TRAYGAUGE_TEXT(code, text) {#code, text},
-constexpr std::array<Text, kStatusCodeCount> kTexts = {{TRAYGAUGE_STATUS_CODES(TRAYGAUGE_TEXT)}};
+constexpr std::array<StatusText, kStatusCodeCount> kStatusTexts = {{TRAYGAUGE_STATUS_CODES(TRAYGAUGE_TEXT)}};
 #undef TRAYGAUGE_TEXT
 
 }  // namespace
 
 const char* name(StatusCode code) {
-  return kTexts[static_cast<std::size_t>(code)].name;
+  return kStatusTexts[static_cast<std::size_t>(code)].name;
 }
 
 const char* sentence(StatusCode code) {
-  return kTexts[static_cast<std::size_t>(code)].sentence;
+  return kStatusTexts[static_cast<std::size_t>(code)].sentence;
 }
 
 }  // namespace traygauge

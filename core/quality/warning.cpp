@@ -3,23 +3,23 @@
 namespace traygauge {
 namespace {
 
-struct Text {
+struct WarningText {
   const char* name;
   const char* sentence;
 };
 
 #define TRAYGAUGE_TEXT(code, text) {#code, text},
-constexpr std::array<Text, kWarningCount> kTexts = {{TRAYGAUGE_WARNINGS(TRAYGAUGE_TEXT)}};
+constexpr std::array<WarningText, kWarningCount> kWarningTexts = {{TRAYGAUGE_WARNINGS(TRAYGAUGE_TEXT)}};
 #undef TRAYGAUGE_TEXT
 
 }  // namespace
 
 const char* name(Warning warning) {
-  return kTexts[static_cast<std::size_t>(warning)].name;
+  return kWarningTexts[static_cast<std::size_t>(warning)].name;
 }
 
 const char* sentence(Warning warning) {
-  return kTexts[static_cast<std::size_t>(warning)].sentence;
+  return kWarningTexts[static_cast<std::size_t>(warning)].sentence;
 }
 
 }  // namespace traygauge

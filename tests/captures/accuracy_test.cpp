@@ -1,5 +1,5 @@
-// The paper's protocol over the rendered captures of one dish: no refusal, pose, scale and volume within the
-// paper's figures for its profile, and well below them for profile best.
+// The paper's protocol over the rendered captures of one dish. Bounds are what is measured (in brackets) and
+// a tenth, or twice where it is near the noise: seeds move an item by 0.1 %.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -94,9 +94,9 @@ TEST_P(CaptureAccuracy, PoseAndScale) {
       median(collect_errors(GetParam(), [](const StageErrors& e) { return e.scale_percent; }));
   std::printf("median rotation %.3f deg, direction %.3f deg, scale %.2f %%\n", rotation, direction, scale);
   const bool is_best = GetParam() == Profile::best;
-  EXPECT_LE(rotation, is_best ? 0.02 : 0.3);
-  EXPECT_LE(direction, is_best ? 0.04 : 1.0);
-  EXPECT_LE(scale, is_best ? 0.1 : 1.0);
+  EXPECT_LE(rotation, is_best ? 0.004 : 0.06);   // (0.002, 0.052)
+  EXPECT_LE(direction, is_best ? 0.008 : 0.07);  // (0.004, 0.062)
+  EXPECT_LE(scale, is_best ? 0.02 : 0.18);       // (0.01, 0.16)
 }
 
 TEST_P(CaptureAccuracy, VolumesOfHeightFieldItems) {
@@ -107,7 +107,9 @@ TEST_P(CaptureAccuracy, VolumesOfHeightFieldItems) {
               figures.estimates, figures.mape, figures.bias, figures.worst);
   EXPECT_GE(figures.items, 20);
   EXPECT_EQ(figures.refused, 0);
-  EXPECT_LE(figures.mape, is_best ? 2.5 : 8.0);
+  EXPECT_LE(figures.mape, is_best ? 1.8 : 4.7);                            // (1.65, 4.29)
+  EXPECT_LE(std::abs(figures.bias), is_best ? 0.2 : 3.9);                  // (+0.04, -3.54)
+  EXPECT_LE(std::abs(figures.worst), is_best ? 6.8 : 14.0) << "per cent";  // (-6.1, -12.7)
 }
 
 }  // namespace
