@@ -1,6 +1,7 @@
 #include "core/stereo/dense_stereo.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 #include "core/stereo/median.hpp"
@@ -32,7 +33,7 @@ DisparityRange height_range(const PlaneRectification& grid, double low_mm, doubl
 
 // The coarsest level searches all heights within one band, which range_at widens by up to three disparities.
 int most_disparities(const TwoViewSurfaceParams& params) {
-  return (kMaxBandLanes - 3) << (SurfaceLevels(params).count - 1);
+  return (kMaxBandLanes - 3) << (params.levels - 1);
 }
 
 // Coarser where views far apart would displace the highest food by more samples than can be searched.
@@ -193,33 +194,32 @@ void filter_level(TwoViewSurfaceWorkspace& workspace, std::size_t level, int rad
   }
 }
 
-// Where view `v`'s camera stands over a row of a level.
-CameraOverRow camera_over(const PlaneRectification& grid, std::size_t v, std::size_t level, int row) {
-  const double per_mm = 1.0 / (grid.column_step_mm() * static_cast<double>(1 << level));
-  const int full_row = std::min(row << level, grid.rows() - 1);
-  return {grid.row(full_row).foot_mm[v] * per_mm, grid.camera_height_mm(static_cast<int>(v)) * per_mm};
+// Where view `v`'s camera stands over a row.
+CameraOverRow camera_over(const PlaneRectification& grid, std::size_t v, int row) {
+  const double per_mm = 1.0 / grid.column_step_mm();
+  return {grid.row(row).foot_mm[v] * per_mm, grid.camera_height_mm(static_cast<int>(v)) * per_mm};
 }
 
 void fill_view(const std::array<View, 2>& views, const PlaneRectification& grid, std::size_t v,
-               std::size_t level, const GapParams& params, ImageView<Disparity> disparity) {
-  const ImageView<const std::uint8_t> labels = views[v].labels[level];
+               const GapParams& params, ImageView<Disparity> disparity) {
+  const ImageView<const std::uint8_t> labels = views[v].labels[0];
   const auto width = static_cast<std::size_t>(disparity.width);
   for (int y = 0; y < disparity.height; ++y) {
     const RowOfViews row{{labels.row(y), width},
-                         {views[1 - v].labels[level].row(y), width},
+                         {views[1 - v].labels[0].row(y), width},
                          v == 0 ? 1 : -1,
-                         camera_over(grid, v, level, y),
-                         camera_over(grid, 1 - v, level, y)};
-    const RectifiedOutlineLean outline(grid, labels, static_cast<int>(level), static_cast<int>(v), y);
+                         camera_over(grid, v, y),
+                         camera_over(grid, 1 - v, y)};
+    const RectifiedOutlineLean outline(grid, labels, static_cast<int>(v), y);
     fill_gaps(row, outline, params, {disparity.row(y), width});
   }
 }
 
 // Disparities that both views agree on, gaps filled, as real numbers for the refinement.
-void prepare_surfaces(TwoViewSurfaceWorkspace& workspace, const PlaneRectification& grid, std::size_t level,
+void prepare_surfaces(TwoViewSurfaceWorkspace& workspace, const PlaneRectification& grid,
                       const TwoViewSurfaceParams& params) {
   std::array<View, 2>& views = workspace.views;
-  const ImageView<const std::uint8_t> like = views[0].gray[level];
+  const ImageView<const std::uint8_t> like = views[0].gray[0];
   for (std::size_t v = 0; v < 2; ++v) {
     keep_consistent(as_picture(views[v].disparity, like), as_picture(views[1 - v].disparity, like),
                     v == 0 ? 1 : -1, params.consistency, as_picture(views[v].consistent, like));
@@ -227,22 +227,14 @@ void prepare_surfaces(TwoViewSurfaceWorkspace& workspace, const PlaneRectificati
   for (std::size_t v = 0; v < 2; ++v) {
     const ImageView<Disparity> filtered = as_picture(views[v].disparity, like);
     filter_median(as_picture(views[v].consistent, like), params.median_radius, filtered);
-    const ImageView<const std::uint8_t> full = views[v].labels[0];
-    const ImageView<std::uint8_t> trusted = as_picture(views[v].trusted, full);
-    for (int y = 0; y < full.height; ++y) {
-      for (int x = 0; x < full.width; ++x) {
-        trusted.at(x, y) = filtered.at(x >> level, y >> level) == kNoDisparity ? 0 : 1;
-      }
-    }
-    fill_view(views, grid, v, level, params.gaps, filtered);
+    const auto samples = static_cast<std::size_t>(like.width) * static_cast<std::size_t>(like.height);
+    for (std::size_t i = 0; i < samples; ++i) views[v].trusted[i] = filtered.data[i] == kNoDisparity ? 0 : 1;
+    fill_view(views, grid, v, params.gaps, filtered);
     extend_known(filtered);
-    const ImageView<float> surface = as_picture(views[v].surface, full);
-    const double scale = static_cast<double>(1 << level) / kDisparityScale;
-    for (int y = 0; y < full.height; ++y) {
-      for (int x = 0; x < full.width; ++x) {
-        surface.at(x, y) =
-            full.at(x, y) == 0 ? 0.0F : static_cast<float>(filtered.at(x >> level, y >> level) * scale);
-      }
+    for (std::size_t i = 0; i < samples; ++i) {
+      const bool is_labelled = views[v].labels[0].data[i] != 0;
+      views[v].surface[i] =
+          is_labelled ? static_cast<float>(filtered.data[i] * (1.0 / kDisparityScale)) : 0.0F;
     }
   }
 }
@@ -313,14 +305,14 @@ Status reconstruct_surface(const std::array<StoredView, 2>& views, const LabelTa
       build_grid(views, kept, bottom_height_mm, highest_mm, params, workspace.rows, grid, range);
   if (!built.ok()) return built;
   report = {grid.rows(), grid.columns(), grid.column_step_mm(), range, {}};
-  const auto [levels, finest] = SurfaceLevels(params);
+  assert(params.levels >= 1 && params.levels <= kMaxSurfaceLevels);
 
-  for (std::size_t v = 0; v < 2; ++v) sample_view(grid, views[v], kept, levels, workspace.views[v]);
-  for (int level = levels - 1; level >= finest; --level) {
-    match_level(workspace, static_cast<std::size_t>(level), range, level == levels - 1, params);
-    if (level > finest) filter_level(workspace, static_cast<std::size_t>(level), params.median_radius);
+  for (std::size_t v = 0; v < 2; ++v) sample_view(grid, views[v], kept, params.levels, workspace.views[v]);
+  for (int level = params.levels - 1; level >= 0; --level) {
+    match_level(workspace, static_cast<std::size_t>(level), range, level == params.levels - 1, params);
+    if (level > 0) filter_level(workspace, static_cast<std::size_t>(level), params.median_radius);
   }
-  prepare_surfaces(workspace, grid, static_cast<std::size_t>(finest), params);
+  prepare_surfaces(workspace, grid, params);
   refine_surfaces(workspace, params);
   for (std::size_t v = 0; v < 2; ++v) {
     rate_evidence(workspace.views, v, params.confirmed_px, report.confirmed[v]);

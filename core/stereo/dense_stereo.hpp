@@ -23,9 +23,9 @@ inline constexpr int kMaxSurfaceLevels = 4;
 
 struct TwoViewSurfaceParams {
   PlaneRectificationParams rectification;
-  int max_columns = 896;        // of the grid, that row buffers are kept for
-  int levels = 3;               // the coarsest searches all heights, finer ones a band about the level before
-  int finest_level = 0;         // that is matched; the refinement works at level 0 always
+  int max_columns = 896;  // of the grid, that row buffers are kept for
+  int levels = 3;  // up to kMaxSurfaceLevels; the coarsest searches all heights, finer ones a band about the
+                   // level before
   int band_lanes = 16;          // disparities of a band
   double min_height_mm = -2.0;  // below the bottom: the pose's error, and the table beside the dish
   double highest_mm = 90.0;     // no food is higher above the bottom
@@ -35,20 +35,6 @@ struct TwoViewSurfaceParams {
   ConsistencyParams consistency;
   GapParams gaps;
   SurfaceRefinementParams refinement;
-};
-
-// The pyramid that is matched, coarsest level last.
-struct SurfaceLevels {
-  int count = 1;
-  int finest = 0;
-
-  constexpr explicit SurfaceLevels(const TwoViewSurfaceParams& params)
-      : count(params.levels < 1                   ? 1
-              : params.levels > kMaxSurfaceLevels ? kMaxSurfaceLevels
-                                                  : params.levels),
-        finest(params.finest_level < 0        ? 0
-               : params.finest_level >= count ? count - 1
-                                              : params.finest_level) {}
 };
 
 // Of a level at most; halving rounds up.
@@ -81,9 +67,8 @@ struct TwoViewSurfaceWorkspace {
   template <class Allocator>
   constexpr void allocate(Allocator& arena, const TwoViewSurfaceParams& params) {
     const auto samples = static_cast<std::size_t>(params.rectification.max_samples);
-    const SurfaceLevels levels(params);
     std::size_t pyramid = 0;
-    for (int level = 0; level < levels.count; ++level)
+    for (int level = 0; level < params.levels; ++level)
       pyramid += static_cast<std::size_t>(max_level_samples(params, level));
     for (View& view : views) {
       view.gray_storage = arena.template take<std::uint8_t>(pyramid);
@@ -94,8 +79,8 @@ struct TwoViewSurfaceWorkspace {
       view.evidence = arena.template take<SurfaceEvidence>(samples);
     }
     rows = arena.template take<PlaneRow>(static_cast<std::size_t>(params.rectification.max_rows));
-    const int of_bands = max_level_samples(params, levels.finest) * params.band_lanes;
-    const int of_coarsest = max_level_samples(params, levels.count - 1) * kMaxBandLanes;
+    const int of_bands = max_level_samples(params, 0) * params.band_lanes;
+    const int of_coarsest = max_level_samples(params, params.levels - 1) * kMaxBandLanes;
     arena.overlay(
         [&] {  // matching
           for (View& view : views) {

@@ -90,20 +90,16 @@ int find_least(const std::uint16_t* sums) {
   return best;
 }
 
-// Adds the costs of the first kPaths paths to the sums of a band, or makes them the first of them.
-template <std::size_t kPaths, int kChunks>
-void add_paths(const std::array<const PathCosts<kChunks>*, 4>& paths, bool first, std::uint16_t* sums) {
+// Adds the costs of two paths to the sums of a band, or makes them the first of them.
+template <int kChunks>
+void add_paths(const PathCosts<kChunks>& a, const PathCosts<kChunks>& b, bool first, std::uint16_t* sums) {
   for (int chunk = 0; chunk < kChunks; ++chunk) {
-    WideLanes even{};
-    WideLanes odd{};
     const std::ptrdiff_t first_lane = std::ptrdiff_t{chunk} * kBandLanes;
-    for (std::size_t k = 0; k < kPaths; k += 2) {
-      // Two path costs fit a byte: twice worst cost and large penalty.
-      const auto pair = reinterpret_cast<WideLanes>(load_lanes<ByteLanes>(paths[k]->lanes + first_lane) +
-                                                    load_lanes<ByteLanes>(paths[k + 1]->lanes + first_lane));
-      even += pair & 0xff;
-      odd += pair >> 8;
-    }
+    // Two path costs fit a byte: twice worst cost and large penalty.
+    const auto pair = reinterpret_cast<WideLanes>(load_lanes<ByteLanes>(a.lanes + first_lane) +
+                                                  load_lanes<ByteLanes>(b.lanes + first_lane));
+    WideLanes even = pair & 0xff;
+    WideLanes odd = pair >> 8;
     std::uint16_t* at = sums + first_lane;
     if (!first) {
       even += load_lanes<WideLanes>(at);

@@ -14,7 +14,7 @@ constexpr int kCensusBits = 31;
 static_assert(kCensusBits + kMaxLabelPenalty <= kWorstCost);
 static_assert(kPadCost > kWorstCost + kMaxLargePenalty && kPadCost + kMaxSmallStepPenalty <= 255);
 static_assert(2 * (kWorstCost + kMaxLargePenalty) <= 255);     // two path costs are added as bytes
-static_assert(8 * (kWorstCost + kMaxLargePenalty) < 1 << 10);  // eight leave room for the lane
+static_assert(4 * (kWorstCost + kMaxLargePenalty) < 1 << 10);  // four leave room for the lane
 
 template <int kChunks>
 class Matcher {
@@ -41,10 +41,9 @@ class Matcher {
   void sweep(bool forward, ImageView<Disparity> disparity);
 
  private:
-  // Path costs of the pixels of a row, in one direction, with one pixel beyond either end.
-  Path* path_row(int which, int direction) const {
-    auto* paths = reinterpret_cast<Path*>(workspace_.paths[static_cast<std::size_t>(which)].data());
-    return paths + direction * (width_ + 2) + 1;
+  // Path costs of the pixels of a row, down its columns, with one pixel beyond either end.
+  Path* path_row(int which) const {
+    return reinterpret_cast<Path*>(workspace_.paths[static_cast<std::size_t>(which)].data()) + 1;
   }
   void load_second_row(int y);
   void compute_costs(int x, int y);
@@ -151,14 +150,8 @@ void Matcher<kChunks>::extend(const Path& before, int shift, ByteLanes large, Pa
 template <int kChunks>
 void Matcher<kChunks>::sweep_row(int y, int previous_y, int step) {
   const int parity = y & 1;
-  const int directions = params_.diagonal_paths ? 3 : 1;
-  constexpr std::array<int, 3> kSides{0, -1, 1};
-  std::array<Path*, 3> now{};
-  std::array<const Path*, 3> before{};
-  for (int k = 0; k < 3; ++k) {
-    now[static_cast<std::size_t>(k)] = path_row(parity, k);
-    before[static_cast<std::size_t>(k)] = path_row(1 - parity, k);
-  }
+  Path* now = path_row(parity);
+  const Path* before = path_row(1 - parity);
   const bool has_previous = previous_y >= 0 && previous_y < height_;
   const std::uint8_t* labels = pair_.labels[0].row(y);
   const std::uint8_t* previous_labels = has_previous ? pair_.labels[0].row(previous_y) : nullptr;
@@ -182,31 +175,20 @@ void Matcher<kChunks>::sweep_row(int y, int previous_y, int step) {
       open = true;
     }
     std::uint16_t* sums = sums_at(x, y);
-    std::array<const Path*, 4> paths{&here, &here, &here, &here};
-    for (int k = 0; k < directions; ++k) {
-      const auto i = static_cast<std::size_t>(k);
-      const int from_x = x + kSides[i];
-      Path& path = now[i][x];
-      if (has_previous && from_x >= 0 && from_x < width_ && previous_labels[from_x] != 0) {
-        extend(before[i][from_x], base - base_.at(from_x, previous_y),
-               large_penalty(x, y, from_x, previous_y), path);
-      } else {
-        start(path);
-      }
-      paths[i + 1] = &path;
-    }
-    if (directions == 3) {
-      add_paths<4>(paths, step > 0, sums);
+    Path& down = now[x];
+    if (has_previous && previous_labels[x] != 0) {
+      extend(before[x], base - base_.at(x, previous_y), large_penalty(x, y, x, previous_y), down);
     } else {
-      add_paths<2>(paths, step > 0, sums);
+      start(down);
     }
+    add_paths(here, down, step > 0, sums);
   }
 }
 
 template <int kChunks>
 void Matcher<kChunks>::sweep(bool forward, ImageView<Disparity> disparity) {
   for (int which = 0; which < 2; ++which) {
-    for (int i = -1; i < 3 * (width_ + 2) - 1; ++i) path_row(which, 0)[i].clear();
+    for (int i = -1; i <= width_; ++i) path_row(which)[i].clear();
   }
   const int step = forward ? 1 : -1;
   for (int i = 0; i < height_; ++i) {

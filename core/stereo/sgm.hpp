@@ -20,7 +20,6 @@ struct SemiGlobalParams {
   int border_penalty = 8;        // between samples of different labels
   int edge_contrast = 12;        // grey levels that halve the large penalty
   int label_penalty = 16;        // partners with different labels
-  bool diagonal_paths = false;   // eight paths instead of four: slower, and no better within bands
 };
 
 // Costs are bytes: beyond these they overflow.
@@ -42,7 +41,7 @@ struct BandedPair {
 
 struct SemiGlobalWorkspace {
   std::span<std::uint16_t> sums;                 // path costs of all pixels and disparities
-  std::array<std::span<std::uint8_t>, 2> paths;  // two rows of path costs in three directions
+  std::array<std::span<std::uint8_t>, 2> paths;  // two rows of path costs
   std::span<std::uint32_t> padded_codes;         // one row of the second picture
   std::span<std::uint8_t> padded_labels;
 
@@ -51,7 +50,7 @@ struct SemiGlobalWorkspace {
     const auto columns = static_cast<std::size_t>(max_columns) + 2;
     constexpr auto kLanes = std::size_t{kMaxBandLanes} + std::size_t{2} * kBandPadding + kBandLanes;
     sums = arena.template take<std::uint16_t>(static_cast<std::size_t>(max_states));
-    for (auto& row : paths) row = arena.template take<std::uint8_t>(3 * columns * kLanes);
+    for (auto& row : paths) row = arena.template take<std::uint8_t>(columns * kLanes);
     padded_codes = arena.template take<std::uint32_t>(columns + std::size_t{2} * kMaxBandLanes);
     padded_labels = arena.template take<std::uint8_t>(columns + std::size_t{2} * kMaxBandLanes);
   }

@@ -29,7 +29,7 @@ std::optional<int> outline_column(ImageView<const std::uint8_t> labels, std::uin
 }  // namespace
 
 Vec2 RectifiedOutlineLean::plane_mm(int row, int column) const {
-  return grid_.plane_point(scale_ * row, scale_ * column).head<2>();
+  return grid_.plane_point(row, column).head<2>();
 }
 
 Vec2 RectifiedOutlineLean::normal(int column, int side) const {
@@ -43,7 +43,7 @@ Vec2 RectifiedOutlineLean::normal(int column, int side) const {
     points[count] = plane_mm(y, *at);
     mean += points[count++];
   }
-  Vec2 outwards = side * grid_.row(std::min(scale_ * row_, grid_.rows() - 1)).direction;
+  Vec2 outwards = side * grid_.row(row_).direction;
   if (count < kLeastPoints) return outwards;
   mean /= static_cast<double>(count);
   Eigen::Matrix2d scatter = Eigen::Matrix2d::Zero();

@@ -12,10 +12,10 @@ namespace traygauge {
 
 class RectifiedOutlineLean final : public OutlineLean {
  public:
-  // `labels` as view `view` of the grid shows them at `level` of the pyramid; both must outlive this.
-  RectifiedOutlineLean(const PlaneRectification& grid, ImageView<const std::uint8_t> labels, int level,
-                       int view, int row)
-      : grid_(grid), labels_(labels), scale_(1 << level), view_(view), row_(row) {}
+  // `labels` as view `view` of the grid shows them; both must outlive this.
+  RectifiedOutlineLean(const PlaneRectification& grid, ImageView<const std::uint8_t> labels, int view,
+                       int row)
+      : grid_(grid), labels_(labels), view_(view), row_(row) {}
 
   // The normal is that of a line through the outline in the rows around.
   double at(int column, int side) const override;
@@ -26,7 +26,6 @@ class RectifiedOutlineLean final : public OutlineLean {
 
   const PlaneRectification& grid_;
   ImageView<const std::uint8_t> labels_;
-  int scale_;
   int view_;
   int row_;
 };
