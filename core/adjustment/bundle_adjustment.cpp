@@ -19,15 +19,15 @@ double information(double sigma) {
 }
 
 // As many as memory is there for.
-std::span<const PointTrack> used_tracks(const JointInput& input, const JointParams& params,
-                                        const JointWorkspace& workspace) {
+std::span<const PointTrack> used_tracks(const BundleInput& input, const BundleParams& params,
+                                        const BundleWorkspace& workspace) {
   return input.tracks.first(params.use_tracks ? std::min(input.tracks.size(), workspace.weights.size()) : 0);
 }
 
-class JointRefinement {
+class BundleAdjustment {
  public:
-  JointRefinement(const JointInput& input, const JointParams& params, JointWorkspace& workspace,
-                  JointResult& result)
+  BundleAdjustment(const BundleInput& input, const BundleParams& params, BundleWorkspace& workspace,
+                   BundleResult& result)
       : input_(input),
         params_(params),
         workspace_(workspace),
@@ -51,7 +51,7 @@ class JointRefinement {
     const TrackTrust first = tracks_.has_enough_on_dishes() ? TrackTrust::dishes : TrackTrust::all;
     for (const TrackTrust trust : {first, TrackTrust::lines, TrackTrust::consensus, TrackTrust::table}) {
       tracks_.weigh(state_.camera_from_table, result_.covariance, trust);
-      const JointState before = state_;
+      const BundleState before = state_;
       if (trust == TrackTrust::consensus && params_.use_table)
         tracks_.find_table_tracks(state_.camera_from_table, result_.covariance);
       improve(trust == TrackTrust::table ? kMinLastImprovement : kMinImprovement);
@@ -71,12 +71,12 @@ class JointRefinement {
 
  private:
   void improve(double min_improvement) {
-    const JointProblem problem(terms_, workspace_.eliminations);
+    const BundleProblem problem(terms_, workspace_.eliminations);
     LevenbergMarquardtParams search;
     search.max_iterations = params_.iterations;
     search.initial_damping = kInitialDamping;
     search.min_improvement = min_improvement;
-    result_.iterations += minimise<kJointParameters>(problem, search, state_).iterations;
+    result_.iterations += minimise<kBundleParameters>(problem, search, state_).iterations;
   }
 
   // No number of points outvotes the card's lie.
@@ -88,10 +88,10 @@ class JointRefinement {
   }
 
   bool update_covariance() {
-    const JointProblem problem(terms_, workspace_.eliminations);
-    JointProblem::Equations equations;
+    const BundleProblem problem(terms_, workspace_.eliminations);
+    BundleProblem::Equations equations;
     const double cost = problem.linearise(state_, equations);
-    result_.covariance = inverse_information<kJointParameters>(equations.hessian);
+    result_.covariance = inverse_information<kBundleParameters>(equations.hessian);
     return std::isfinite(cost) && result_.covariance.allFinite() &&
            result_.covariance.diagonal().minCoeff() > 0.0;
   }
@@ -100,13 +100,13 @@ class JointRefinement {
     const std::size_t count = std::min(input_.dishes.size(), kMaxPlacedDishes);
     std::size_t rims = 0;
     for (std::size_t i = 0; i < count; ++i) {
-      const JointDish& dish = input_.dishes[i];
-      JointDishResult& found = result_.dishes[i];
-      found.status = place_dish(dish.outlines, state_.camera_from_table, input_.focals_px, dish.candidates,
-                                params_.placement, workspace_.placement, found.placed);
+      const BundleDish& dish = input_.dishes[i];
+      BundleDishResult& found = result_.dishes[i];
+      found.status = fit_dish_pose(dish.outlines, state_.camera_from_table, input_.focals_px, dish.candidates,
+                                   params_.placement, workspace_.placement, found.placed);
       if (!found.status.ok()) continue;
       const DishModel& model = dish.candidates[static_cast<std::size_t>(found.placed.candidate)];
-      JointRim& rim = workspace_.rims[rims];
+      BundleRim& rim = workspace_.rims[rims];
       rim.outlines = dish.outlines;
       rim.prior = prior_of(model, found.placed.place.azimuth_rad, params_.placement);
       rim.step = outline_step(dish.outlines, params_.placement.max_view_points);
@@ -172,7 +172,7 @@ class JointRefinement {
     std::size_t index = 0;
     const std::size_t count = std::min(input_.dishes.size(), kMaxPlacedDishes);
     for (std::size_t i = 0; i < count && index < terms_.rims.size(); ++i) {
-      JointDishResult& dish = result_.dishes[i];
+      BundleDishResult& dish = result_.dishes[i];
       if (!dish.status.ok()) continue;
       const PlaceElimination& gone = workspace_.eliminations[index];
       PlacedDish& placed = dish.placed;
@@ -192,16 +192,17 @@ class JointRefinement {
 
   bool is_contradicted() const {
     const TermReport& dish = result_.dish_lines;
-    return dish.count >= params_.min_dish_tracks && dish.inliers < params_.min_dish_inlier_share * dish.count;
+    return dish.count >= params_.min_dish_tracks &&
+           dish.inliers < params_.min_dish_inlier_fraction * dish.count;
   }
 
-  const JointInput& input_;
-  const JointParams& params_;
-  JointWorkspace& workspace_;
-  JointResult& result_;
+  const BundleInput& input_;
+  const BundleParams& params_;
+  BundleWorkspace& workspace_;
+  BundleResult& result_;
   TrackWeighing tracks_;
-  JointTerms terms_;
-  JointState state_;
+  BundleTerms terms_;
+  BundleState state_;
   bool are_dishes_placed_ = false;
 };
 
@@ -212,11 +213,11 @@ bool is_usable(const CardPrior& card) {
 
 }  // namespace
 
-Status refine_jointly(const JointInput& input, const JointParams& params, JointWorkspace& workspace,
-                      JointResult& result) {
+Status adjust_bundle(const BundleInput& input, const BundleParams& params, BundleWorkspace& workspace,
+                     BundleResult& result) {
   result = {};
   if (!is_usable(input.cards[0]) || !is_usable(input.cards[1])) return StatusCode::card_not_found;
-  return JointRefinement(input, params, workspace, result).run();
+  return BundleAdjustment(input, params, workspace, result).run();
 }
 
 }  // namespace traygauge

@@ -20,7 +20,7 @@
 
 namespace traygauge {
 
-struct JointParams {
+struct BundleParams {
   // A card on a table: crumbs, a bent corner. Degrees about each axis, and mm on top of its thickness.
   double card_tilt_sigma_deg = 0.1;
   double card_raised_sigma_mm = 0.1;
@@ -34,23 +34,23 @@ struct JointParams {
   bool use_table = true;
   bool use_rims = true;
   TableConsensusParams table;
-  int iterations = 4;                  // of each of the four rounds of weighing and refining
-  int min_dish_tracks = 20;            // fewer tracks on dishes contradict nothing
-  double min_dish_inlier_share = 0.3;  // of them; below it the dishes moved against the card
-  DishPlacementParams placement;
+  int iterations = 4;                     // of each of the four rounds of weighing and refining
+  int min_dish_tracks = 20;               // fewer tracks on dishes contradict nothing
+  double min_dish_inlier_fraction = 0.3;  // of them; below it the dishes moved against the card
+  DishPoseParams placement;
 };
 
 // A dish to be placed. `candidates`: the one described, or all that are known.
-struct JointDish {
+struct BundleDish {
   DishOutlines outlines;
   std::span<const DishModel> candidates;
 };
 
-struct JointInput {
+struct BundleInput {
   std::array<CardPrior, 2> cards;
   Vec3 card_middle_mm = Vec3::Zero();  // of the print, in the table frame
   std::span<const PointTrack> tracks;
-  std::span<const JointDish> dishes;
+  std::span<const BundleDish> dishes;
   FocalsPx focals_px{};  // mean focal length of each stored picture
 };
 
@@ -61,19 +61,19 @@ struct TermReport {
   double rms = 0.0;  // of the inliers, px; for the card: deviations in standard deviations
 };
 
-struct JointDishResult {
-  Status status = StatusCode::rim_not_found;  // as place_dish
+struct BundleDishResult {
+  Status status = StatusCode::rim_not_found;  // as fit_dish_pose
   PlacedDish placed;                          // its covariance includes that of the cameras
   // The place's answer to a step of the cameras, so that both vary together.
   Eigen::Matrix<double, kPlaceParameters, kCameraParameters> place_by_cameras =
       Eigen::Matrix<double, kPlaceParameters, kCameraParameters>::Zero();
 };
 
-struct JointResult {
+struct BundleResult {
   TableCameras camera_from_table;  // z = 0 is the table, whatever the card lies like
-  CardLie card;
-  JointMatrix covariance = JointMatrix::Zero();          // of steps as in JointProblem
-  std::array<JointDishResult, kMaxPlacedDishes> dishes;  // in the order of the input
+  CardTilt card;
+  BundleMatrix covariance = BundleMatrix::Zero();         // of steps as in BundleProblem
+  std::array<BundleDishResult, kMaxPlacedDishes> dishes;  // in the order of the input
   TermReport cards;
   TermReport lines;       // all tracks off their epipolar lines
   TermReport dish_lines;  // those of them that are neither background nor card
@@ -83,13 +83,13 @@ struct JointResult {
   int iterations = 0;
 };
 
-struct JointWorkspace {
+struct BundleWorkspace {
   std::span<TrackWeight> weights;
   std::span<double> magnitudes;
   std::span<TableSighting> sightings;
-  std::span<JointRim> rims;
+  std::span<BundleRim> rims;
   std::span<PlaceElimination> eliminations;
-  DishPlacementWorkspace placement;
+  DishPoseWorkspace placement;
 
   // `max_outline_points`: of one dish in one view.
   template <class Allocator>
@@ -97,7 +97,7 @@ struct JointWorkspace {
     weights = arena.template take<TrackWeight>(max_tracks);
     magnitudes = arena.template take<double>(max_tracks);
     sightings = arena.template take<TableSighting>(max_tracks);
-    rims = arena.template take<JointRim>(kMaxPlacedDishes);
+    rims = arena.template take<BundleRim>(kMaxPlacedDishes);
     eliminations = arena.template take<PlaceElimination>(kMaxPlacedDishes);
     placement.allocate(arena, max_outline_points);
   }
@@ -107,7 +107,7 @@ struct JointWorkspace {
 // could not be placed carries its own status and has no say. card_not_found: an alignment that is not finite
 // or has no information; pose_contradicts_card: most of what is tracked on the dishes moved otherwise than
 // the card.
-Status refine_jointly(const JointInput& input, const JointParams& params, JointWorkspace& workspace,
-                      JointResult& result);
+Status adjust_bundle(const BundleInput& input, const BundleParams& params, BundleWorkspace& workspace,
+                     BundleResult& result);
 
 }  // namespace traygauge

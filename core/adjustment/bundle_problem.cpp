@@ -25,7 +25,7 @@ struct ViewSums {
 
 }  // namespace
 
-double JointProblem::cards_cost(const JointState& state) const {
+double BundleProblem::cards_cost(const BundleState& state) const {
   const Pose table_from_card = state.card.table_from_card(terms_.card_pivot_mm);
   double cost = terms_.lie_tilt_information * state.card.tilt_rad.squaredNorm() +
                 terms_.lie_raised_information * state.card.raised_mm * state.card.raised_mm;
@@ -37,10 +37,10 @@ double JointProblem::cards_cost(const JointState& state) const {
   return cost;
 }
 
-double JointProblem::add_cards(const JointState& state, Equations& equations) const {
+double BundleProblem::add_cards(const BundleState& state, Equations& equations) const {
   const Pose table_from_card = state.card.table_from_card(terms_.card_pivot_mm);
-  JointMatrix hessian = JointMatrix::Zero();
-  JointVector gradient = JointVector::Zero();
+  BundleMatrix hessian = BundleMatrix::Zero();
+  BundleVector gradient = BundleVector::Zero();
   hessian.diagonal().segment<2>(kLieParameter).setConstant(terms_.lie_tilt_information);
   hessian(kLieParameter + 2, kLieParameter + 2) = terms_.lie_raised_information;
   gradient.tail<3>() << terms_.lie_tilt_information * state.card.tilt_rad,
@@ -67,7 +67,7 @@ double JointProblem::add_cards(const JointState& state, Equations& equations) co
   return cards_cost(state);
 }
 
-double JointProblem::tracks_cost(const JointState& state) const {
+double BundleProblem::tracks_cost(const BundleState& state) const {
   const TrackResiduals residuals(state.camera_from_table, terms_.focals_px[1]);
   double cost = 0.0;
   for (std::size_t i = 0; i < terms_.tracks.size(); ++i) {
@@ -81,7 +81,7 @@ double JointProblem::tracks_cost(const JointState& state) const {
   return cost;
 }
 
-double JointProblem::add_tracks(const JointState& state, Equations& equations) const {
+double BundleProblem::add_tracks(const BundleState& state, Equations& equations) const {
   const TrackResiduals residuals(state.camera_from_table, terms_.focals_px[1]);
   NormalEquations<6> line;
   NormalEquations<kPairParameters> table;
@@ -113,8 +113,8 @@ double JointProblem::add_tracks(const JointState& state, Equations& equations) c
   return cost;
 }
 
-double JointProblem::rim_cost(const JointState& state, std::size_t index) const {
-  const JointRim& rim = terms_.rims[index];
+double BundleProblem::rim_cost(const BundleState& state, std::size_t index) const {
+  const BundleRim& rim = terms_.rims[index];
   const double variance = rim.point_sigma_px * rim.point_sigma_px / static_cast<double>(rim.step);
   const double squared_scale = rim.scale_px * rim.scale_px;
   double cost = rim.prior.cost(state.places[index]);
@@ -130,8 +130,8 @@ double JointProblem::rim_cost(const JointState& state, std::size_t index) const 
   return cost;
 }
 
-double JointProblem::add_rim(const JointState& state, std::size_t index, Equations& equations) const {
-  const JointRim& rim = terms_.rims[index];
+double BundleProblem::add_rim(const BundleState& state, std::size_t index, Equations& equations) const {
+  const BundleRim& rim = terms_.rims[index];
   const double variance = rim.point_sigma_px * rim.point_sigma_px / static_cast<double>(rim.step);
   const double squared_scale = rim.scale_px * rim.scale_px;
   PlaceMatrix information = rim.prior.information.asDiagonal();
@@ -170,20 +170,20 @@ double JointProblem::add_rim(const JointState& state, std::size_t index, Equatio
   return cost;
 }
 
-double JointProblem::cost(const JointState& state) const {
+double BundleProblem::cost(const BundleState& state) const {
   double cost = cards_cost(state) + tracks_cost(state);
   for (std::size_t i = 0; i < terms_.rims.size(); ++i) cost += rim_cost(state, i);
   return cost;
 }
 
-double JointProblem::linearise(const JointState& state, Equations& equations) const {
+double BundleProblem::linearise(const BundleState& state, Equations& equations) const {
   double cost = add_cards(state, equations) + add_tracks(state, equations);
   for (std::size_t i = 0; i < terms_.rims.size(); ++i) cost += add_rim(state, i, equations);
   return cost;
 }
 
-JointState JointProblem::moved(const JointState& state, const JointVector& step) const {
-  JointState next = state;
+BundleState BundleProblem::moved(const BundleState& state, const BundleVector& step) const {
+  BundleState next = state;
   next.camera_from_table = {traygauge::moved(state.camera_from_table[0], step.head<6>()),
                             traygauge::moved(state.camera_from_table[1], step.segment<6>(6))};
   next.card.tilt_rad += step.segment<2>(kLieParameter);

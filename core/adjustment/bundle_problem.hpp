@@ -21,15 +21,15 @@
 namespace traygauge {
 
 // A step of the first camera (6), of the second (6), of the card's lie (tilt 2, raised 1).
-inline constexpr int kJointParameters = 15;
+inline constexpr int kBundleParameters = 15;
 inline constexpr int kLieParameter = 12;
-using JointVector = Eigen::Matrix<double, kJointParameters, 1>;
-using JointMatrix = Eigen::Matrix<double, kJointParameters, kJointParameters>;
+using BundleVector = Eigen::Matrix<double, kBundleParameters, 1>;
+using BundleMatrix = Eigen::Matrix<double, kBundleParameters, kBundleParameters>;
 
-struct JointState {
+struct BundleState {
   TableCameras camera_from_table;
-  CardLie card;
-  std::array<DishPlace, kMaxPlacedDishes> places;
+  CardTilt card;
+  std::array<DishPose, kMaxPlacedDishes> places;
 };
 
 // How a track's residuals count: a residual r costs r²/variance / (1 + r²/scale²) (Geman and McClure). px².
@@ -42,7 +42,7 @@ struct TrackWeight {
   bool uses_table = false;
 };
 
-struct JointRim {
+struct BundleRim {
   DishOutlines outlines;
   PlacePrior prior;
   double point_sigma_px = 1.0;
@@ -58,39 +58,39 @@ struct PlaceElimination {
       Eigen::Matrix<double, kPlaceParameters, kCameraParameters>::Zero();
 };
 
-struct JointTerms {
+struct BundleTerms {
   std::array<CardPrior, 2> cards;
   Vec3 card_pivot_mm = Vec3::Zero();
   double lie_tilt_information = 0.0;
   double lie_raised_information = 0.0;
   std::span<const PointTrack> tracks;
   std::span<const TrackWeight> weights;
-  std::span<const JointRim> rims;
+  std::span<const BundleRim> rims;
   FocalsPx focals_px{};
 };
 
-class JointProblem {
+class BundleProblem {
  public:
-  using Equations = NormalEquations<kJointParameters>;
+  using Equations = NormalEquations<kBundleParameters>;
 
   // `eliminations`: one a rim, overwritten by each linearisation.
-  JointProblem(const JointTerms& terms, std::span<PlaceElimination> eliminations)
+  BundleProblem(const BundleTerms& terms, std::span<PlaceElimination> eliminations)
       : terms_(terms), eliminations_(eliminations) {}
 
-  double cost(const JointState& state) const;
-  double linearise(const JointState& state, Equations& equations) const;
+  double cost(const BundleState& state) const;
+  double linearise(const BundleState& state, Equations& equations) const;
   // After a linearisation: the dishes follow the cameras.
-  JointState moved(const JointState& state, const JointVector& step) const;
+  BundleState moved(const BundleState& state, const BundleVector& step) const;
 
  private:
-  double add_cards(const JointState& state, Equations& equations) const;
-  double add_tracks(const JointState& state, Equations& equations) const;
-  double add_rim(const JointState& state, std::size_t index, Equations& equations) const;
-  double cards_cost(const JointState& state) const;
-  double tracks_cost(const JointState& state) const;
-  double rim_cost(const JointState& state, std::size_t index) const;
+  double add_cards(const BundleState& state, Equations& equations) const;
+  double add_tracks(const BundleState& state, Equations& equations) const;
+  double add_rim(const BundleState& state, std::size_t index, Equations& equations) const;
+  double cards_cost(const BundleState& state) const;
+  double tracks_cost(const BundleState& state) const;
+  double rim_cost(const BundleState& state, std::size_t index) const;
 
-  const JointTerms& terms_;
+  const BundleTerms& terms_;
   std::span<PlaceElimination> eliminations_;
 };
 

@@ -18,7 +18,7 @@ struct CardPrior {
 
 // How the card lies against the table: turned by `tilt_rad` about the table's x and y through `pivot_mm`, the
 // middle of its print, and raised.
-struct CardLie {
+struct CardTilt {
   Vec2 tilt_rad = Vec2::Zero();
   double raised_mm = 0.0;
 

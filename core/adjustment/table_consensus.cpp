@@ -74,7 +74,7 @@ bool flag_table(std::span<TableSighting> sightings, const TableCorrection& table
     on_table += sighting.is_table ? 1 : 0;
     beside += !sighting.is_table && square <= 4.0 * squared_limit ? 1 : 0;
   }
-  const bool stands_out = on_table >= params.min_points && beside <= params.max_side_share * on_table;
+  const bool stands_out = on_table >= params.min_points && beside <= params.max_side_fraction * on_table;
   if (!stands_out) {
     for (TableSighting& sighting : sightings) sighting.is_table = false;
   }

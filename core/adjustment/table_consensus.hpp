@@ -34,7 +34,7 @@ struct TableConsensusParams {
   // The table stands out: so many points within the limit, and of those as far off again at most this share
   // of them. A tray's rim or a cloth passes through any level, with as many points beside it as on it.
   int min_points = 16;
-  double max_side_share = 0.5;
+  double max_side_fraction = 0.5;
   std::uint64_t seed = 1;
 };
 

@@ -19,7 +19,7 @@ double predicted_variance(const Eigen::Matrix<double, kSize, kSize>& covariance,
   return jacobian.dot(covariance * jacobian);
 }
 
-PairMatrix pair_covariance(const TrackResiduals& residuals, const JointMatrix& covariance) {
+PairMatrix pair_covariance(const TrackResiduals& residuals, const BundleMatrix& covariance) {
   const PairByCameras chain = residuals.by_cameras();
   const CamerasMatrix cameras = covariance.topLeftCorner<kCameraParameters, kCameraParameters>();
   const PairByCameras spread = chain.lazyProduct(cameras);
@@ -27,7 +27,7 @@ PairMatrix pair_covariance(const TrackResiduals& residuals, const JointMatrix& c
 }
 
 // Of the table against z = 0: height at the card's middle and slopes.
-Mat3 table_covariance(const Pose& first, const Vec3& card_middle_mm, const JointMatrix& covariance) {
+Mat3 table_covariance(const Pose& first, const Vec3& card_middle_mm, const BundleMatrix& covariance) {
   const Vec3 up = first.rotation.col(2);
   Eigen::Matrix<double, 3, 6> by_camera;
   const Vec3 middle = first.rotation * card_middle_mm;
@@ -50,7 +50,7 @@ double TrackWeighing::stated_variance(const PointTrack& track) const {
   return sigma_px * sigma_px;
 }
 
-void TrackWeighing::weigh(const TableCameras& camera_from_table, const JointMatrix& covariance,
+void TrackWeighing::weigh(const TableCameras& camera_from_table, const BundleMatrix& covariance,
                           TrackTrust trust) {
   const TrackResiduals residuals(camera_from_table, input_.focals_px[1]);
   const PairMatrix pair = pair_covariance(residuals, covariance);
@@ -91,7 +91,7 @@ void TrackWeighing::weigh(const TableCameras& camera_from_table, const JointMatr
   }
 }
 
-void TrackWeighing::find_table_tracks(const TableCameras& camera_from_table, const JointMatrix& covariance) {
+void TrackWeighing::find_table_tracks(const TableCameras& camera_from_table, const BundleMatrix& covariance) {
   const TrackResiduals residuals(camera_from_table, input_.focals_px[1]);
   const Mat6 motion = pair_covariance(residuals, covariance).topLeftCorner<6, 6>();
   const Pose table_from_first = camera_from_table[0].inverse();

@@ -28,14 +28,14 @@ enum class TrackTrust : std::uint8_t {
 class TrackWeighing {
  public:
   // Weights go to `workspace.weights`, one for each of `tracks`.
-  TrackWeighing(const JointInput& input, std::span<const PointTrack> tracks, const JointParams& params,
-                JointWorkspace& workspace)
+  TrackWeighing(const BundleInput& input, std::span<const PointTrack> tracks, const BundleParams& params,
+                BundleWorkspace& workspace)
       : input_(input), tracks_(tracks), params_(params), workspace_(workspace) {}
 
   // Weighs all tracks anew, by their residuals and by how well the cameras are known by now.
-  void weigh(const TableCameras& camera_from_table, const JointMatrix& covariance, TrackTrust trust);
+  void weigh(const TableCameras& camera_from_table, const BundleMatrix& covariance, TrackTrust trust);
   // Leaves the table's weight to those tracks only that agree about it.
-  void find_table_tracks(const TableCameras& camera_from_table, const JointMatrix& covariance);
+  void find_table_tracks(const TableCameras& camera_from_table, const BundleMatrix& covariance);
   void drop_table() { is_table_found_ = false; }
 
   bool is_table_found() const { return is_table_found_; }
@@ -47,10 +47,10 @@ class TrackWeighing {
   void measure_noise(const TrackResiduals& residuals, const Mat6& motion);
   void measure_table_spread(const TrackResiduals& residuals);
 
-  const JointInput& input_;
+  const BundleInput& input_;
   std::span<const PointTrack> tracks_;
-  const JointParams& params_;
-  JointWorkspace& workspace_;
+  const BundleParams& params_;
+  BundleWorkspace& workspace_;
   bool is_table_found_ = false;
   double noise_factor_ = 1.0;
   double table_spread_ = 1.0;  // of the table's tracks about it, in their standard deviations

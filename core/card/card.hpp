@@ -34,11 +34,11 @@ enum class CardModel : std::uint8_t {
 
 struct CardDetectionParams {
   CardModel model = CardModel::homography;
-  double inlier_share = 0.03;      // inlier distance on the pattern, as a share of the card's length (paper)
+  double inlier_fraction = 0.03;   // inlier distance on the pattern, as a share of the card's length (paper)
   int min_tracks = 8;              // fewer inliers are no card: four fit any homography, four more confirm it
   double max_false_alarms = 1e-2;  // expected number of homographies as good among random matches
-  double min_spread_share = 0.05;  // least standard deviation of the inliers' places, of the card's length
-  double min_triangle_share = 0.002;  // flattest triangle of a sample, of the card's area
+  double min_spread_fraction = 0.05;  // least standard deviation of the inliers' places, of the card's length
+  double min_triangle_fraction = 0.002;  // flattest triangle of a sample, of the card's area
   double max_skew = 0.2;  // how far the sides' lengths and angle may be off those of a rigid card (0: exact)
   double min_tilt_cosine = 0.17;   // between the card's normal and the view: 80 degrees, print unreadable
   double min_distance_mm = 100.0;  // of the card from the camera

@@ -183,13 +183,13 @@ Status align_card(ImageView<const std::uint8_t> gray, ImageView<const std::uint8
   const CardCorrelation correlation =
       refinement.correlate_inliers(candidate.state, level, CardSampling::quarter);
   alignment.correlation = correlation.correlation;
-  alignment.inlier_share = static_cast<double>(correlation.inliers) / std::max(1, correlation.samples);
-  alignment.visible_share = picture.labelled_pixels() / refinement.projected_px2(pose);
+  alignment.inlier_fraction = static_cast<double>(correlation.inliers) / std::max(1, correlation.samples);
+  alignment.visible_fraction = picture.labelled_pixels() / refinement.projected_px2(pose);
   alignment.rms_gray = candidate.state.spread_gray;
   alignment.gain = candidate.state.tone[0];
   alignment.blur_px = refinement.blur_px(pose, level);
-  const bool is_seen =
-      alignment.correlation >= params.min_correlation && alignment.visible_share >= params.min_visible_share;
+  const bool is_seen = alignment.correlation >= params.min_correlation &&
+                       alignment.visible_fraction >= params.min_visible_fraction;
   return is_seen ? StatusCode::ok : StatusCode::card_not_found;
 }
 

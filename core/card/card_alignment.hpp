@@ -45,18 +45,18 @@ struct CardAlignmentParams {
   int max_samples = 32'000;  // of the fine stage; of a larger card every second row, and so on
 
   double min_correlation = 0.4;  // of print and picture; faint prints reach 0.45, wrong places stay below 0.3
-  double min_visible_share = 0.5;  // of the card
+  double min_visible_fraction = 0.5;  // of the card
 };
 
 struct CardAlignment {
   Pose camera_from_table;                                 // mm
   PoseInformation information = PoseInformation::Zero();  // of a step as in `moved`, 1 / (rad, mm)²
   double correlation = 0.0;                               // of print and picture, over the inliers
-  double inlier_share = 0.0;                              // of the visible card: what no fork or glare hides
-  double visible_share = 0.0;  // of the card: labelled pixels over those of the whole
-  double rms_gray = 0.0;       // robust standard deviation of the residuals
-  double gain = 0.0;           // of the picture's grey values over the print's
-  double blur_px = 0.0;        // of the print, where it fits best
+  double inlier_fraction = 0.0;                           // of the visible card: what no fork or glare hides
+  double visible_fraction = 0.0;  // of the card: labelled pixels over those of the whole
+  double rms_gray = 0.0;          // robust standard deviation of the residuals
+  double gain = 0.0;              // of the picture's grey values over the print's
+  double blur_px = 0.0;           // of the print, where it fits best
 };
 
 struct CardAlignmentWorkspace {

@@ -77,7 +77,7 @@ bool draw_hypothesis(std::span<const CardTrack> tracks, const CardModelSize& siz
     rays[k] = tracks[sample[k]].first;
     pattern[k] = tracks[sample[k]].pattern_mm;
   }
-  if (!is_good_sample(rays, pattern, params.min_triangle_share * size.area_mm2())) return false;
+  if (!is_good_sample(rays, pattern, params.min_triangle_fraction * size.area_mm2())) return false;
   if (!homography_from_four(rays, pattern, pattern_from_ray)) return false;
   return params.model == CardModel::homography || make_rigid(pattern_from_ray);
 }
@@ -126,7 +126,7 @@ Status find_card(std::span<const CardTrack> tracks, const CardModelSize& size, c
       std::max<std::size_t>(kCornerSample, static_cast<std::size_t>(params.detection.min_tracks))) {
     return StatusCode::card_not_found;
   }
-  const double inlier_mm = params.detection.inlier_share * size.length_mm();
+  const double inlier_mm = params.detection.inlier_fraction * size.length_mm();
   Consensus best;
   IterationBound bound(params.detection.confidence, params.detection.min_iterations,
                        params.detection.max_iterations);
@@ -151,7 +151,7 @@ Status find_card(std::span<const CardTrack> tracks, const CardModelSize& size, c
   fit.log10_false_alarms = log10_false_alarms(tracks, inliers, inlier_mm, size);
   const bool is_chance = fit.log10_false_alarms > std::log10(params.detection.max_false_alarms);
   const bool is_crowded =
-      least_spread_mm(tracks, inliers) < params.detection.min_spread_share * size.length_mm();
+      least_spread_mm(tracks, inliers) < params.detection.min_spread_fraction * size.length_mm();
   if (is_chance || is_crowded || !is_view_of_card(fit.pattern_from_first, size, params.detection)) {
     return StatusCode::card_not_found;
   }

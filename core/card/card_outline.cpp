@@ -98,7 +98,7 @@ bool remove_cheapest_side(std::span<Vec2> hull) {
   if (count == 0) return false;
   double least = std::numeric_limits<double>::infinity();
   std::size_t cheapest = 0;
-  Vec2 joint = Vec2::Zero();
+  Vec2 bundle = Vec2::Zero();
   for (std::size_t i = 0; i < count; ++i) {
     const Vec2& before = hull[(i + count - 1) % count];
     const Vec2& begin = hull[i];
@@ -111,10 +111,10 @@ bool remove_cheapest_side(std::span<Vec2> hull) {
     if (added < -kFlat || added >= least) continue;
     least = std::max(added, 0.0);
     cheapest = i;
-    joint = crossing;
+    bundle = crossing;
   }
   if (!std::isfinite(least)) return false;
-  hull[cheapest] = joint;
+  hull[cheapest] = bundle;
   const std::size_t gone = (cheapest + 1) % count;
   std::move(hull.begin() + static_cast<std::ptrdiff_t>(gone) + 1, hull.end(),
             hull.begin() + static_cast<std::ptrdiff_t>(gone));
@@ -124,7 +124,7 @@ bool remove_cheapest_side(std::span<Vec2> hull) {
 struct SideFit {
   double near = 0.0;  // in rays, as inlier
   double inlier = 0.0;
-  double corner_share = 0.0;
+  double corner_fraction = 0.0;
   int rounds = 0;
 };
 
@@ -143,7 +143,7 @@ bool fit_side(std::span<const Vec2> points, const Vec2& begin, const Vec2& end, 
       const Vec2 offset = point - begin;
       const double along = line.direction.dot(offset);
       const double away = normal.dot(point - line.point);
-      if (along < fit.corner_share * length || along > (1.0 - fit.corner_share) * length) continue;
+      if (along < fit.corner_fraction * length || along > (1.0 - fit.corner_fraction) * length) continue;
       if (std::abs(away) > fit.near) continue;
       const double weight = 1.0 / (1.0 + away * away / (fit.inlier * fit.inlier));
       weights += weight;
@@ -204,7 +204,7 @@ Status find_card_outline(ImageView<const std::uint8_t> labels, const PixelBox& b
   }
   if (hull.size() < 4) return StatusCode::card_not_found;
   const double px = 1.0 / lens.pinhole.mean_focal_px();
-  const SideFit fit{params.near_px * px, params.inlier_px * px, params.corner_share, params.fit_rounds};
+  const SideFit fit{params.near_px * px, params.inlier_px * px, params.corner_fraction, params.fit_rounds};
   std::array<Line, 4> sides;
   for (std::size_t i = 0; i < 4; ++i) {
     const Vec2& end = hull[(i + 1) % 4];

@@ -14,11 +14,11 @@
 namespace traygauge {
 
 struct CardOutlineParams {
-  int max_points = 2048;       // of the outline, two a row and two a column; more rows are skipped
-  int min_side_px = 16;        // of the labelled box; less shows no print
-  double near_px = 2.5;        // points that may belong to a side: labels are true to a pixel or two
-  double inlier_px = 0.7;      // of Cauchy's weights, with which a side is fitted
-  double corner_share = 0.05;  // of a side, left out at both ends: labels are round there
+  int max_points = 2048;          // of the outline, two a row and two a column; more rows are skipped
+  int min_side_px = 16;           // of the labelled box; less shows no print
+  double near_px = 2.5;           // points that may belong to a side: labels are true to a pixel or two
+  double inlier_px = 0.7;         // of Cauchy's weights, with which a side is fitted
+  double corner_fraction = 0.05;  // of a side, left out at both ends: labels are round there
   int fit_rounds = 4;
 };
 

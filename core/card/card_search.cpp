@@ -22,7 +22,7 @@ bool agrees(const CardSearchMatch& a, const CardSearchMatch& b, const CardSearch
     return false;
   const Vec2 away = a.px_per_mm * turned_by(b.pattern_mm - a.pattern_mm, a.turn);
   const Vec2 off_px = b.pixel - a.pixel - away;
-  const double reach_px = params.near_px + params.reach_share * away.norm();
+  const double reach_px = params.near_px + params.reach_fraction * away.norm();
   return off_px.squaredNorm() <= reach_px * reach_px;
 }
 
@@ -155,7 +155,7 @@ class CardSearch {
   // all others: of the print's corners that may lie there, it shows the one that it differs from least.
   Status fit_all_about(const Excerpt& excerpt, const CardSearchMatch& seed, const ComparedCorners& compared) {
     const double card_mm = std::hypot(size_.width_mm, size_.height_mm);
-    const double reach_px = params_.near_px + (1.0 + params_.reach_share) * seed.px_per_mm * card_mm;
+    const double reach_px = params_.near_px + (1.0 + params_.reach_fraction) * seed.px_per_mm * card_mm;
     track_count_ = 0;
     for (const Corner& corner : compared.corners) {
       const Vec2 pixel(corner.x, corner.y);
@@ -204,7 +204,7 @@ class CardSearch {
     const Vec2 away_px = seed.px_per_mm * turned_by(middle_mm - seed.pattern_mm, seed.turn);
     const Vec2 middle_px = excerpt.stored(seed.pixel + away_px);
     const double reach_px = (params_.near_px + params_.max_scale_ratio * seed.px_per_mm * middle_mm.norm() +
-                             params_.reach_share * away_px.norm()) /
+                             params_.reach_fraction * away_px.norm()) /
                             scale;
     const auto within = [](double value, int size) {
       return static_cast<int>(std::clamp(value, 0.0, static_cast<double>(size)));

@@ -42,7 +42,7 @@ struct CardSearchParams {
   // How far a corner may lie from where another one's turn and scale put it, and of their distance: a tilt of
   // 35 degrees shortens by a fifth.
   double near_px = 2.0;
-  double reach_share = 0.22;
+  double reach_fraction = 0.22;
   double min_turn_cosine = 0.8;  // between the turns of two corners of one card
   double max_scale_ratio = 1.4;  // … their scales
   int max_seeds = 120;           // of the clearest matches, each of which may say where the card lies

@@ -22,11 +22,11 @@ double information(double sigma) {
 }
 
 // About a described dish, as far as the choice would let another differ from it.
-PlacePrior prior_of_measurement(const DishPlace& described, const DishPlacementParams& params) {
+PlacePrior prior_of_measurement(const DishPose& described, const DishPoseParams& params) {
   return loose_prior(described, params.choice.height_tolerance_mm, params.choice.size_tolerance_mm, params);
 }
 
-int choose_candidate(std::span<const DishModel> candidates, const DishPlace& measured,
+int choose_candidate(std::span<const DishModel> candidates, const DishPose& measured,
                      const DishChoiceParams& params) {
   std::array<DishCandidate, kMaxCandidates> known{};
   const std::size_t count = std::min(candidates.size(), kMaxCandidates);
@@ -37,8 +37,8 @@ int choose_candidate(std::span<const DishModel> candidates, const DishPlace& mea
 }
 
 // The start for a known dish: its own size, turned so that its axes lie as measured.
-DishPlace start_of(const DishModel& model, const DishPlace& measured) {
-  DishPlace start = measured;
+DishPose start_of(const DishModel& model, const DishPose& measured) {
+  DishPose start = measured;
   start.size_mm = model.outer_size_mm;
   const bool is_across =
       (model.outer_size_mm[0] < model.outer_size_mm[1]) != (measured.size_mm[0] < measured.size_mm[1]);
@@ -64,10 +64,10 @@ void invert_information(const NormalEquations<kPlaceParameters>& equations, Plac
 // Of the points further than `scale_px` off the outline, those between the edge itself and the edge let down
 // to the table.
 int count_on_wall(const DishOutlines& outlines, const TableCameras& cameras, const FocalsPx& focals_px,
-                  const DishPlace& place, std::size_t step, double scale_px) {
-  DishPlace sharp = place;
+                  const DishPose& place, std::size_t step, double scale_px) {
+  DishPose sharp = place;
   sharp.edge_drop_mm = 0.0;
-  DishPlace let_down = place;
+  DishPose let_down = place;
   let_down.edge_drop_mm = place.edge_height_mm;
   int count = 0;
   for (std::size_t view = 0; view < 2; ++view) {
@@ -86,10 +86,10 @@ int count_on_wall(const DishOutlines& outlines, const TableCameras& cameras, con
   return count;
 }
 
-class DishPlacement {
+class DishPoseFit {
  public:
-  DishPlacement(const DishOutlines& outlines, const TableCameras& cameras, const FocalsPx& focals_px,
-                const DishPlacementParams& params, DishPlacementWorkspace& workspace)
+  DishPoseFit(const DishOutlines& outlines, const TableCameras& cameras, const FocalsPx& focals_px,
+              const DishPoseParams& params, DishPoseWorkspace& workspace)
       : outlines_(outlines),
         cameras_(cameras),
         focals_px_(focals_px),
@@ -101,10 +101,10 @@ class DishPlacement {
   }
 
   Status place(std::span<const DishModel> candidates, PlacedDish& placed) {
-    DishPlace best;
+    DishPose best;
     double best_cost = kUnseenPlace;
     for (const DishModel& model : candidates) {
-      DishPlace place;
+      DishPose place;
       if (!guess_place(outlines_, cameras_, edge_height_mm(model), step_, workspace_, place)) continue;
       place = start_of(model, place);
       place.edge_drop_mm = params_.edge_drop_mm;
@@ -127,7 +127,7 @@ class DishPlacement {
  private:
   // The dish as it is described, from wide to narrow. Held at its size and height it withstands many wrong
   // points, which a freer one would stretch towards. Returns the cost at the narrow end.
-  double fit_described(const DishModel& model, DishPlace& place) {
+  double fit_described(const DishModel& model, DishPose& place) {
     PlacePrior prior = prior_of(model, place.azimuth_rad, params_);
     prior.information.segment<3>(kPlaceHeight) *= kHold;
     double cost = kUnseenPlace;
@@ -137,10 +137,10 @@ class DishPlacement {
 
   // What the outlines say themselves: from there, given the freedom to be another dish. A described dish that
   // does not fit leaves a large scale behind, and with it a long reach.
-  void measure(const DishPlace& described, PlacedDish& placed) {
+  void measure(const DishPose& described, PlacedDish& placed) {
     const PlacePrior prior = prior_of_measurement(described, params_);
     OutlineFit unused;
-    DishPlacementParams reaching = params_;
+    DishPoseParams reaching = params_;
     reaching.max_robust_scale_px = params_.first_robust_scales_px[0];
     double scale_px =
         robust_scale_px(outlines_, cameras_, focals_px_, described, reaching, workspace_, unused);
@@ -156,25 +156,25 @@ class DishPlacement {
     const double scale_px =
         robust_scale_px(outlines_, cameras_, focals_px_, placed.measured, params_, workspace_, placed.fit);
     fit(prior, scale_px, placed.place);
-    const PlacementProblem problem(outlines_, cameras_, focals_px_, prior, params_.point_sigma_px, scale_px,
-                                   step_);
+    const DishPoseProblem problem(outlines_, cameras_, focals_px_, prior, params_.point_sigma_px, scale_px,
+                                  step_);
     NormalEquations<kPlaceParameters> equations;
     problem.linearise(placed.place, equations);
     invert_information(equations, placed.covariance);
     placed.fit = fit_of_outlines(outlines_, cameras_, focals_px_, placed.place, params_, workspace_);
   }
 
-  double fit(const PlacePrior& prior, double scale_px, DishPlace& place) const {
-    const PlacementProblem problem(outlines_, cameras_, focals_px_, prior, params_.point_sigma_px, scale_px,
-                                   step_);
+  double fit(const PlacePrior& prior, double scale_px, DishPose& place) const {
+    const DishPoseProblem problem(outlines_, cameras_, focals_px_, prior, params_.point_sigma_px, scale_px,
+                                  step_);
     return minimise<kPlaceParameters>(problem, search_, place).cost;
   }
 
   const DishOutlines& outlines_;
   const TableCameras& cameras_;
   const FocalsPx& focals_px_;
-  const DishPlacementParams& params_;
-  DishPlacementWorkspace& workspace_;
+  const DishPoseParams& params_;
+  DishPoseWorkspace& workspace_;
   std::size_t step_;
   LevenbergMarquardtParams search_;
 };
@@ -182,7 +182,7 @@ class DishPlacement {
 }  // namespace
 
 bool guess_place(const DishOutlines& outlines, const TableCameras& cameras, double height_mm,
-                 std::size_t step, DishPlacementWorkspace& workspace, DishPlace& place) {
+                 std::size_t step, DishPoseWorkspace& workspace, DishPose& place) {
   workspace.points_mm.clear();
   for (std::size_t view = 0; view < 2; ++view) {
     const Vec3 centre_mm = camera_centre_mm(cameras[view]);
@@ -203,8 +203,8 @@ bool guess_place(const DishOutlines& outlines, const TableCameras& cameras, doub
   return as_vector(place).allFinite();
 }
 
-PlacePrior loose_prior(const DishPlace& place, double height_sigma_mm, double size_sigma_mm,
-                       const DishPlacementParams& params) {
+PlacePrior loose_prior(const DishPose& place, double height_sigma_mm, double size_sigma_mm,
+                       const DishPoseParams& params) {
   PlacePrior prior{as_vector(place), PlaceVector::Zero()};
   prior.information[kPlaceAzimuth] = information(kLooseAzimuthSigmaRad);
   prior.information[kPlaceHeight] = information(height_sigma_mm);
@@ -214,15 +214,14 @@ PlacePrior loose_prior(const DishPlace& place, double height_sigma_mm, double si
 }
 
 bool contradicts(const DishOutlines& outlines, const TableCameras& cameras, const FocalsPx& focals_px,
-                 const DishPlace& place, const DishPlacementParams& params,
-                 DishPlacementWorkspace& workspace) {
+                 const DishPose& place, const DishPoseParams& params, DishPoseWorkspace& workspace) {
   for (std::size_t view = 0; view < 2; ++view) {
     if (outlines[view].size() < static_cast<std::size_t>(params.min_view_points)) continue;
     DishOutlines alone;
     alone[view] = outlines[view];
     OutlineFit fit;
     robust_scale_px(alone, cameras, focals_px, place, params, workspace, fit);
-    if (fit.inliers < params.min_inlier_share * fit.points || fit.rms_px > params.max_rms_px) return true;
+    if (fit.inliers < params.min_inlier_fraction * fit.points || fit.rms_px > params.max_rms_px) return true;
   }
   return false;
 }
@@ -231,7 +230,7 @@ double edge_height_mm(const DishModel& model) {
   return model.profile_size > 0 ? model.profile_points[0].height_mm : model.rim_height_mm;
 }
 
-PlacePrior prior_of(const DishModel& model, double azimuth_rad, const DishPlacementParams& params) {
+PlacePrior prior_of(const DishModel& model, double azimuth_rad, const DishPoseParams& params) {
   PlacePrior prior;
   prior.mean[kPlaceAzimuth] = azimuth_rad;
   const bool is_round = std::abs(model.outer_size_mm[0] - model.outer_size_mm[1]) < kRoundMm;
@@ -246,8 +245,8 @@ PlacePrior prior_of(const DishModel& model, double azimuth_rad, const DishPlacem
 }
 
 double robust_scale_px(const DishOutlines& outlines, const TableCameras& cameras, const FocalsPx& focals_px,
-                       const DishPlace& place, const DishPlacementParams& params,
-                       DishPlacementWorkspace& workspace, OutlineFit& fit) {
+                       const DishPose& place, const DishPoseParams& params, DishPoseWorkspace& workspace,
+                       OutlineFit& fit) {
   const std::size_t step = outline_step(outlines, params.max_view_points);
   std::size_t count = 0;
   fit = {};
@@ -277,8 +276,8 @@ double robust_scale_px(const DishOutlines& outlines, const TableCameras& cameras
 }
 
 OutlineFit fit_of_outlines(const DishOutlines& outlines, const TableCameras& cameras,
-                           const FocalsPx& focals_px, const DishPlace& place,
-                           const DishPlacementParams& params, DishPlacementWorkspace& workspace) {
+                           const FocalsPx& focals_px, const DishPose& place, const DishPoseParams& params,
+                           DishPoseWorkspace& workspace) {
   OutlineFit fit;
   const double scale_px = robust_scale_px(outlines, cameras, focals_px, place, params, workspace, fit);
   const std::size_t step = outline_step(outlines, params.max_view_points);
@@ -286,15 +285,15 @@ OutlineFit fit_of_outlines(const DishOutlines& outlines, const TableCameras& cam
   return fit;
 }
 
-Status place_dish(const DishOutlines& outlines, const TableCameras& cameras, const FocalsPx& focals_px,
-                  std::span<const DishModel> candidates, const DishPlacementParams& params,
-                  DishPlacementWorkspace& workspace, PlacedDish& placed) {
+Status fit_dish_pose(const DishOutlines& outlines, const TableCameras& cameras, const FocalsPx& focals_px,
+                     std::span<const DishModel> candidates, const DishPoseParams& params,
+                     DishPoseWorkspace& workspace, PlacedDish& placed) {
   placed = {};
   const std::size_t points = outlines[0].size() + outlines[1].size();
   if (points < static_cast<std::size_t>(params.min_points)) return StatusCode::rim_not_found;
   if (candidates.empty()) return StatusCode::dish_unknown;
 
-  return DishPlacement(outlines, cameras, focals_px, params, workspace).place(candidates, placed);
+  return DishPoseFit(outlines, cameras, focals_px, params, workspace).place(candidates, placed);
 }
 
 }  // namespace traygauge

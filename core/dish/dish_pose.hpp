@@ -17,7 +17,7 @@
 
 namespace traygauge {
 
-struct DishPlacementParams {
+struct DishPoseParams {
   // Of one outline point. Label outlines are right to about half a pixel, and wrong the same way over about
   // four points of DishOutlineParams: together they count as one.
   double point_sigma_px = 1.0;
@@ -32,12 +32,12 @@ struct DishPlacementParams {
   // The upright side of the edge: between a knife's edge and a thick rim.
   double edge_drop_mm = 1.0;
   double edge_drop_sigma_mm = 1.0;
-  int max_view_points = 120;      // that are read of each outline
-  int min_points = 24;            // in both views together
-  int min_view_points = 8;        // a view with fewer has no say
-  double min_inlier_share = 0.5;  // of each view's points on the outline found; fewer contradict it
-  double max_rms_px = 3.0;        // of those
-  int iterations = 12;            // for each robust scale
+  int max_view_points = 120;         // that are read of each outline
+  int min_points = 24;               // in both views together
+  int min_view_points = 8;           // a view with fewer has no say
+  double min_inlier_fraction = 0.5;  // of each view's points on the outline found; fewer contradict it
+  double max_rms_px = 3.0;           // of those
+  int iterations = 12;               // for each robust scale
   DishChoiceParams choice;
 };
 
@@ -48,18 +48,18 @@ struct OutlineFit {
   int on_wall = 0;
   double rms_px = 0.0;  // of the inliers
 
-  double explained_share() const { return static_cast<double>(inliers + on_wall) / std::max(1, points); }
+  double explained_fraction() const { return static_cast<double>(inliers + on_wall) / std::max(1, points); }
 };
 
 struct PlacedDish {
   int candidate = -1;  // which of the described dishes
-  DishPlace place;
+  DishPose place;
   PlaceMatrix covariance = PlaceMatrix::Zero();  // with the cameras taken for exact
-  DishPlace measured;                            // size and height as the outlines show them
+  DishPose measured;                             // size and height as the outlines show them
   OutlineFit fit;
 };
 
-struct DishPlacementWorkspace {
+struct DishPoseWorkspace {
   BoundedList<Vec3> points_mm;
   std::span<double> magnitudes_px;
 
@@ -73,38 +73,37 @@ struct DishPlacementWorkspace {
 // The ellipse through both outlines laid on the level `height_mm`; of every `step` points one is read. False
 // when they lie on none.
 bool guess_place(const DishOutlines& outlines, const TableCameras& cameras, double height_mm,
-                 std::size_t step, DishPlacementWorkspace& workspace, DishPlace& place);
+                 std::size_t step, DishPoseWorkspace& workspace, DishPose& place);
 
 // The height of the edge that the outline shows.
 double edge_height_mm(const DishModel& model);
 
 // The prior of a dish of this kind, about whose azimuth nothing is known unless it is round.
-PlacePrior prior_of(const DishModel& model, double azimuth_rad, const DishPlacementParams& params);
+PlacePrior prior_of(const DishModel& model, double azimuth_rad, const DishPoseParams& params);
 
 // About a measured place, about whose azimuth little is known.
-PlacePrior loose_prior(const DishPlace& place, double height_sigma_mm, double size_sigma_mm,
-                       const DishPlacementParams& params);
+PlacePrior loose_prior(const DishPose& place, double height_sigma_mm, double size_sigma_mm,
+                       const DishPoseParams& params);
 
 // Whether one of the views that have a say contradicts the place found.
 bool contradicts(const DishOutlines& outlines, const TableCameras& cameras, const FocalsPx& focals_px,
-                 const DishPlace& place, const DishPlacementParams& params,
-                 DishPlacementWorkspace& workspace);
+                 const DishPose& place, const DishPoseParams& params, DishPoseWorkspace& workspace);
 
 // The robust scale for these outlines about this place; and, into `fit`, how well they agree.
 double robust_scale_px(const DishOutlines& outlines, const TableCameras& cameras, const FocalsPx& focals_px,
-                       const DishPlace& place, const DishPlacementParams& params,
-                       DishPlacementWorkspace& workspace, OutlineFit& fit);
+                       const DishPose& place, const DishPoseParams& params, DishPoseWorkspace& workspace,
+                       OutlineFit& fit);
 
 // The same, and how many of the other points lie on a wall below the edge.
 OutlineFit fit_of_outlines(const DishOutlines& outlines, const TableCameras& cameras,
-                           const FocalsPx& focals_px, const DishPlace& place,
-                           const DishPlacementParams& params, DishPlacementWorkspace& workspace);
+                           const FocalsPx& focals_px, const DishPose& place, const DishPoseParams& params,
+                           DishPoseWorkspace& workspace);
 
 // Places the dish at given cameras. rim_not_found: too few points, or they lie on no ellipse;
 // labels_inconsistent: no dish has both outlines; dish_unknown: the dish that has them is none of the
 // candidates (`placed.measured` says what it is).
-Status place_dish(const DishOutlines& outlines, const TableCameras& cameras, const FocalsPx& focals_px,
-                  std::span<const DishModel> candidates, const DishPlacementParams& params,
-                  DishPlacementWorkspace& workspace, PlacedDish& placed);
+Status fit_dish_pose(const DishOutlines& outlines, const TableCameras& cameras, const FocalsPx& focals_px,
+                     std::span<const DishModel> candidates, const DishPoseParams& params,
+                     DishPoseWorkspace& workspace, PlacedDish& placed);
 
 }  // namespace traygauge

@@ -29,19 +29,19 @@ struct PlacePrior {
   PlaceVector mean = PlaceVector::Zero();
   PlaceVector information = PlaceVector::Zero();  // 1 / variance
 
-  double cost(const DishPlace& place) const { return information.dot((as_vector(place) - mean).cwiseAbs2()); }
+  double cost(const DishPose& place) const { return information.dot((as_vector(place) - mean).cwiseAbs2()); }
 };
 
 // Cost of a place that a ray of its outline cannot see.
 inline constexpr double kUnseenPlace = 1e30;
 
 // `step`: of so many points of the outline one is read, for all.
-class PlacementProblem {
+class DishPoseProblem {
  public:
   using Equations = NormalEquations<kPlaceParameters>;
 
-  PlacementProblem(const DishOutlines& outlines, const TableCameras& cameras, const FocalsPx& focals_px,
-                   const PlacePrior& prior, double sigma_px, double scale_px, std::size_t step)
+  DishPoseProblem(const DishOutlines& outlines, const TableCameras& cameras, const FocalsPx& focals_px,
+                  const PlacePrior& prior, double sigma_px, double scale_px, std::size_t step)
       : outlines_(outlines),
         cameras_(cameras),
         focals_px_(focals_px),
@@ -50,7 +50,7 @@ class PlacementProblem {
         inverse_squared_scale_(1.0 / (scale_px * scale_px)),
         step_(step) {}
 
-  double cost(const DishPlace& place) const {
+  double cost(const DishPose& place) const {
     double cost = prior_.cost(place);
     for (std::size_t view = 0; view < 2; ++view) {
       const RimProjection rim(place, cameras_[view], focals_px_[view]);
@@ -64,7 +64,7 @@ class PlacementProblem {
     return cost;
   }
 
-  double linearise(const DishPlace& place, Equations& equations) const {
+  double linearise(const DishPose& place, Equations& equations) const {
     const PlaceVector error = as_vector(place) - prior_.mean;
     for (int i = 0; i < kPlaceParameters; ++i) {
       equations.add(error[i], PlaceVector::Unit(i), prior_.information[i]);
@@ -86,7 +86,7 @@ class PlacementProblem {
     return cost;
   }
 
-  static DishPlace moved(const DishPlace& place, const PlaceVector& step) {
+  static DishPose moved(const DishPose& place, const PlaceVector& step) {
     return place_from_vector(as_vector(place) + step);
   }
 

@@ -62,7 +62,7 @@ class DishSearch {
   // Only place and azimuth are free. Whatever else stands parallel to the rim, a band of its decoration or
   // the foot of its shadow, has another size.
   Status confirm(const RimPeak& peak, FoundDish& found) {
-    DishPlace place = peak.place;
+    DishPose place = peak.place;
     PlacePrior prior = prior_of(*peak.dish, place.azimuth_rad, params_.placement);
     prior.information.tail<kPlaceParameters - kPlaceHeight>().setConstant(kDescribedInformation);
     LevenbergMarquardtParams search;
@@ -72,8 +72,8 @@ class DishSearch {
     const DishOutlines outlines = {workspace_.outlines[0].items(), workspace_.outlines[1].items()};
     if (outlines[0].size() + outlines[1].size() < static_cast<std::size_t>(params_.placement.min_points))
       return StatusCode::rim_not_found;
-    const PlacementProblem problem(outlines, cameras_, focals_px_, prior, params_.placement.point_sigma_px,
-                                   params_.scale_px, 1);
+    const DishPoseProblem problem(outlines, cameras_, focals_px_, prior, params_.placement.point_sigma_px,
+                                  params_.scale_px, 1);
     minimise<kPlaceParameters>(problem, search, place);
     if (!as_vector(place).allFinite()) return StatusCode::rim_not_found;
     found.place = place;
@@ -84,7 +84,7 @@ class DishSearch {
   }
 
   // Moves the place to where most of the rim lies on an edge, in both views together.
-  void shift_to_edges(int inside_sign, DishPlace& place) {
+  void shift_to_edges(int inside_sign, DishPose& place) {
     const int points = params_.outline_points;
     int offsets = 0;
     for (std::size_t v = 0; v < 2; ++v) {
@@ -108,7 +108,7 @@ class DishSearch {
     const double turn_step_rad = std::numbers::pi / params_.azimuths / std::max(1, params_.azimuth_steps - 1);
     const int shifts = static_cast<int>(0.8 * params_.vote_reach_mm / params_.shift_step_mm);
     float most = -1.0F;
-    DishPlace best = place;
+    DishPose best = place;
     for (int turn = -turns; turn <= turns; ++turn) {
       for (int dy = -shifts; dy <= shifts; ++dy) {
         for (int dx = -shifts; dx <= shifts; ++dx) {
@@ -130,7 +130,7 @@ class DishSearch {
     return workspace_.steps.subspan(index * kMaxRimOffsets, static_cast<std::size_t>(offsets));
   }
 
-  void prepare_shifts(const DishPlace& place) {
+  void prepare_shifts(const DishPose& place) {
     const Vec2 axis = direction_of(place.azimuth_rad);
     const Vec2 semi(0.5 * place.size_mm[0], 0.5 * place.size_mm[1]);
     for (std::size_t i = 0; i < workspace_.shifts.size(); ++i) {
@@ -162,7 +162,7 @@ class DishSearch {
   }
 
   // Median magnitude of the steps off the rim: grain of the table, shading of the dish.
-  double noise_beside(const DishPlace& place, int inside_sign) {
+  double noise_beside(const DishPose& place, int inside_sign) {
     std::array<int, 256> counts{};
     int total = 0;
     for (std::size_t v = 0; v < 2; ++v) {
@@ -187,7 +187,7 @@ class DishSearch {
 
   // Collects where the edge lies along the rim; returns the share of the rim, within the pictures, that has
   // one, and its distance from the place.
-  double trace(const DishPlace& place, int inside_sign, double min_step, double& rms_mm) {
+  double trace(const DishPose& place, int inside_sign, double min_step, double& rms_mm) {
     int seen = 0;
     int supported = 0;
     double squares_mm = 0.0;
@@ -234,7 +234,7 @@ class DishSearch {
 
 }  // namespace
 
-RimNormal rim_normal(const DishPlace& place, const Vec2& cosine_sine) {
+RimNormal rim_normal(const DishPose& place, const Vec2& cosine_sine) {
   const Vec2 semi(0.5 * place.size_mm[0], 0.5 * place.size_mm[1]);
   const Vec2 axis = direction_of(place.azimuth_rad);
   const Vec2 normal = Vec2(semi.y() * cosine_sine.x(), semi.x() * cosine_sine.y()).normalized();

@@ -23,7 +23,7 @@ namespace traygauge {
 
 struct DishSearchParams {
   RimEdgeParams edges;
-  DishPlacementParams placement;
+  DishPoseParams placement;
   double cell_mm = 4.0;  // of the votes for the centre
   int cells = 256;       // to a side: 1 m of table
   int azimuths = 24;     // of an oval's axis over half a turn
@@ -58,7 +58,7 @@ using DishSearchViews = std::array<DishSearchView, 2>;
 
 struct FoundDish {
   int candidate = -1;
-  DishPlace place;
+  DishPose place;
   double rms_mm = 0.0;   // of the rim's edge about the place
   double support = 0.0;  // share of the rim, in both views, along which there is an edge
 };
@@ -115,6 +115,6 @@ Status search_dish(const DishSearchViews& views, const RimEdges& edges, std::spa
                    DishSearchWorkspace& workspace, FoundDish& found);
 
 // The dish's outer edge at this angle from the first axis (of the ellipse's parameter).
-RimNormal rim_normal(const DishPlace& place, const Vec2& cosine_sine);
+RimNormal rim_normal(const DishPose& place, const Vec2& cosine_sine);
 
 }  // namespace traygauge

@@ -28,7 +28,7 @@ struct RimProjection::Crossing {
   double scale_px = 0.0;  // 1 / |dF by pixel|
 };
 
-RimProjection::RimProjection(const DishPlace& place, const Pose& camera_from_table, double focal_px)
+RimProjection::RimProjection(const DishPose& place, const Pose& camera_from_table, double focal_px)
     : place_(place),
       camera_from_table_(camera_from_table),
       focal_px_(focal_px),

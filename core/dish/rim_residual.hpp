@@ -12,7 +12,7 @@
 namespace traygauge {
 
 // Where a dish stands, in the table frame, and how large its outer edge is.
-struct DishPlace {
+struct DishPose {
   Vec2 centre_mm = Vec2::Zero();
   double azimuth_rad = 0.0;         // of the first axis, from the table's x towards its y
   double edge_height_mm = 0.0;      // of the outer edge over the table
@@ -29,20 +29,20 @@ inline constexpr int kPlaceDrop = 6;
 using PlaceVector = Eigen::Matrix<double, kPlaceParameters, 1>;
 using PlaceMatrix = Eigen::Matrix<double, kPlaceParameters, kPlaceParameters>;
 
-inline PlaceVector as_vector(const DishPlace& place) {
+inline PlaceVector as_vector(const DishPose& place) {
   return (PlaceVector() << place.centre_mm, place.azimuth_rad, place.edge_height_mm, place.size_mm[0],
           place.size_mm[1], place.edge_drop_mm)
       .finished();
 }
 
-inline DishPlace place_from_vector(const PlaceVector& v) {
+inline DishPose place_from_vector(const PlaceVector& v) {
   return {v.head<2>(), v[kPlaceAzimuth], v[kPlaceHeight], {v[kPlaceSize], v[kPlaceSize + 1]}, v[kPlaceDrop]};
 }
 
 // The place as seen from one camera: what all its residuals share.
 class RimProjection {
  public:
-  RimProjection(const DishPlace& place, const Pose& camera_from_table, double focal_px);
+  RimProjection(const DishPose& place, const Pose& camera_from_table, double focal_px);
 
   // The distance in the picture, to first order of it; positive outside. `by_camera` are the derivatives by a
   // step of the camera's pose as in `moved`. False when the ray does not come down to the edge's plane.
@@ -54,7 +54,7 @@ class RimProjection {
   struct Crossing;
   bool cross(const Vec2& ray, Crossing& crossing) const;
 
-  DishPlace place_;
+  DishPose place_;
   Pose camera_from_table_;
   double focal_px_;
   Vec3 camera_mm_;

@@ -93,7 +93,7 @@ class Vote {
   bool is_free(const Vec2& centre_mm, const DishModel& dish) const {
     const double radius = 0.5 * std::min(dish.outer_size_mm[0], dish.outer_size_mm[1]);
     return std::all_of(taken_.begin(), taken_.end(), [&](const FoundDish& other) {
-      const DishPlace& place = other.place;
+      const DishPose& place = other.place;
       const double sum = radius + 0.5 * std::min(place.size_mm[0], place.size_mm[1]);
       return (centre_mm - place.centre_mm).norm() >= (1.0 - params_.max_overlap) * sum;
     });

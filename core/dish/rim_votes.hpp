@@ -15,7 +15,7 @@ inline constexpr std::size_t kMaxRimPeaks = 16;
 // A place that the edges vote for.
 struct RimPeak {
   const DishModel* dish = nullptr;
-  DishPlace place;
+  DishPose place;
   int inside_sign = 1;  // 1: brighter inside the rim
   double votes_per_mm = -1.0;
 };

@@ -10,7 +10,7 @@ constexpr double kFreeHeightSigmaMm = 100.0;
 constexpr double kFreeSizeSigmaMm = 500.0;
 constexpr int kLeastViewPoints = 3;  // times those of placement: both views are needed to tell a height
 
-PlacePrior free_prior(const DishPlace& place, const DishPlacementParams& params) {
+PlacePrior free_prior(const DishPose& place, const DishPoseParams& params) {
   PlacePrior prior = loose_prior(place, kFreeHeightSigmaMm, kFreeSizeSigmaMm, params);
   prior.mean[kPlaceDrop] = params.edge_drop_mm;
   return prior;
@@ -19,7 +19,7 @@ PlacePrior free_prior(const DishPlace& place, const DishPlacementParams& params)
 class EdgeSearch {
  public:
   EdgeSearch(const DishOutlines& outlines, const TableCameras& cameras, const FocalsPx& focals_px,
-             const DishPlacementParams& placement, DishPlacementWorkspace& workspace)
+             const DishPoseParams& placement, DishPoseWorkspace& workspace)
       : outlines_(outlines),
         cameras_(cameras),
         focals_px_(focals_px),
@@ -28,13 +28,13 @@ class EdgeSearch {
         step_(outline_step(outlines, placement.max_view_points)) {}
 
   // The level on which both outlines agree best.
-  bool find_level(const DishEdgeParams& params, DishPlace& best) const {
+  bool find_level(const DishEdgeParams& params, DishPose& best) const {
     double least = kUnseenPlace;
     const double step_mm = std::max(params.level_step_mm, 0.1);
     const int levels = static_cast<int>((params.highest_mm - params.lowest_mm) / step_mm) + 1;
     for (int i = 0; i < levels; ++i) {
       const double level_mm = params.lowest_mm + i * step_mm;
-      DishPlace place;
+      DishPose place;
       if (!guess_place(outlines_, cameras_, level_mm, step_, workspace_, place)) continue;
       place.edge_drop_mm = placement_.edge_drop_mm;
       const PlacePrior prior = free_prior(place, placement_);
@@ -47,17 +47,17 @@ class EdgeSearch {
   }
 
   // Robust least squares over all that the outlines fix.
-  void refine(DishPlace& place) const {
+  void refine(DishPose& place) const {
     for (const double scale_px : placement_.first_robust_scales_px) fit(scale_px, place);
     OutlineFit unused;
     fit(robust_scale_px(outlines_, cameras_, focals_px_, place, placement_, workspace_, unused), place);
   }
 
  private:
-  PlacementProblem problem(const PlacePrior& prior, double scale_px) const {
+  DishPoseProblem problem(const PlacePrior& prior, double scale_px) const {
     return {outlines_, cameras_, focals_px_, prior, placement_.point_sigma_px, scale_px, step_};
   }
-  void fit(double scale_px, DishPlace& place) const {
+  void fit(double scale_px, DishPose& place) const {
     LevenbergMarquardtParams search;
     search.max_iterations = placement_.iterations;
     const PlacePrior prior = free_prior(place, placement_);
@@ -67,16 +67,16 @@ class EdgeSearch {
   const DishOutlines& outlines_;
   const TableCameras& cameras_;
   const FocalsPx& focals_px_;
-  const DishPlacementParams& placement_;
-  DishPlacementWorkspace& workspace_;
+  const DishPoseParams& placement_;
+  DishPoseWorkspace& workspace_;
   std::size_t step_;
 };
 
 }  // namespace
 
 Status measure_dish_edge(const DishOutlines& outlines, const TableCameras& cameras, const FocalsPx& focals_px,
-                         const DishPlacementParams& placement, const DishEdgeParams& params,
-                         DishPlacementWorkspace& workspace, DishPlace& place) {
+                         const DishPoseParams& placement, const DishEdgeParams& params,
+                         DishPoseWorkspace& workspace, DishPose& place) {
   place = {};
   const auto least = static_cast<std::size_t>(std::max(placement.min_view_points, 1) * kLeastViewPoints);
   if (outlines[0].size() < least || outlines[1].size() < least) return StatusCode::rim_not_found;

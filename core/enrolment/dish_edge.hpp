@@ -18,7 +18,7 @@ struct DishEdgeParams {
 // Size, height and place of the edge at given cameras. rim_not_found: too few points, or they lie on no
 // ellipse; labels_inconsistent: no level has both outlines.
 Status measure_dish_edge(const DishOutlines& outlines, const TableCameras& cameras, const FocalsPx& focals_px,
-                         const DishPlacementParams& placement, const DishEdgeParams& params,
-                         DishPlacementWorkspace& workspace, DishPlace& place);
+                         const DishPoseParams& placement, const DishEdgeParams& params,
+                         DishPoseWorkspace& workspace, DishPose& place);
 
 }  // namespace traygauge

@@ -22,7 +22,7 @@ Status check_bare_dish(const TrayView& view) {
 }
 
 // The edge as a dish without an inner surface.
-DishModel model_of(const DishPlace& place, const DishEdgeParams& params) {
+DishModel model_of(const DishPose& place, const DishEdgeParams& params) {
   DishModel model;
   model.outer_size_mm = place.size_mm;
   if (std::abs(place.size_mm[0] - place.size_mm[1]) <= params.round_mm)
@@ -127,10 +127,10 @@ Status DishSurveyor::find_edge(const ViewPair& views, std::uint64_t seed) {
   Status status = find_geometry(views, configuration_, random, workspace, clock, report, geometry);
   if (!status.ok()) return status;
   const FocalsPx focals_px = {views[0]->lens.pinhole.mean_focal_px(), views[1]->lens.pinhole.mean_focal_px()};
-  JointParams params = configuration_.joint;
+  BundleParams params = configuration_.bundle;
   status = measure_dish_edge({workspace.outlines[0][0].items(), workspace.outlines[0][1].items()},
-                             geometry.joint.camera_from_table, focals_px, params.placement, params_.edge,
-                             workspace.joint.placement, survey_.place);
+                             geometry.bundle.camera_from_table, focals_px, params.placement, params_.edge,
+                             workspace.bundle.placement, survey_.place);
   if (!status.ok()) return status;
 
   const std::array<DishModel, 1> edge = {model_of(survey_.place, params_.edge)};
@@ -140,7 +140,7 @@ Status DishSurveyor::find_edge(const ViewPair& views, std::uint64_t seed) {
   status = refine_geometry(views, configuration_.card, params, workspace, geometry);
   geometry.dishes[0].candidates = {};
   if (!status.ok()) return status;
-  const JointDishResult& dish = geometry.joint.dishes[0];
+  const BundleDishResult& dish = geometry.bundle.dishes[0];
   if (!dish.status.ok()) return dish.status;
   survey_.place = dish.placed.place;
   survey_.outline = dish.placed.fit;
@@ -148,31 +148,32 @@ Status DishSurveyor::find_edge(const ViewPair& views, std::uint64_t seed) {
   survey_.errors.edge_height_mm = std::sqrt(dish.placed.covariance(kPlaceHeight, kPlaceHeight));
   survey_.fitted.dish = model_of(survey_.place, params_.edge);
   survey_.relative_angle_deg =
-      angle_between_views_deg(geometry.joint.camera_from_table, middle_of(survey_.place, 0.0));
+      angle_between_views_deg(geometry.bundle.camera_from_table, middle_of(survey_.place, 0.0));
   status = check_angle(survey_.relative_angle_deg, configuration_.geometry);
   if (!status.ok()) return status;
-  return survey_.outline.explained_share() >= params_.min_inlier_share ? StatusCode::ok
-                                                                       : StatusCode::labels_inconsistent;
+  return survey_.outline.explained_fraction() >= params_.min_inlier_fraction
+             ? StatusCode::ok
+             : StatusCode::labels_inconsistent;
 }
 
 Status DishSurveyor::match(const ViewPair& views, double bottom_mm, std::array<SurfaceGrid, 2>& grids) {
   const SceneGeometry& geometry = memory_.scene.front();
   const DishOnTray& dish = geometry.dishes[0];
-  TwoViewSurfaceReport dense;
-  TwoViewSurfaceParams params = configuration_.surface;
+  DenseStereoReport dense;
+  DenseStereoParams params = configuration_.surface;
   params.rectification.whole_dish = true;  // here the dish is what is measured
   params.refinement.dish_weight = 1.0;
-  const Status status = reconstruct_surface(
-      matte_views(views, geometry.joint.camera_from_table, dish.labels), labels_on_dish(dish.labels),
+  const Status status = run_dense_stereo(
+      diffuse_views(views, geometry.bundle.camera_from_table, dish.labels), labels_on_dish(dish.labels),
       bottom_mm, survey_.place.edge_height_mm + params_.above_edge_mm, params, memory_.surface, grids, dense);
-  survey_.matched_share = 0.5 * (dense.confirmed[0] + dense.confirmed[1]);
+  survey_.matched_fraction = 0.5 * (dense.confirmed[0] + dense.confirmed[1]);
   sample_mm_ = dense.column_step_mm;
   return status;
 }
 
 // First over the table, then over the bottom that was found: there the pictures fit configuration.
 Status DishSurveyor::measure_profile(const ViewPair& views) {
-  make_matte(views, configuration_.matte);
+  suppress_speculars(views, configuration_.specular);
   const DishModel edge = model_of(survey_.place, params_.edge);
   InnerSurface insets;
   insets.place = frame_of(survey_.place);
@@ -199,7 +200,7 @@ Status DishSurveyor::measure_profile(const ViewPair& views) {
 std::array<InsetView, 2> DishSurveyor::inset_views(const std::array<SurfaceGrid, 2>& grids) const {
   std::array<InsetView, 2> views;
   for (std::size_t v = 0; v < 2; ++v) {
-    const TwoViewSurfaceWorkspace::View& own = memory_.surface.views[v];
+    const DenseStereoWorkspace::View& own = memory_.surface.views[v];
     const ImageView<const std::uint8_t> gray = own.gray[0];
     views[v] = {grids[v],
                 gray,
@@ -236,11 +237,11 @@ double DishSurveyor::lean_rad(const std::array<SurfaceGrid, 2>& grids, const Inn
 }
 
 void DishSurveyor::rate_errors() {
-  const JointResult& joint = memory_.scene.front().joint;
+  const BundleResult& bundle = memory_.scene.front().bundle;
   const Vec3 middle = middle_of(survey_.place, survey_.fitted.dish.bottom_height_mm);
-  const double cameras_mm = height_sigma_mm(middle, joint.camera_from_table, joint.covariance);
+  const double cameras_mm = height_sigma_mm(middle, bundle.camera_from_table, bundle.covariance);
   const double matching_mm = configuration_.uncertainty.disparity_bias_px *
-                             height_per_sample_mm(joint.camera_from_table, middle, sample_mm_);
+                             height_per_sample_mm(bundle.camera_from_table, middle, sample_mm_);
   survey_.errors.height_mm = std::hypot(cameras_mm, matching_mm);
 }
 

@@ -27,8 +27,8 @@ struct DishSurveyParams {
   // How far the joint refinement may take the edge from what the outlines alone said.
   double edge_height_sigma_mm = 10.0;
   double edge_size_sigma_mm = 10.0;
-  double above_edge_mm = 6.0;      // of the edge that is searched: a rim's crest
-  double min_inlier_share = 0.88;  // of the outlines on the edge found; fewer: labels_inconsistent
+  double above_edge_mm = 6.0;         // of the edge that is searched: a rim's crest
+  double min_inlier_fraction = 0.88;  // of the outlines on the edge found; fewer: labels_inconsistent
   // A dish that leans by more stands on something, or the card is not flat on the table: table_not_found.
   double max_lean_deg = 1.5;
 };
@@ -43,11 +43,11 @@ struct DishSurveyErrors {
 struct DishSurvey {
   Status status;
   FittedProfile fitted;
-  DishPlace place;
+  DishPose place;
   OutlineFit outline;
   DishSurveyErrors errors;
-  double lean_deg = 0.0;       // of the inner surface to the table
-  double matched_share = 0.0;  // of the dish, the same way from either view
+  double lean_deg = 0.0;          // of the inner surface to the table
+  double matched_fraction = 0.0;  // of the dish, the same way from either view
   double relative_angle_deg = 0.0;
 };
 
@@ -86,7 +86,7 @@ class DishSurveyor {
     TrayViewWorkspace preparation;
     SceneGeometryWorkspace geometry;
     std::span<SceneGeometry> scene;  // one
-    TwoViewSurfaceWorkspace surface;
+    DenseStereoWorkspace surface;
     InsetHeightWorkspace heights;
     ProfileFitWorkspace profile;
 

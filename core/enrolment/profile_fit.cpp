@@ -37,10 +37,10 @@ class ProfileFit {
     }
     if (known == 0) return false;
     const auto count = static_cast<double>(known);
-    fitted_.known_share = count / static_cast<double>(rings_.size());
+    fitted_.known_fraction = count / static_cast<double>(rings_.size());
     fitted_.spread_mm = std::sqrt(squares / count);
     const bool is_bottom_known = last_mm >= bottom_begin_mm();
-    return is_bottom_known && fitted_.known_share >= params_.min_known_share &&
+    return is_bottom_known && fitted_.known_fraction >= params_.min_known_fraction &&
            fitted_.widest_gap_mm <= params_.max_gap_mm;
   }
 
@@ -95,7 +95,7 @@ class ProfileFit {
   static constexpr int kBottomRounds = 3;
   static constexpr double kSureSigmas = 2.0;
 
-  double bottom_begin_mm() const { return (1.0 - params_.bottom_share) * rings_.back().inset_mm; }
+  double bottom_begin_mm() const { return (1.0 - params_.bottom_fraction) * rings_.back().inset_mm; }
   bool is_used(std::size_t i) const {
     return rings_[i].is_known && rings_[i].inset_mm > params_.edge_margin_mm;
   }

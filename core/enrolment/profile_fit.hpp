@@ -22,22 +22,22 @@ struct ProfileFitParams {
   double flat_mm = 0.35;
   // Of the smaller half axis, from the middle: where the bottom's level is looked for first. A dish of which
   // nothing is known there has no profile.
-  double bottom_share = 0.3;
+  double bottom_fraction = 0.3;
   double smoothing_mm = 1.6;    // reach of the straight line through a ring's neighbours
   double tolerance_mm = 0.1;    // between points and rings; no more points are added below it
   double min_spacing_mm = 1.5;  // of points
   std::size_t max_points = 14;
-  double min_known_share = 0.5;  // of the rings; fewer: too_little_depth
-  double max_gap_mm = 15.0;      // between known rings; a wall could turn within more
-  double max_residual_mm = 0.4;  // more: what was matched is no dish's surface
-  double least_sigma_mm = 0.05;  // of a ring: matching errors that all its samples share
+  double min_known_fraction = 0.5;  // of the rings; fewer: too_little_depth
+  double max_gap_mm = 15.0;         // between known rings; a wall could turn within more
+  double max_residual_mm = 0.4;     // more: what was matched is no dish's surface
+  double least_sigma_mm = 0.05;     // of a ring: matching errors that all its samples share
 };
 
 struct FittedProfile {
-  DishModel dish;            // round or oval as the edge; label 1
-  double residual_mm = 0.0;  // root mean square of the known rings about the profile, by their weight
-  double spread_mm = 0.0;    // of the samples within a ring, root mean square
-  double known_share = 0.0;  // of the rings
+  DishModel dish;               // round or oval as the edge; label 1
+  double residual_mm = 0.0;     // root mean square of the known rings about the profile, by their weight
+  double spread_mm = 0.0;       // of the samples within a ring, root mean square
+  double known_fraction = 0.0;  // of the rings
   double widest_gap_mm = 0.0;
 };
 

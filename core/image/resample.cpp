@@ -153,7 +153,7 @@ void sample_block(const FrameView& frame, const PositionBlock& block, const SubG
 }
 
 template <int kChannels>
-void sample_frame(const FrameView& frame, const LensModel& lens, const Cutout& cutout, int per_axis,
+void sample_frame(const FrameView& frame, const LensModel& lens, const Roi& cutout, int per_axis,
                   ImageView<std::uint8_t> gray) {
   PositionBlock block;
   for (int row = 0; row < cutout.height; ++row) {
@@ -174,7 +174,7 @@ void sample_frame(const FrameView& frame, const LensModel& lens, const Cutout& c
 
 }  // namespace
 
-void resample_undistorted(const FrameView& frame, const LensModel& lens, const Cutout& cutout,
+void resample_undistorted(const FrameView& frame, const LensModel& lens, const Roi& cutout,
                           ImageView<std::uint8_t> gray, const ResampleParams& params) {
   const double reduction = lens.pinhole.mean_focal_px() / cutout.camera.mean_focal_px();
   const int most = std::clamp(params.max_samples_per_axis, 1, kMaxSamplesAcross);
@@ -187,7 +187,7 @@ void resample_undistorted(const FrameView& frame, const LensModel& lens, const C
 }
 
 void resample_labels_undistorted(ImageView<const std::uint8_t> labels, const LensModel& lens,
-                                 const Cutout& cutout, ImageView<std::uint8_t> target) {
+                                 const Roi& cutout, ImageView<std::uint8_t> target) {
   PositionBlock block;
   for (int row = 0; row < cutout.height; ++row) {
     for (int left = 0; left < cutout.width; left += kTargetPixels) {

@@ -20,7 +20,7 @@ void convert_to_gray(const FrameView& frame, ImageView<std::uint8_t> gray);
 void reduce_area(ImageView<const std::uint8_t> source, ImageView<std::uint8_t> target);
 
 // An undistorted, scaled cut-out of a frame.
-struct Cutout {
+struct Roi {
   PinholeCamera camera;  // of the cut-out
   int width = 0;
   int height = 0;
@@ -35,11 +35,11 @@ struct ResampleParams {
 // Samples `frame` (size of the lens) through the lens into `gray` (size of the cut-out): bilinear, averaged
 // over a sub-grid that matches the reduction so that nothing aliases. Pixels whose centre lies outside the
 // frame become 0.
-void resample_undistorted(const FrameView& frame, const LensModel& lens, const Cutout& cutout,
+void resample_undistorted(const FrameView& frame, const LensModel& lens, const Roi& cutout,
                           ImageView<std::uint8_t> gray, const ResampleParams& params = {});
 
 // The same for labels, by nearest neighbour only.
 void resample_labels_undistorted(ImageView<const std::uint8_t> labels, const LensModel& lens,
-                                 const Cutout& cutout, ImageView<std::uint8_t> target);
+                                 const Roi& cutout, ImageView<std::uint8_t> target);
 
 }  // namespace traygauge

@@ -8,17 +8,18 @@
 
 namespace traygauge {
 
-void convert_to_matte(const FrameView& frame, const MatteParams& params, ImageView<std::uint8_t> matte) {
-  if (frame.format == PixelFormat::gray8) return convert_to_gray(frame, matte);
+void suppress_specular(const FrameView& frame, const SpecularParams& params,
+                       ImageView<std::uint8_t> specular) {
+  if (frame.format == PixelFormat::gray8) return convert_to_gray(frame, specular);
   const GrayWeights weights = gray_weights(frame.format);
   constexpr auto kOne = static_cast<float>(kGrayOne);
   const float first = static_cast<float>(weights.first) / kOne;
   const float second = static_cast<float>(weights.second) / kOne;
   const float third = static_cast<float>(weights.third) / kOne;
-  const auto share = static_cast<float>(params.gloss_share);
+  const auto share = static_cast<float>(params.specular_fraction);
   for (int y = 0; y < frame.height; ++y) {
     const std::uint8_t* pixel = frame.data + y * frame.stride_bytes;
-    std::uint8_t* out = matte.row(y);
+    std::uint8_t* out = specular.row(y);
     for (int x = 0; x < frame.width; ++x) {
       const auto a = static_cast<float>(pixel[3 * x]);
       const auto b = static_cast<float>(pixel[3 * x + 1]);

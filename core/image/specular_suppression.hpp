@@ -9,13 +9,14 @@
 
 namespace traygauge {
 
-struct MatteParams {
+struct SpecularParams {
   // Of the light that a pixel's least colour has, taken away from its grey: 1 leaves nothing of a white
   // food's texture, 0 all of the reflections.
-  double gloss_share = 0.3;
+  double specular_fraction = 0.3;
 };
 
 // `matte` has the frame's size; a grey frame is copied. Stored values are taken for square roots of light.
-void convert_to_matte(const FrameView& frame, const MatteParams& params, ImageView<std::uint8_t> matte);
+void suppress_specular(const FrameView& frame, const SpecularParams& params,
+                       ImageView<std::uint8_t> specular);
 
 }  // namespace traygauge

@@ -98,7 +98,7 @@ class Assignment {
       if (is_dish(label) || is_item(label)) all_px += border_px(item, other);
     }
     const Vote vote = longest_border(item);
-    return vote.border_px >= params_.min_dish_border_share * all_px ? vote : Vote{};
+    return vote.border_px >= params_.min_dish_border_fraction * all_px ? vote : Vote{};
   }
 
   // Of the neighbours that have a dish; its own border adds to it, but does not suffice.

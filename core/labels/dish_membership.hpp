@@ -16,7 +16,7 @@ struct DishMembershipParams {
   // Of an item's border with dishes and other items, the share that has to run along one dish for that alone
   // to count, 0 to 1. Below, the item's neighbours decide with it: a dish in front that hides food of another
   // borders that, too, but only shortly. Food beside other food has 79% and more in the rendered trays.
-  double min_dish_border_share = 0.2;
+  double min_dish_border_fraction = 0.2;
 };
 
 // By item label: the label of its dish; 0 where no dish was found and for labels that are no item's.

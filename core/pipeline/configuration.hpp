@@ -31,12 +31,12 @@ struct PipelineParams {
   double min_top_mm = 40.0;
   // Of a dish's outlines on the rim found, or on the wall below it; fewer: the outlines are of another
   // picture. Right ones reach 0.93 and more, those of a view 5 degrees off 0.63 to 0.80.
-  double min_rim_inlier_share = 0.88;
+  double min_rim_inlier_fraction = 0.88;
   // Of an item's samples; fewer: its volume is doubtful. Food with texture reaches 0.65 and more between
   // 10 and 30 degrees, a banana 0.6.
-  double min_matched_share = 0.62;
+  double min_matched_fraction = 0.62;
   // Of an item's sigma in its volume; above, its volume is doubtful. One volume in thirty of rendered meals.
-  double max_sigma_share = 0.063;
+  double max_sigma_fraction = 0.063;
   std::size_t max_outline_points = 1024;   // of one dish in one view: a contour of 8 sides a point
   std::size_t max_contour_sides = 8192;    // of one dish in one view, twice what a round one of 1600 px has
   std::size_t max_height_cells = 180'000;  // of a dish's height map: 360 × 360 mm at 0.85 mm
@@ -52,9 +52,9 @@ struct Configuration : TraySetup {
   PointTrackingParams tracking;
   DishMembershipParams membership;
   DishOutlineParams outline;
-  JointParams joint;
-  MatteParams matte;
-  TwoViewSurfaceParams surface;
+  BundleParams bundle;
+  SpecularParams specular;
+  DenseStereoParams surface;
   RoundBodyParams round_body;
   HeightMapParams height_map;
   LevelLiquidParams liquid;

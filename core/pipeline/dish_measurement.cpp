@@ -15,7 +15,7 @@ namespace {
 
 // Height of the tallest sparse point on the dish, in the table frame; the bottom's without any.
 double tallest_track_mm(const SceneGeometry& geometry, const LabelSet& labels, double bottom_height_mm) {
-  const TableCameras& cameras = geometry.joint.camera_from_table;
+  const TableCameras& cameras = geometry.bundle.camera_from_table;
   const Pose motion = second_from_first(cameras);
   double tallest_mm = bottom_height_mm;
   for (const PointTrack& track : geometry.tracks) {
@@ -70,7 +70,7 @@ void measure_dish(const ViewPair& views, const SceneGeometry& geometry, std::siz
       workspace.items.push_back(item);
     });
   };
-  const JointDishResult& placed = geometry.joint.dishes[index];
+  const BundleDishResult& placed = geometry.bundle.dishes[index];
   if (!placed.status.ok()) return refuse(placed.status);
   for (const TrayView* view : views) {
     if (is_cut_off(*view, dish.labels)) return refuse(StatusCode::dish_cut_off);
@@ -78,9 +78,9 @@ void measure_dish(const ViewPair& views, const SceneGeometry& geometry, std::siz
   const DishModel& model = dish.candidates[static_cast<std::size_t>(placed.placed.candidate)];
   report.rim_height_mm = placed.placed.place.edge_height_mm;
   report.rim_rms_px = placed.placed.fit.rms_px;
-  report.rim_inlier_share = placed.placed.fit.explained_share();
+  report.rim_inlier_fraction = placed.placed.fit.explained_fraction();
   report.dish_index = static_cast<int>(&model - configuration.dishes.data());
-  if (report.rim_inlier_share < configuration.pipeline.min_rim_inlier_share)
+  if (report.rim_inlier_fraction < configuration.pipeline.min_rim_inlier_fraction)
     return refuse(StatusCode::labels_inconsistent);
 
   clock.enter(Stage::stereo);
@@ -89,31 +89,31 @@ void measure_dish(const ViewPair& views, const SceneGeometry& geometry, std::siz
       std::max(tallest_track_mm(geometry, dish.labels, bottom_mm) + configuration.pipeline.summit_margin_mm,
                bottom_mm + configuration.pipeline.min_top_mm);
   std::array<SurfaceGrid, 2> grids;
-  TwoViewSurfaceReport dense;
+  DenseStereoReport dense;
   InnerSurface inner;
   inner.place = frame_of(placed.placed.place);
   Status status = inner.profile.set(model);
   if (!status.ok()) return refuse(status);
-  status = reconstruct_surface(matte_views(views, geometry.joint.camera_from_table, dish.labels),
-                               labels_on_dish(dish.labels), bottom_mm, top_mm, configuration.surface,
-                               workspace.surface, grids, dense);
+  status = run_dense_stereo(diffuse_views(views, geometry.bundle.camera_from_table, dish.labels),
+                            labels_on_dish(dish.labels), bottom_mm, top_mm, configuration.surface,
+                            workspace.surface, grids, dense);
   if (!status.ok()) return refuse(status);
   report.rectified_rows = dense.rows;
   report.rectified_columns = dense.columns;
   report.disparity_range = dense.disparity_range;
-  report.matched_share = 0.5 * (dense.confirmed[0] + dense.confirmed[1]);
+  report.matched_fraction = 0.5 * (dense.confirmed[0] + dense.confirmed[1]);
 
   for (std::size_t v = 0; v < 2; ++v) {
-    TwoViewSurfaceWorkspace::View& view = workspace.surface.views[v];
-    settle_dish_samples(inner, grids[v], view.points, view.evidence);
+    DenseStereoWorkspace::View& view = workspace.surface.views[v];
+    project_onto_dish(inner, grids[v], view.points, view.evidence);
   }
   const LabelSet round =
       shape_round_bodies({grids, {workspace.surface.views[0].points, workspace.surface.views[1].points}},
                          inner, configuration.round_body, workspace.round_body);
-  if (observer != nullptr) observer->on_surfaces(geometry.joint.camera_from_table, grids);
+  if (observer != nullptr) observer->on_surfaces(geometry.bundle.camera_from_table, grids);
   report.label_agreement =
-      measure_food_agreement(grids, views, geometry.joint.camera_from_table, configuration.agreement);
-  if (report.label_agreement < configuration.agreement.min_share)
+      measure_food_agreement(grids, views, geometry.bundle.camera_from_table, configuration.agreement);
+  if (report.label_agreement < configuration.agreement.min_fraction)
     return refuse(StatusCode::labels_inconsistent);
 
   clock.enter(Stage::surface);
@@ -127,14 +127,14 @@ void measure_dish(const ViewPair& views, const SceneGeometry& geometry, std::siz
   workspace.surfaces.push_back({dish.label, map, inner});
 
   clock.enter(Stage::volume);
-  std::array<double, 256> matched = matched_shares(grids);
+  std::array<double, 256> matched = matched_fractions(grids);
   const LevelLiquid liquid = level_liquid(grids, inner, configuration.liquid, workspace.liquid, map);
   if (liquid.label != 0) matched[liquid.label] = 1.0;  // its outline says how high it stands
   status = integrate_height_map(map, inner, configuration.volume, workspace.volume);
   if (!status.ok()) return refuse(status);
   close_overhangs(grids, map, inner, round, configuration.overhang, workspace.volume.items);
   const double height_per_px_mm = height_per_sample_mm(
-      geometry.joint.camera_from_table, middle_of(placed.placed.place, bottom_mm), dense.column_step_mm);
+      geometry.bundle.camera_from_table, middle_of(placed.placed.place, bottom_mm), dense.column_step_mm);
   for_each_item(views, dish, [&](std::uint8_t label) {
     const HeightVolume& volume = workspace.volume.items[label];
     ItemResult item;
@@ -147,7 +147,7 @@ void measure_dish(const ViewPair& views, const SceneGeometry& geometry, std::siz
     item.mean_height_mm = volume.mean_height_mm;
     item.max_height_mm = volume.max_height_mm;
     const bool is_measured = item.status == StatusCode::ok;
-    measurement.warnings.raise_if(is_measured && matched[label] < configuration.pipeline.min_matched_share,
+    measurement.warnings.raise_if(is_measured && matched[label] < configuration.pipeline.min_matched_fraction,
                                   Warning::item_hardly_matched, label);
     const UncertaintyInput input{volume,
                                  matched[label],
@@ -155,10 +155,10 @@ void measure_dish(const ViewPair& views, const SceneGeometry& geometry, std::siz
                                  dense.column_step_mm,
                                  round.contains(label),
                                  views[0]->are_outlines_found};
-    item.sigma_ml = estimate_sigma_ml(input, geometry.joint.camera_from_table, geometry.joint.covariance,
+    item.sigma_ml = estimate_sigma_ml(input, geometry.bundle.camera_from_table, geometry.bundle.covariance,
                                       configuration.uncertainty);
     measurement.warnings.raise_if(
-        is_measured && item.sigma_ml > configuration.pipeline.max_sigma_share * item.volume_ml,
+        is_measured && item.sigma_ml > configuration.pipeline.max_sigma_fraction * item.volume_ml,
         Warning::item_uncertain, label);
     workspace.items.push_back(item);
   });

@@ -17,7 +17,7 @@
 namespace traygauge {
 
 struct DishMeasurementWorkspace {
-  TwoViewSurfaceWorkspace surface;
+  DenseStereoWorkspace surface;
   RoundBodyWorkspace round_body;
   HeightMapWorkspace height_map;
   LevelLiquidWorkspace liquid;
@@ -34,7 +34,7 @@ struct DishMeasurementWorkspace {
   }
   template <class Allocator>
   constexpr void allocate(Allocator& arena, const Configuration& configuration) {
-    const TwoViewSurfaceParams& params = configuration.surface;
+    const DenseStereoParams& params = configuration.surface;
     surface.allocate(arena, params);
     round_body.allocate(arena, params.rectification.max_rows, params.max_columns);
     height_map.allocate(arena, configuration.pipeline.max_height_cells,

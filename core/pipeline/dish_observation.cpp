@@ -16,8 +16,8 @@ PixelBox box_of(const LabelRegions& regions, const LabelSet& labels) {
   return box;
 }
 
-ImageView<std::uint8_t> matte_of(const TrayView& view) {
-  return {view.matte_storage.data, view.frame.width, view.frame.height};
+ImageView<std::uint8_t> diffuse_of(const TrayView& view) {
+  return {view.diffuse_storage.data, view.frame.width, view.frame.height};
 }
 
 }  // namespace
@@ -26,25 +26,25 @@ bool is_cut_off(const TrayView& view, const LabelSet& labels) {
   return view.regions().touches_edge(box_of(view.regions(), labels));
 }
 
-void make_matte(const ViewPair& views, const MatteParams& params) {
-  for (const TrayView* view : views) convert_to_matte(view->frame, params, matte_of(*view));
+void suppress_speculars(const ViewPair& views, const SpecularParams& params) {
+  for (const TrayView* view : views) suppress_specular(view->frame, params, diffuse_of(*view));
 }
 
-std::array<StoredView, 2> matte_views(const ViewPair& views, const TableCameras& camera_from_table,
-                                      const LabelSet& labels) {
+std::array<StoredView, 2> diffuse_views(const ViewPair& views, const TableCameras& camera_from_table,
+                                        const LabelSet& labels) {
   std::array<StoredView, 2> stored;
   for (std::size_t v = 0; v < 2; ++v) {
-    stored[v] = {matte_of(*views[v]), views[v]->labels, box_of(views[v]->regions(), labels), views[v]->lens,
+    stored[v] = {diffuse_of(*views[v]), views[v]->labels, box_of(views[v]->regions(), labels), views[v]->lens,
                  camera_from_table[v]};
   }
   return stored;
 }
 
-DishFrame frame_of(const DishPlace& place) {
+DishFrame frame_of(const DishPose& place) {
   return {place.centre_mm, {std::cos(place.azimuth_rad), std::sin(place.azimuth_rad)}};
 }
 
-Vec3 middle_of(const DishPlace& place, double height_mm) {
+Vec3 middle_of(const DishPose& place, double height_mm) {
   return {place.centre_mm.x(), place.centre_mm.y(), height_mm};
 }
 

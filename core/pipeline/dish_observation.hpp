@@ -16,14 +16,14 @@ namespace traygauge {
 bool is_cut_off(const TrayView& view, const LabelSet& labels);
 
 // Makes both views matte, for all dishes.
-void make_matte(const ViewPair& views, const MatteParams& params);
-std::array<StoredView, 2> matte_views(const ViewPair& views, const TableCameras& camera_from_table,
-                                      const LabelSet& labels);
+void suppress_speculars(const ViewPair& views, const SpecularParams& params);
+std::array<StoredView, 2> diffuse_views(const ViewPair& views, const TableCameras& camera_from_table,
+                                        const LabelSet& labels);
 
-DishFrame frame_of(const DishPlace& place);
+DishFrame frame_of(const DishPose& place);
 
 // The point over the middle of the dish at this height, in the table frame.
-Vec3 middle_of(const DishPlace& place, double height_mm);
+Vec3 middle_of(const DishPose& place, double height_mm);
 
 // Height by which a point rises for each sample of disparity, `step_mm` wide at its own height.
 double height_per_sample_mm(const TableCameras& camera_from_table, const Vec3& point_mm, double step_mm);

@@ -69,12 +69,12 @@ struct MeasurementReport {
   int rim_points = 0;
   double rim_height_mm = 0.0;  // measured, above the table
   double rim_rms_px = 0.0;     // of the outlines' points on the rim
-  double rim_inlier_share = 0.0;
+  double rim_inlier_fraction = 0.0;
   int dish_index = -1;  // among the candidates of the configuration
   int rectified_rows = 0;
   int rectified_columns = 0;
   DisparityRange disparity_range;
-  double matched_share = 0.0;  // of the dish's pixels that got a depth
+  double matched_fraction = 0.0;  // of the dish's pixels that got a depth
   PictureReport pictures;
   double label_agreement = 0.0;  // share of the food whose label the other view confirms
 };

@@ -36,9 +36,9 @@ Status trace_outlines(const ViewPair& views, const Configuration& configuration,
   return StatusCode::ok;
 }
 
-JointInput join(const ViewPair& views, const ReferenceCard& card, std::span<const PointTrack> tracks,
-                std::span<const JointDish> dishes) {
-  JointInput input;
+BundleInput join(const ViewPair& views, const ReferenceCard& card, std::span<const PointTrack> tracks,
+                 std::span<const BundleDish> dishes) {
+  BundleInput input;
   for (std::size_t v = 0; v < 2; ++v) {
     input.cards[v] = {views[v]->card().camera_from_table, views[v]->card().information};
     input.focals_px[v] = views[v]->lens.pinhole.mean_focal_px();
@@ -97,23 +97,23 @@ Status find_geometry(const ViewPair& views, const Configuration& configuration, 
   clock.enter(Stage::pose);
   status = trace_outlines(views, configuration, workspace, geometry);
   if (!status.ok()) return status;
-  status = refine_geometry(views, configuration.card, configuration.joint, workspace, geometry);
-  report.inliers = geometry.joint.lines.inliers;
-  report.inlier_threshold_px = configuration.joint.robust_sigmas * geometry.joint.lines.rms;
-  report.pose_iterations = geometry.joint.iterations;
-  report.rim_points = geometry.joint.rims.inliers;
+  status = refine_geometry(views, configuration.card, configuration.bundle, workspace, geometry);
+  report.inliers = geometry.bundle.lines.inliers;
+  report.inlier_threshold_px = configuration.bundle.robust_sigmas * geometry.bundle.lines.rms;
+  report.pose_iterations = geometry.bundle.iterations;
+  report.rim_points = geometry.bundle.rims.inliers;
   return status;
 }
 
-Status refine_geometry(const ViewPair& views, const ReferenceCard& card, const JointParams& params,
+Status refine_geometry(const ViewPair& views, const ReferenceCard& card, const BundleParams& params,
                        SceneGeometryWorkspace& workspace, SceneGeometry& geometry) {
-  std::array<JointDish, kMaxPlacedDishes> dishes;
+  std::array<BundleDish, kMaxPlacedDishes> dishes;
   for (std::size_t d = 0; d < geometry.dish_count; ++d) {
     dishes[d] = {{workspace.outlines[d][0].items(), workspace.outlines[d][1].items()},
                  geometry.dishes[d].candidates};
   }
-  return refine_jointly(join(views, card, geometry.tracks, std::span(dishes).first(geometry.dish_count)),
-                        params, workspace.joint, geometry.joint);
+  return adjust_bundle(join(views, card, geometry.tracks, std::span(dishes).first(geometry.dish_count)),
+                       params, workspace.bundle, geometry.bundle);
 }
 
 }  // namespace traygauge

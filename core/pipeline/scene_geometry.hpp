@@ -24,7 +24,7 @@ struct DishOnTray {
 struct SceneGeometry {
   std::array<DishOnTray, kMaxPlacedDishes> dishes;
   std::size_t dish_count = 0;
-  JointResult joint;
+  BundleResult bundle;
   std::span<const PointTrack> tracks;
 };
 
@@ -33,7 +33,7 @@ struct SceneGeometryWorkspace {
   DishMembershipWorkspace membership;
   DishOutlineWorkspace outline;
   std::array<std::array<BoundedList<Vec2>, 2>, kMaxPlacedDishes> outlines;  // of every dish in both views
-  JointWorkspace joint;
+  BundleWorkspace bundle;
 
   template <class Allocator>
   constexpr void allocate(Allocator& arena, const Configuration& configuration) {
@@ -46,8 +46,8 @@ struct SceneGeometryWorkspace {
         rays = BoundedList<Vec2>(arena.template take<Vec2>(configuration.pipeline.max_outline_points));
       }
     }
-    joint.allocate(arena, static_cast<std::size_t>(configuration.tracking.max_corners),
-                   configuration.pipeline.max_outline_points);
+    bundle.allocate(arena, static_cast<std::size_t>(configuration.tracking.max_corners),
+                    configuration.pipeline.max_outline_points);
   }
 };
 
@@ -62,7 +62,7 @@ Status find_geometry(const ViewPair& views, const Configuration& configuration, 
                      SceneGeometry& geometry);
 
 // Its last step, the joint refinement, once more: with other candidates for the dishes, say.
-Status refine_geometry(const ViewPair& views, const ReferenceCard& card, const JointParams& params,
+Status refine_geometry(const ViewPair& views, const ReferenceCard& card, const BundleParams& params,
                        SceneGeometryWorkspace& workspace, SceneGeometry& geometry);
 
 }  // namespace traygauge

@@ -30,7 +30,7 @@ bool is_within(const FrameView& frame, std::span<const Vec2> outline_px) {
 using RimOutline = std::array<Vec2, kRimCorners>;
 
 // A ring parallel to the rim, in pixels.
-RimOutline rim_outline(const DishPlace& place, const DishSearchView& camera, double beyond_mm,
+RimOutline rim_outline(const DishPose& place, const DishSearchView& camera, double beyond_mm,
                        double above_mm) {
   RimOutline outline;
   for (std::size_t i = 0; i < outline.size(); ++i) {
@@ -190,8 +190,8 @@ void Segmenter::look_at_dishes() {
     LabelTable kept{};
     kept[dish.label] = kDishLabel;
     // Without a relief colour has to do.
-    if (!measure_relief(scene.stored, kept, scene.inner, params_.relief, memory_.food.reliefs[d],
-                        memory_.food.matching, scene.relief)
+    if (!measure_height_evidence(scene.stored, kept, scene.inner, params_.relief, memory_.food.reliefs[d],
+                                 memory_.food.matching, scene.relief)
              .ok())
       scene.relief = {};
   }
@@ -207,7 +207,7 @@ void Segmenter::draw_food(const FoodOutlineParams& params) {
     const auto first = static_cast<std::uint8_t>(kFirstItemLabel + result_.items);
     const int room = kLastItemLabel + 1 - first;
     DishRaster raster;
-    ImageView<const ReliefSample> relief;
+    ImageView<const HeightSample> relief;
     ImageView<std::uint8_t> cells;
     if (!outline_view(dish, scene, 0, raster, relief, cells)) continue;
     const ItemSplit split = label_items(raster, relief, params, memory_.food.outline, first, room, cells);
@@ -224,10 +224,10 @@ void Segmenter::draw_food(const FoodOutlineParams& params) {
 
 // Food and glaze of one dish in one view, as outline_food marks them.
 bool Segmenter::outline_view(const SegmentedDish& dish, const DishInViews& scene, std::size_t v,
-                             DishRaster& raster, ImageView<const ReliefSample>& relief,
+                             DishRaster& raster, ImageView<const HeightSample>& relief,
                              ImageView<std::uint8_t>& cells) {
   const DishSearchView& camera = cameras_[v];
-  const DishPlace& place = dish.found.place;
+  const DishPose& place = dish.found.place;
   const DishProfile& profile = scene.inner.profile;
   RimOutline outline = rim_outline(place, camera, 0.0, 0.0);
   const Vec3 middle = camera.camera_from_table * Vec3(place.centre_mm.x(), place.centre_mm.y(), 0.0);
@@ -250,8 +250,8 @@ bool Segmenter::outline_view(const SegmentedDish& dish, const DishInViews& scene
   outline = ring(std::max(well_mm, params_.flange_begin_mm + params_.min_flange_mm));
   mark_zone(raster, outline, DishZone::inside);
   cells = {memory_.food.cells.data(), raster.width(), raster.height()};
-  const ImageView<ReliefSample> laid{memory_.food.outline.relief.data(), raster.width(), raster.height()};
-  lay_relief(scene.relief, v, scene.stored[v], raster, laid);
+  const ImageView<HeightSample> laid{memory_.food.outline.relief.data(), raster.width(), raster.height()};
+  lay_height_evidence(scene.relief, v, scene.stored[v], raster, laid);
   relief = laid;
   return outline_food(raster, relief, params_.food, memory_.food.outline, cells);
 }
@@ -316,7 +316,7 @@ int Segmenter::keep_confirmed(std::uint8_t first, int items, std::uint8_t dish) 
     const double fewer = std::min(regions[0].pixels[label], regions[1].pixels[label]);
     const double more = std::max(regions[0].pixels[label], regions[1].pixels[label]);
     renamed[label] =
-        fewer > params_.min_confirmed_share * more ? static_cast<std::uint8_t>(first + kept++) : dish;
+        fewer > params_.min_confirmed_fraction * more ? static_cast<std::uint8_t>(first + kept++) : dish;
   }
   if (kept < items) rename_items(first, items, renamed);
   return kept;

@@ -46,7 +46,7 @@ class Segmenter {
     bool is_described = false;
     InnerSurface inner;
     std::array<StoredView, 2> stored;
-    DishRelief relief;
+    HeightEvidence relief;
   };
 
   Status check_view(const SegmentedView& view, const LensModel& lens) const;
@@ -59,7 +59,7 @@ class Segmenter {
   bool join_most_alike();
   void draw_food(const FoodOutlineParams& params);
   bool outline_view(const SegmentedDish& dish, const DishInViews& scene, std::size_t v, DishRaster& raster,
-                    ImageView<const ReliefSample>& relief, ImageView<std::uint8_t>& cells);
+                    ImageView<const HeightSample>& relief, ImageView<std::uint8_t>& cells);
   void carry_labels(const DishRaster& raster, const SegmentedDish& dish, ImageView<std::uint8_t> cells) const;
   int keep_confirmed(std::uint8_t first, int items, std::uint8_t dish) const;
   void rename_items(std::uint8_t first, int items, const std::array<std::uint8_t, 256>& renamed) const;

@@ -28,14 +28,14 @@ struct CardStageWorkspace {
 
 // Of all dishes: their reliefs stay while food is outlined.
 struct FoodStageWorkspace {
-  std::array<DishReliefStorage, kMaxPlacedDishes> reliefs;
-  DishReliefWorkspace matching;
+  std::array<HeightEvidenceStorage, kMaxPlacedDishes> reliefs;
+  HeightEvidenceWorkspace matching;
   std::span<std::uint8_t> cells;
   FoodOutlineWorkspace outline;
 
   template <class Allocator>
   constexpr void allocate(Allocator& arena, const SegmenterParams& params) {
-    for (DishReliefStorage& relief : reliefs) relief.allocate(arena, params.relief);
+    for (HeightEvidenceStorage& relief : reliefs) relief.allocate(arena, params.relief);
     const auto max_cells = static_cast<std::size_t>(params.food.raster.max_cells);
     arena.overlay([&] { matching.allocate(arena, params.relief); },
                   [&] {

@@ -13,7 +13,7 @@ namespace traygauge {
 struct SegmenterParams {
   CardSearchParams card;
   DishSearchParams dish;
-  DishReliefParams relief;
+  HeightEvidenceParams relief;
   FoodOutlineParams food;
   // Items on the tray, as a menu says; 0: not known.
   int items = 0;
@@ -36,7 +36,7 @@ struct SegmenterParams {
   // Over the bottom of the dish, between which food is seen; what is carried to the other view counts where
   // both lead to the same item.
   std::array<double, 2> food_heights_mm{3.0, 22.0};
-  double min_confirmed_share = 0.2;  // of an item's pixels in one view over the other's
+  double min_confirmed_fraction = 0.2;  // of an item's pixels in one view over the other's
   // Of print and picture, where the card lies flat and free: 0.954 and more in pictures without a fault. A
   // fifth of the card covered leaves 0.7, ends bent up by a fiftieth of its length 0.92.
   double sure_card_correlation = 0.94;

@@ -16,7 +16,7 @@ bool works_in_reverse(const TrayMemory& memory) {
 // Where the first dish stands, on the table.
 Vec3 dish_on_table(const SceneGeometry& geometry) {
   for (std::size_t d = 0; d < geometry.dish_count; ++d) {
-    const JointDishResult& dish = geometry.joint.dishes[d];
+    const BundleDishResult& dish = geometry.bundle.dishes[d];
     if (!dish.status.ok()) continue;
     const Vec2& centre = dish.placed.place.centre_mm;
     return {centre.x(), centre.y(), 0.0};
@@ -27,20 +27,20 @@ Vec3 dish_on_table(const SceneGeometry& geometry) {
 // The camera did not move against the card, as far as a card can tell.
 bool is_same_place(const SceneGeometry& geometry) {
   constexpr double kSamePlaceMm = 1.0;
-  return second_from_first(geometry.joint.camera_from_table).translation.norm() < kSamePlaceMm;
+  return second_from_first(geometry.bundle.camera_from_table).translation.norm() < kSamePlaceMm;
 }
 
 void report_pose(const SceneGeometry& geometry, bool reversed, Measurement& measurement) {
-  const Pose motion = second_from_first(geometry.joint.camera_from_table);
+  const Pose motion = second_from_first(geometry.bundle.camera_from_table);
   measurement.has_pose = true;
   measurement.second_from_first = reversed ? motion.inverse() : motion;
   measurement.rotation_angle_deg = rotation_angle_deg(motion.rotation);
   measurement.relative_angle_deg =
-      angle_between_views_deg(geometry.joint.camera_from_table, dish_on_table(geometry));
-  const Pose& reference = geometry.joint.camera_from_table[0];
+      angle_between_views_deg(geometry.bundle.camera_from_table, dish_on_table(geometry));
+  const Pose& reference = geometry.bundle.camera_from_table[0];
   const Vec3 up = reference.rotation.col(2);
   measurement.views.table = {up, up.dot(reference.translation)};
-  measurement.views.camera_from_table = geometry.joint.camera_from_table;
+  measurement.views.camera_from_table = geometry.bundle.camera_from_table;
   if (reversed) std::swap(measurement.views.camera_from_table[0], measurement.views.camera_from_table[1]);
 }
 
@@ -71,7 +71,7 @@ void measure_tray(TrayMemory& memory, const Configuration& configuration, std::u
   if (!measurement.status.ok()) return;
   if (observer != nullptr) {
     observer->on_order(measurement.views.reference_view);
-    observer->on_geometry(geometry.joint, std::span(geometry.dishes).first(geometry.dish_count));
+    observer->on_geometry(geometry.bundle, std::span(geometry.dishes).first(geometry.dish_count));
   }
   report_pose(geometry, reversed, measurement);
   warn_about_angles({measurement.relative_angle_deg, measurement.rotation_angle_deg, views[0]->arm_angle_deg,
@@ -83,7 +83,7 @@ void measure_tray(TrayMemory& memory, const Configuration& configuration, std::u
                            : check_angle(measurement.relative_angle_deg, configuration.geometry);
   if (!measurement.status.ok()) return;
   clock.enter(Stage::stereo);
-  make_matte(views, configuration.matte);
+  suppress_speculars(views, configuration.specular);
   for (std::size_t d = 0; d < geometry.dish_count; ++d) {
     measure_dish(views, geometry, d, configuration, dish, observer, clock, measurement);
   }
@@ -92,7 +92,7 @@ void measure_tray(TrayMemory& memory, const Configuration& configuration, std::u
     measurement.views.dish_bottom =
         measurement.views.table.raised(configuration.dishes[index].bottom_height_mm);
   }
-  measurement.status = dish.items.empty() ? geometry.joint.dishes[0].status : summarise(dish.items.items());
+  measurement.status = dish.items.empty() ? geometry.bundle.dishes[0].status : summarise(dish.items.items());
   measurement.items = dish.items.items();
   measurement.views.surfaces = dish.surfaces.items();
 }

@@ -27,8 +27,8 @@ struct TrayView {
   std::span<LabelRegions> region_storage;  // one
   FrameView frame;                         // the caller's
   GrayPyramid gray;
-  ImageView<std::uint8_t> gray_storage;   // memory for the largest frame
-  ImageView<std::uint8_t> matte_storage;  // the same
+  ImageView<std::uint8_t> gray_storage;     // memory for the largest frame
+  ImageView<std::uint8_t> diffuse_storage;  // the same
   PyramidWorkspace pyramid;
   std::span<ViewQuality> quality_storage;  // one
   std::span<CardAlignment> card_storage;   // one
@@ -41,7 +41,8 @@ struct TrayView {
   template <class Allocator>
   constexpr void allocate(Allocator& arena, const FrameLimits& limits) {
     gray_storage = arena.template take_image<std::uint8_t>(limits.max_frame_width, limits.max_frame_height);
-    matte_storage = arena.template take_image<std::uint8_t>(limits.max_frame_width, limits.max_frame_height);
+    diffuse_storage =
+        arena.template take_image<std::uint8_t>(limits.max_frame_width, limits.max_frame_height);
     pyramid.allocate(arena, limits.max_frame_width, limits.max_frame_height);
     region_storage = arena.template take<LabelRegions>(1);
     quality_storage = arena.template take<ViewQuality>(1);

@@ -100,10 +100,10 @@ bool find_sides(const std::array<Vec2, 4>& rays, Vec3& along, Vec3& across) {
 
 }  // namespace
 
-double CardSilhouette::visible_share(double card_aspect_ratio) const {
+double CardSilhouette::visible_fraction(double card_aspect_ratio) const {
   if (!is_found) return 0.0;
   const double ratio = aspect_ratio / std::max(card_aspect_ratio, 1.0 / card_aspect_ratio);
-  return filled_share * std::min(ratio, 1.0 / ratio) * (1.0 - std::abs(skew));
+  return filled_fraction * std::min(ratio, 1.0 / ratio) * (1.0 - std::abs(skew));
 }
 
 CardSilhouette measure_card_silhouette(ImageView<const std::uint8_t> labels, const PixelBox& box,
@@ -123,7 +123,7 @@ CardSilhouette measure_card_silhouette(ImageView<const std::uint8_t> labels, con
   Vec3 along;
   Vec3 across;
   if (!(quadrilateral_px > 0.0) || !find_sides(rays, along, across)) return outline;
-  outline.filled_share = std::min(1.0, area_px / quadrilateral_px);
+  outline.filled_fraction = std::min(1.0, area_px / quadrilateral_px);
   const double ratio = along.norm() / across.norm();
   outline.aspect_ratio = std::max(ratio, 1.0 / ratio);
   outline.skew = along.dot(across) / (along.norm() * across.norm());

@@ -23,14 +23,14 @@ struct SilhouetteCorner {
 struct CardSilhouette {
   bool is_found = false;
   std::array<SilhouetteCorner, 4>
-      corners;                // of the least quadrilateral around the label, clockwise in the picture
-  double filled_share = 0.0;  // of that quadrilateral's area that the label covers
-  double aspect_ratio = 0.0;  // of the rectangle in space that looks like it; longer over shorter side
-  double skew = 0.0;          // cosine between the sides of that rectangle; 0 is a right angle
+      corners;                   // of the least quadrilateral around the label, clockwise in the picture
+  double filled_fraction = 0.0;  // of that quadrilateral's area that the label covers
+  double aspect_ratio = 0.0;     // of the rectangle in space that looks like it; longer over shorter side
+  double skew = 0.0;             // cosine between the sides of that rectangle; 0 is a right angle
 
   // Of a whole card of this aspect ratio, at most: a half that is covered along a straight line leaves a
   // quadrilateral, but a shorter, narrower or slanted one.
-  double visible_share(double card_aspect_ratio) const;
+  double visible_fraction(double card_aspect_ratio) const;
 };
 
 struct CardSilhouetteWorkspace {

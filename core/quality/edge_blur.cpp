@@ -152,7 +152,7 @@ EdgeBlur measure_edge_blur(ImageView<const std::uint8_t> gray, ImageView<const s
   EdgeBlur blur{false, 0.0, range.dark, range.bright};
   if (range.contrast() < params.min_contrast) return blur;
   const int border_px = std::clamp(params.border_px, 0, kReach_px);
-  const auto min_rise = static_cast<int>(4.0 * params.min_rise_share * range.contrast());
+  const auto min_rise = static_cast<int>(4.0 * params.min_rise_fraction * range.contrast());
   const EdgeCollector collector(gray, labels, label, border_px, min_rise);
   constexpr std::array<EdgeDirection, 4> kDirections = {{{1, 0}, {1, 1}, {0, 1}, {-1, 1}}};
   WidthHistogram widths;

@@ -43,8 +43,8 @@ Status check_exposure(ImageView<const std::uint8_t> gray, const ExposureParams& 
     square_sum += count * gray_value * gray_value;
   }
   const double pixels = static_cast<double>(gray.width) * gray.height;
-  if (black > params.max_black_share * pixels) return StatusCode::frame_too_dark;
-  if (burnt > params.max_burnt_share * pixels) return StatusCode::frame_too_bright;
+  if (black > params.max_black_fraction * pixels) return StatusCode::frame_too_dark;
+  if (burnt > params.max_burnt_fraction * pixels) return StatusCode::frame_too_bright;
   const double mean = sum / pixels;
   const double variance = square_sum / pixels - mean * mean;
   if (variance < params.min_deviation * params.min_deviation) return StatusCode::too_few_features;

@@ -25,8 +25,8 @@ struct ItemPixels {
   std::uint32_t blocks = 0;    // of 16 × 16 px wholly on the item
   std::uint32_t textured = 0;  // of those
 
-  double clipped_share() const { return pixels == 0 ? 0.0 : static_cast<double>(clipped) / pixels; }
-  double textured_share() const { return blocks == 0 ? 1.0 : static_cast<double>(textured) / blocks; }
+  double clipped_fraction() const { return pixels == 0 ? 0.0 : static_cast<double>(clipped) / pixels; }
+  double textured_fraction() const { return blocks == 0 ? 1.0 : static_cast<double>(textured) / blocks; }
 };
 
 using ItemPixelTable = std::array<ItemPixels, kLastItemLabel + 1>;  // by label

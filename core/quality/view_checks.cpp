@@ -27,20 +27,20 @@ bool is_darker(const ViewQuality& quality, int white) {
 }
 
 bool is_covered(const ViewQuality& quality, double limit) {
-  return quality.has_card && quality.visible_card_share < limit;
+  return quality.has_card && quality.visible_card_fraction < limit;
 }
 
-double clipped_share(std::uint8_t label, const ViewQuality& first, const ViewQuality& second) {
-  return std::max(first.items[label].clipped_share(), second.items[label].clipped_share());
+double clipped_fraction(std::uint8_t label, const ViewQuality& first, const ViewQuality& second) {
+  return std::max(first.items[label].clipped_fraction(), second.items[label].clipped_fraction());
 }
 
-double textured_share(std::uint8_t label, const ViewQuality& first, const ViewQuality& second,
-                      int min_blocks) {
+double textured_fraction(std::uint8_t label, const ViewQuality& first, const ViewQuality& second,
+                         int min_blocks) {
   double share = 1.0;
   for (const ViewQuality* view : {&first, &second}) {
     const ItemPixels& item = view->items[label];
     if (item.blocks >= static_cast<std::uint32_t>(std::max(min_blocks, 1))) {
-      share = std::min(share, item.textured_share());
+      share = std::min(share, item.textured_fraction());
     }
   }
   return share;
@@ -49,17 +49,18 @@ double textured_share(std::uint8_t label, const ViewQuality& first, const ViewQu
 void report_pictures(const ViewQuality& first, const ViewQuality& second, const ColourDifference& difference,
                      const ViewCheckParams& params, PictureReport& report) {
   report.blur_px = {first.card_edges.sigma_px, second.card_edges.sigma_px};
-  report.visible_card_share = {first.visible_card_share, second.visible_card_share};
+  report.visible_card_fraction = {first.visible_card_fraction, second.visible_card_fraction};
   report.card_white = {first.card_edges.bright, second.card_edges.bright};
   report.exposure_ratio = difference.exposure_ratio;
   report.white_balance_ratio = difference.white_balance_ratio;
-  report.most_clipped_share = 0.0;
-  report.least_textured_share = 1.0;
+  report.most_clipped_fraction = 0.0;
+  report.least_textured_fraction = 1.0;
   for (int value = kFirstItemLabel; value <= kLastItemLabel; ++value) {
     const auto label = static_cast<std::uint8_t>(value);
-    report.most_clipped_share = std::max(report.most_clipped_share, clipped_share(label, first, second));
-    report.least_textured_share = std::min(report.least_textured_share,
-                                           textured_share(label, first, second, params.min_texture_blocks));
+    report.most_clipped_fraction =
+        std::max(report.most_clipped_fraction, clipped_fraction(label, first, second));
+    report.least_textured_fraction = std::min(
+        report.least_textured_fraction, textured_fraction(label, first, second, params.min_texture_blocks));
   }
 }
 
@@ -68,10 +69,10 @@ void warn_about_items(const ViewQuality& first, const ViewQuality& second, const
                       WarningSet& warnings) {
   for (int value = kFirstItemLabel; value <= kLastItemLabel; ++value) {
     const auto label = static_cast<std::uint8_t>(value);
-    warnings.raise_if(clipped_share(label, first, second) > params.clipped_warning, Warning::food_clipped,
+    warnings.raise_if(clipped_fraction(label, first, second) > params.clipped_warning, Warning::food_clipped,
                       label);
     warnings.raise_if(
-        textured_share(label, first, second, params.min_texture_blocks) < params.textured_warning,
+        textured_fraction(label, first, second, params.min_texture_blocks) < params.textured_warning,
         Warning::little_texture, label);
   }
 }
@@ -110,13 +111,13 @@ void assess_view(const CheckedView& view, const CardSize& card, const ViewCheckP
   quality.has_card = !box.empty();
   quality.card_edges = {};
   quality.card_silhouette = {};
-  quality.card_px_per_mm = quality.visible_card_share = 0.0;
+  quality.card_px_per_mm = quality.visible_card_fraction = 0.0;
   if (quality.has_card) {
     quality.card_edges =
         measure_edge_blur(around(view.gray, box), around(view.labels, box), kCardLabel, params.edges);
     quality.card_px_per_mm = std::sqrt(view.regions->pixels[kCardLabel] / (card.width_mm * card.height_mm));
     quality.card_silhouette = measure_card_silhouette(view.labels, box, *view.lens, workspace);
-    quality.visible_card_share = quality.card_silhouette.visible_share(card.width_mm / card.height_mm);
+    quality.visible_card_fraction = quality.card_silhouette.visible_fraction(card.width_mm / card.height_mm);
   }
   measure_item_pixels(view.gray, view.labels, view.regions->dish, params.item_pixels, quality.items);
   measure_region_colours(view.frame, view.labels, params.colours, quality.colours);
@@ -131,8 +132,8 @@ Status judge_view(const ViewQuality& quality, const ViewCheckParams& params) {
 
 StatusCode judge_item_pixels(std::uint8_t label, const ViewQuality& first, const ViewQuality& second,
                              const ViewCheckParams& params) {
-  if (clipped_share(label, first, second) > params.max_clipped) return StatusCode::item_clipped;
-  if (textured_share(label, first, second, params.min_texture_blocks) < params.min_textured) {
+  if (clipped_fraction(label, first, second) > params.max_clipped) return StatusCode::item_clipped;
+  if (textured_fraction(label, first, second, params.min_texture_blocks) < params.min_textured) {
     return StatusCode::item_textureless;
   }
   return StatusCode::ok;

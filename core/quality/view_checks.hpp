@@ -72,7 +72,7 @@ struct ViewQuality {
   EdgeBlur card_edges;
   double card_px_per_mm = 0.0;
   CardSilhouette card_silhouette;
-  double visible_card_share = 0.0;
+  double visible_card_fraction = 0.0;
   ItemPixelTable items{};
   RegionColours colours{};
 
@@ -106,12 +106,12 @@ StatusCode judge_item_pixels(std::uint8_t label, const ViewQuality& first, const
 // What both pictures are like, for reports.
 struct PictureReport {
   std::array<double, 2> blur_px{};
-  std::array<double, 2> visible_card_share{};
+  std::array<double, 2> visible_card_fraction{};
   std::array<int, 2> card_white{};
   double exposure_ratio = 1.0;
   double white_balance_ratio = 1.0;
-  double most_clipped_share = 0.0;    // of an item
-  double least_textured_share = 1.0;  // of an item
+  double most_clipped_fraction = 0.0;    // of an item
+  double least_textured_fraction = 1.0;  // of an item
 };
 
 // Fills `report` from both views and raises the warnings that follow. exposure_differs,

@@ -79,11 +79,11 @@ void for_each_square(ImageView<std::uint8_t> cells, int radius, FoodOutlineWorks
       });
 }
 
-// Food where at least `least_share` of the square about a cell is.
-void threshold_share(ImageView<std::uint8_t> cells, int radius, double least_share,
-                     FoodOutlineWorkspace& workspace) {
+// Food where at least `least_fraction` of the square about a cell is.
+void threshold_fraction(ImageView<std::uint8_t> cells, int radius, double least_fraction,
+                        FoodOutlineWorkspace& workspace) {
   const int side = 2 * radius + 1;
-  const int least = static_cast<int>(std::ceil(least_share * side * side));
+  const int least = static_cast<int>(std::ceil(least_fraction * side * side));
   for_each_square(cells, radius, workspace,
                   [&](std::uint8_t& cell, int food) { cell = food >= least ? kFoodSeed : kGlazeSeed; });
 }
@@ -98,7 +98,7 @@ void free_band(ImageView<std::uint8_t> cells, int radius, FoodOutlineWorkspace& 
 
 }  // namespace
 
-bool outline_food(const DishRaster& raster, ImageView<const ReliefSample> relief,
+bool outline_food(const DishRaster& raster, ImageView<const HeightSample> relief,
                   const FoodOutlineParams& params, FoodOutlineWorkspace& workspace,
                   ImageView<std::uint8_t> cells) {
   GlazeColour glaze;
@@ -107,21 +107,21 @@ bool outline_food(const DishRaster& raster, ImageView<const ReliefSample> relief
   const auto radius_of = [&](double radius_mm) {
     return std::clamp(static_cast<int>(std::lround(radius_mm * cells_per_mm)), 1, kMaxRadius);
   };
-  find_food(raster, relief, glaze, params.field, workspace.field, cells);
+  segment_food(raster, relief, glaze, params.field, workspace.field, cells);
   free_band(cells, radius_of(params.band_mm), workspace);
   spread_owners(raster.colours, params.geodesic, workspace.geodesic, cells);
-  threshold_share(cells, radius_of(params.smoothing_mm), 0.5, workspace);
+  threshold_fraction(cells, radius_of(params.smoothing_mm), 0.5, workspace);
   // An opening: all of the square, then any of it.
   const int opening = radius_of(params.opening_mm);
-  threshold_share(cells, opening, 1.0, workspace);
-  threshold_share(cells, opening, 0.5 / ((2.0 * opening + 1.0) * (2.0 * opening + 1.0)), workspace);
+  threshold_fraction(cells, opening, 1.0, workspace);
+  threshold_fraction(cells, opening, 0.5 / ((2.0 * opening + 1.0) * (2.0 * opening + 1.0)), workspace);
   const double per_mm2 = cells_per_mm * cells_per_mm;
   drop_small(cells, kFoodSeed, kGlazeSeed, params.min_item_mm2 * per_mm2, workspace.queue);
   drop_small(cells, kGlazeSeed, kFoodSeed, params.min_hole_mm2 * per_mm2, workspace.queue);
   return true;
 }
 
-ItemSplit label_items(const DishRaster& raster, ImageView<const ReliefSample> relief,
+ItemSplit label_items(const DishRaster& raster, ImageView<const HeightSample> relief,
                       const FoodOutlineParams& params, FoodOutlineWorkspace& workspace, std::uint8_t first,
                       int max_items, ImageView<std::uint8_t> cells) {
   // Items are drawn on cells where food has no meaning of its own.

@@ -23,7 +23,7 @@ struct FoodOutlineParams {
   GeodesicParams geodesic;
   ItemSplitParams split;
   ItemAssignmentParams assignment;
-  FoodFieldParams field;
+  TvSegmentationParams field;
   double band_mm = 3.0;         // to either side of the field's outline, in which the picture's edges decide
   double smoothing_mm = 1.6;    // radius of the majority that smooths outlines
   double opening_mm = 2.4;      // radius of what fits into food: rings of decoration and bridges do not
@@ -33,11 +33,11 @@ struct FoodOutlineParams {
 
 struct FoodOutlineWorkspace {
   DishRasterWorkspace raster;
-  std::span<ReliefSample> relief;
+  std::span<HeightSample> relief;
   std::span<std::uint8_t> sums;
   std::span<std::int32_t> queue;
   // Each used while the others are not, in the same memory.
-  FoodFieldWorkspace field;
+  TvSegmentationWorkspace field;
   std::span<std::int32_t> column_sums;
   ItemSplitWorkspace split;
   ItemAssignmentWorkspace assignment;
@@ -47,7 +47,7 @@ struct FoodOutlineWorkspace {
   constexpr void allocate(Allocator& arena, const FoodOutlineParams& params) {
     const auto cells = static_cast<std::size_t>(params.raster.max_cells);
     raster.allocate(arena, params.raster);
-    relief = arena.template take<ReliefSample>(cells);
+    relief = arena.template take<HeightSample>(cells);
     sums = arena.template take<std::uint8_t>(cells);
     queue = arena.template take<std::int32_t>(cells);
     arena.overlay(
@@ -63,13 +63,13 @@ struct FoodOutlineWorkspace {
 // `relief` has the raster's size; cells that are not known in it are told by colour alone. Marks the cells of
 // food as kFoodSeed, the rest of the dish as kGlazeSeed, kBarred outside. False when the flange shows too
 // little glaze.
-bool outline_food(const DishRaster& raster, ImageView<const ReliefSample> relief,
+bool outline_food(const DishRaster& raster, ImageView<const HeightSample> relief,
                   const FoodOutlineParams& params, FoodOutlineWorkspace& workspace,
                   ImageView<std::uint8_t> cells);
 
 // Gives the food items labels from `first` on, kDishLabel to the rest of the dish and kBackgroundLabel
 // outside; `cells` as outline_food left them. There are at most `max_items`.
-ItemSplit label_items(const DishRaster& raster, ImageView<const ReliefSample> relief,
+ItemSplit label_items(const DishRaster& raster, ImageView<const HeightSample> relief,
                       const FoodOutlineParams& params, FoodOutlineWorkspace& workspace, std::uint8_t first,
                       int max_items, ImageView<std::uint8_t> cells);
 

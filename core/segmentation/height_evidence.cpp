@@ -52,7 +52,7 @@ class GlazeDisparity {
 // Calls take(sample, mean) with twice the mean over the square about each sample.
 template <class Take>
 void average(std::span<const std::uint8_t> costs, int width, int height, int radius,
-             DishReliefWorkspace& workspace, Take&& take) {
+             HeightEvidenceWorkspace& workspace, Take&& take) {
   const int area = (2 * radius + 1) * (2 * radius + 1);
   const auto index = [&](int x, int y) {
     return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
@@ -65,9 +65,9 @@ void average(std::span<const std::uint8_t> costs, int width, int height, int rad
 
 // The costs of one view's samples on the surface found and on the dish's own, and their heights.
 void compare_view(std::size_t v, const std::array<SurfaceGrid, 2>& grids, const InnerSurface& dish,
-                  const DishReliefParams& params, DishReliefStorage& storage, DishReliefWorkspace& workspace,
-                  DishRelief& relief) {
-  const ImageView<ReliefSample> samples = relief.views[v];
+                  const HeightEvidenceParams& params, HeightEvidenceStorage& storage,
+                  HeightEvidenceWorkspace& workspace, HeightEvidence& relief) {
+  const ImageView<HeightSample> samples = relief.views[v];
   const int width = samples.width;
   const int sign = v == 0 ? 1 : -1;
   const GlazeDisparity glaze(relief.grid, dish, static_cast<int>(v), params.node_step);
@@ -92,18 +92,18 @@ void compare_view(std::size_t v, const std::array<SurfaceGrid, 2>& grids, const 
       const std::size_t at = row + static_cast<std::size_t>(x);
       workspace.costs[0][at] = cost_at(x, found[x]);
       workspace.costs[1][at] = cost_at(x, (1.0F - t) * nodes[node] + t * nodes[node + 1]);
-      ReliefSample& sample = samples.at(x, y);
+      HeightSample& sample = samples.at(x, y);
       sample = {};
       if (grid.labels.at(x, y) == 0 || grid.evidence.at(x, y) == SurfaceEvidence::none) continue;
       const SurfacePoint& point = grid.points.at(x, y);
       const double over_mm = static_cast<double>(point.z_mm) - dish.height_mm(Vec2(point.x_mm, point.y_mm));
       sample.height =
-          static_cast<std::int8_t>(std::clamp(nearest_integer(over_mm / kReliefUnitMm), -127, 127));
+          static_cast<std::int8_t>(std::clamp(nearest_integer(over_mm / kHeightUnitMm), -127, 127));
       sample.is_known = true;
       sample.is_confirmed = grid.evidence.at(x, y) == SurfaceEvidence::both;
     }
   }
-  const std::span<ReliefSample> all = storage.samples[v];
+  const std::span<HeightSample> all = storage.samples[v];
   average(workspace.costs[0], width, samples.height, params.window_radius, workspace,
           [&](std::size_t at, std::uint8_t cost) { all[at].food_cost = cost; });
   average(workspace.costs[1], width, samples.height, params.window_radius, workspace,
@@ -112,14 +112,15 @@ void compare_view(std::size_t v, const std::array<SurfaceGrid, 2>& grids, const 
 
 }  // namespace
 
-Status measure_relief(const std::array<StoredView, 2>& views, const LabelTable& kept,
-                      const InnerSurface& dish, const DishReliefParams& params, DishReliefStorage& storage,
-                      DishReliefWorkspace& workspace, DishRelief& relief) {
-  TwoViewSurfaceReport report;
+Status measure_height_evidence(const std::array<StoredView, 2>& views, const LabelTable& kept,
+                               const InnerSurface& dish, const HeightEvidenceParams& params,
+                               HeightEvidenceStorage& storage, HeightEvidenceWorkspace& workspace,
+                               HeightEvidence& relief) {
+  DenseStereoReport report;
   std::array<SurfaceGrid, 2> grids;
   const double bottom_mm = dish.profile.bottom_height_mm();
-  Status status = reconstruct_surface(views, kept, bottom_mm, bottom_mm + params.highest_mm, params.surface,
-                                      workspace.surface, grids, report);
+  Status status = run_dense_stereo(views, kept, bottom_mm, bottom_mm + params.highest_mm, params.surface,
+                                   workspace.surface, grids, report);
   if (!status.ok()) return status;
   // The same grid in memory that is kept.
   status = relief.grid.build(views, kept, bottom_mm, params.surface.rectification, storage.rows);
@@ -135,15 +136,15 @@ Status measure_relief(const std::array<StoredView, 2>& views, const LabelTable& 
   return StatusCode::ok;
 }
 
-void lay_relief(const DishRelief& relief, std::size_t view, const StoredView& stored,
-                const DishRaster& raster, ImageView<ReliefSample> cells) {
-  for (int y = 0; y < cells.height; ++y) std::fill_n(cells.row(y), cells.width, ReliefSample{});
-  const ImageView<ReliefSample> samples = relief.views[view];
+void lay_height_evidence(const HeightEvidence& relief, std::size_t view, const StoredView& stored,
+                         const DishRaster& raster, ImageView<HeightSample> cells) {
+  for (int y = 0; y < cells.height; ++y) std::fill_n(cells.row(y), cells.width, HeightSample{});
+  const ImageView<HeightSample> samples = relief.views[view];
   const int footprint = static_cast<int>(std::ceil(relief.grid.column_step_mm() / raster.cell_mm + 0.2));
   const double before = 0.5 * (footprint - 1);
   for (int y = 0; y < samples.height; ++y) {
     for (int x = 0; x < samples.width; ++x) {
-      const ReliefSample& sample = samples.at(x, y);
+      const HeightSample& sample = samples.at(x, y);
       if (!sample.is_known) continue;
       const Vec3 point = stored.camera_from_table * relief.grid.plane_point(y, x);
       const Vec2 cell = raster.cell_of(stored.lens.pixel(point.hnormalized()));

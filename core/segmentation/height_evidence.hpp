@@ -16,8 +16,8 @@
 namespace traygauge {
 
 // What is asked of it is a step of some millimetres, not a volume: a coarse grid, and no refinement.
-constexpr TwoViewSurfaceParams coarse_surface_params() {
-  TwoViewSurfaceParams params;
+constexpr DenseStereoParams coarse_surface_params() {
+  DenseStereoParams params;
   params.rectification.max_samples = 40'000;
   params.rectification.max_rows = 384;
   params.max_columns = 448;
@@ -26,31 +26,31 @@ constexpr TwoViewSurfaceParams coarse_surface_params() {
   return params;
 }
 
-struct DishReliefParams {
-  TwoViewSurfaceParams surface = coarse_surface_params();
+struct HeightEvidenceParams {
+  DenseStereoParams surface = coarse_surface_params();
   double highest_mm = 60.0;  // over the bottom, that is looked for
   // Windows of so many samples to either side, over which the census of the two views is compared.
   int window_radius = 2;
   int node_step = 4;  // samples between those at which the dish's own disparity is worked out
 };
 
-// What a DishRelief refers to.
-struct DishReliefStorage {
-  std::array<std::span<ReliefSample>, 2> samples;
+// What a HeightEvidence refers to.
+struct HeightEvidenceStorage {
+  std::array<std::span<HeightSample>, 2> samples;
   std::span<PlaneRow> rows;
 
   template <class Allocator>
-  constexpr void allocate(Allocator& arena, const DishReliefParams& params) {
+  constexpr void allocate(Allocator& arena, const HeightEvidenceParams& params) {
     for (auto& view : samples)
-      view = arena.template take<ReliefSample>(
+      view = arena.template take<HeightSample>(
           static_cast<std::size_t>(params.surface.rectification.max_samples));
     rows = arena.template take<PlaneRow>(static_cast<std::size_t>(params.surface.rectification.max_rows));
   }
 };
 
-// Scratch of measure_relief.
-struct DishReliefWorkspace {
-  TwoViewSurfaceWorkspace surface;
+// Scratch of measure_height_evidence.
+struct HeightEvidenceWorkspace {
+  DenseStereoWorkspace surface;
   std::array<std::span<std::uint32_t>, 2> codes;
   std::array<std::span<std::uint8_t>, 2> costs;  // on the surface found and on the dish's own
   std::span<std::uint16_t> sums;
@@ -58,7 +58,7 @@ struct DishReliefWorkspace {
   std::span<float> nodes;
 
   template <class Allocator>
-  constexpr void allocate(Allocator& arena, const DishReliefParams& params) {
+  constexpr void allocate(Allocator& arena, const HeightEvidenceParams& params) {
     const auto count = static_cast<std::size_t>(params.surface.rectification.max_samples);
     surface.allocate(arena, params.surface);
     for (auto& view : codes) view = arena.template take<std::uint32_t>(count);
@@ -70,18 +70,19 @@ struct DishReliefWorkspace {
 };
 
 // Both views' samples over the dish; they and the grid's rows live in the storage.
-struct DishRelief {
+struct HeightEvidence {
   PlaneRectification grid;
-  std::array<ImageView<ReliefSample>, 2> views;
+  std::array<ImageView<HeightSample>, 2> views;
 };
 
-// Fails where reconstruct_surface does.
-Status measure_relief(const std::array<StoredView, 2>& views, const LabelTable& kept,
-                      const InnerSurface& dish, const DishReliefParams& params, DishReliefStorage& storage,
-                      DishReliefWorkspace& workspace, DishRelief& relief);
+// Fails where run_dense_stereo does.
+Status measure_height_evidence(const std::array<StoredView, 2>& views, const LabelTable& kept,
+                               const InnerSurface& dish, const HeightEvidenceParams& params,
+                               HeightEvidenceStorage& storage, HeightEvidenceWorkspace& workspace,
+                               HeightEvidence& relief);
 
 // Lays one view's samples into the cells of its raster; cells without any are not known.
-void lay_relief(const DishRelief& relief, std::size_t view, const StoredView& stored,
-                const DishRaster& raster, ImageView<ReliefSample> cells);
+void lay_height_evidence(const HeightEvidence& relief, std::size_t view, const StoredView& stored,
+                         const DishRaster& raster, ImageView<HeightSample> cells);
 
 }  // namespace traygauge

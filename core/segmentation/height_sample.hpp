@@ -8,19 +8,19 @@
 
 namespace traygauge {
 
-inline constexpr double kReliefUnitMm = 0.5;
+inline constexpr double kHeightUnitMm = 0.5;
 
-struct ReliefSample {
-  std::int8_t height = 0;       // over the dish's surface, in kReliefUnitMm
+struct HeightSample {
+  std::int8_t height = 0;       // over the dish's surface, in kHeightUnitMm
   std::uint8_t food_cost = 0;   // twice the census bits in which the views differ, matched there
   std::uint8_t glaze_cost = 0;  // … and on the dish's own surface
   bool is_known : 1 = false;
   bool is_confirmed : 1 = false;  // the other view found the same surface
 
-  double height_mm() const { return kReliefUnitMm * height; }
+  double height_mm() const { return kHeightUnitMm * height; }
 };
 
-struct ReliefEvidenceParams {
+struct HeightWeightParams {
   double min_height_mm = 3.0;  // lower may be glaze
   double full_bits = 9.0;      // of a difference in cost that leaves no doubt
 };
@@ -29,7 +29,7 @@ struct ReliefEvidenceParams {
 // the dish's surface, if the other view found it, too: beside food that hides the dish from the other view
 // any match is better than the dish's. Where it lies on the surface: against food, by how much better it is
 // than chance. Where nothing can be matched both are near 0.
-inline double lift_of(const ReliefSample& sample, bool must_agree, const ReliefEvidenceParams& params) {
+inline double lift_of(const HeightSample& sample, bool must_agree, const HeightWeightParams& params) {
   if (!sample.is_known) return 0.0;
   const double chance = 0.5 * kSymmetricCensusBits;
   const double bits = sample.height_mm() > params.min_height_mm

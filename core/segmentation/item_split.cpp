@@ -129,7 +129,7 @@ int label_parts(const FoodParts& parts, const ItemSplitParams& params, std::uint
 }
 
 // False unless all of the block is food.
-bool sum_block(const DishRaster& raster, ImageView<const ReliefSample> relief,
+bool sum_block(const DishRaster& raster, ImageView<const HeightSample> relief,
                ImageView<const std::uint8_t> owners, std::uint8_t food, int left, int top, int side,
                double luma_weight, FoodBlock& block) {
   ColourSum colours;
@@ -141,7 +141,7 @@ bool sum_block(const DishRaster& raster, ImageView<const ReliefSample> relief,
       if (owners.at(x, y) != food) return false;
       colours.add(raster.colours.at(x, y));
       bends += bend_at(raster.colours, x, y);
-      const ReliefSample& sample = relief.at(x, y);
+      const HeightSample& sample = relief.at(x, y);
       known += sample.is_known ? 1 : 0;
       height_mm += sample.is_known ? sample.height_mm() : 0.0;
     }
@@ -161,7 +161,7 @@ bool sum_block(const DishRaster& raster, ImageView<const ReliefSample> relief,
 
 }  // namespace
 
-ItemSplit split_items(const DishRaster& raster, ImageView<const ReliefSample> relief, std::uint8_t food,
+ItemSplit split_items(const DishRaster& raster, ImageView<const HeightSample> relief, std::uint8_t food,
                       double cell_mm, const ItemSplitParams& params, ItemSplitWorkspace& workspace,
                       std::uint8_t first, int max_items, ImageView<std::uint8_t> owners) {
   int side = std::max(2, static_cast<int>(std::lround(params.block_mm / cell_mm)));

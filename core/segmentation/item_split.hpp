@@ -66,7 +66,7 @@ struct ItemSplit {
 
 // `owners`: every cell that is `food` in a block wholly of food gets a label from `first` on, by item, if all
 // about it are of the same; the other cells stay. There are at most `max_items` labels.
-ItemSplit split_items(const DishRaster& raster, ImageView<const ReliefSample> relief, std::uint8_t food,
+ItemSplit split_items(const DishRaster& raster, ImageView<const HeightSample> relief, std::uint8_t food,
                       double cell_mm, const ItemSplitParams& params, ItemSplitWorkspace& workspace,
                       std::uint8_t first, int max_items, ImageView<std::uint8_t> owners);
 

@@ -157,7 +157,7 @@ class PartJoining {
                                      : a_border_mm / std::max(1.0F, FoodParts::crest_mm(a));
     return ramp(lower, params_.least_flank, params_.full_flank) *
            ramp(higher, params_.least_edge, params_.full_edge) *
-           ramp(share, params_.least_flank_share, params_.full_flank_share);
+           ramp(share, params_.least_flank_fraction, params_.full_flank_fraction);
   }
 
   // Half the chi-square distance of the shares.

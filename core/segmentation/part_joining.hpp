@@ -40,8 +40,8 @@ struct PartLikenessParams {
   double full_flank = 1.4;
   double least_edge = 0.79;
   double full_edge = 0.85;
-  double least_flank_share = 0.25;
-  double full_flank_share = 0.35;
+  double least_flank_fraction = 0.25;
+  double full_flank_fraction = 0.35;
   // Parts of so many blocks, one more than so many times as high as the other, are in doubt although they are
   // joined: meatballs in sauce have up to 41, two foods of the sets from 47 on.
   int doubtful_blocks = 45;

@@ -30,8 +30,8 @@ struct Field {
 
 class FoodField {
  public:
-  FoodField(const DishRaster& raster, ImageView<const ReliefSample> relief, const GlazeColour& glaze,
-            const FoodFieldParams& params, FoodFieldWorkspace& workspace)
+  FoodField(const DishRaster& raster, ImageView<const HeightSample> relief, const GlazeColour& glaze,
+            const TvSegmentationParams& params, TvSegmentationWorkspace& workspace)
       : raster_(raster),
         relief_(relief),
         glaze_(glaze),
@@ -87,7 +87,7 @@ class FoodField {
     const double most = params_.neutral_deviations * glaze_.share_sigma;
     for (int y = 0; y < raster_.height(); ++y) {
       for (int x = 0; x < raster_.width(); ++x) {
-        const ReliefSample& sample = relief_.at(x, y);
+        const HeightSample& sample = relief_.at(x, y);
         if (!sample.is_known || raster_.zones.at(x, y) != DishZone::inside) continue;
         const CellColour& colour = raster_.colours.at(x, y);
         const int red = colour.red - glaze_.median.red;
@@ -102,7 +102,7 @@ class FoodField {
       int below = 0;
       std::size_t at = 0;
       while (4 * (below + counts[at]) < quarters * seen) below += counts[at++];
-      return kReliefUnitMm * (static_cast<double>(at) - 128.0);
+      return kHeightUnitMm * (static_cast<double>(at) - 128.0);
     };
     return quartile_mm(1) > params_.filled_mm && quartile_mm(3) < raster_.depth_mm - params_.free_edge_mm;
   }
@@ -177,7 +177,7 @@ class FoodField {
     const std::size_t hue = tint.hue();
     const double strongest = std::max({food_deviations_[(hue + kHues - 1) % kHues], food_deviations_[hue],
                                        food_deviations_[(hue + 1) % kHues]});
-    return tint.deviations > params_.tint_share * strongest
+    return tint.deviations > params_.tint_fraction * strongest
                ? 0.0
                : std::min((params_.lit_luma - luma) / params_.penumbra_luma, 1.0);
   }
@@ -195,7 +195,7 @@ class FoodField {
     if (is_filled_ && told < 0.0) return;
     const double like_glaze = told < 0.0 ? (1.0 - rough) * told / params_.least_colour : 0.0;
     float& evidence = workspace_.evidence[at];
-    if (evidence > 0.0F) evidence *= static_cast<float>(1.0 - (1.0 - params_.plain_share) * like_glaze);
+    if (evidence > 0.0F) evidence *= static_cast<float>(1.0 - (1.0 - params_.plain_fraction) * like_glaze);
     evidence += static_cast<float>(params_.colour_weight * (told < 0.0 ? (1.0 - rough) * told : told) +
                                    params_.texture_weight * rough);
   }
@@ -270,10 +270,10 @@ class FoodField {
   }
 
   const DishRaster& raster_;
-  ImageView<const ReliefSample> relief_;
+  ImageView<const HeightSample> relief_;
   const GlazeColour& glaze_;
-  const FoodFieldParams& params_;
-  FoodFieldWorkspace& workspace_;
+  const TvSegmentationParams& params_;
+  TvSegmentationWorkspace& workspace_;
   Field field_;
   bool is_filled_ = false;
   std::array<double, kHues> food_deviations_{};  // 0: no food of this hue
@@ -281,8 +281,9 @@ class FoodField {
 
 }  // namespace
 
-void find_food(const DishRaster& raster, ImageView<const ReliefSample> relief, const GlazeColour& glaze,
-               const FoodFieldParams& params, FoodFieldWorkspace& workspace, ImageView<std::uint8_t> cells) {
+void segment_food(const DishRaster& raster, ImageView<const HeightSample> relief, const GlazeColour& glaze,
+                  const TvSegmentationParams& params, TvSegmentationWorkspace& workspace,
+                  ImageView<std::uint8_t> cells) {
   FoodField field(raster, relief, glaze, params, workspace);
   field.weigh();
   field.solve();

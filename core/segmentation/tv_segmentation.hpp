@@ -15,16 +15,16 @@
 
 namespace traygauge {
 
-struct FoodFieldParams {
+struct TvSegmentationParams {
   int fold = 2;  // cells of the raster to a side of a cell of the field
-  ReliefEvidenceParams relief;
+  HeightWeightParams relief;
   // Evidence for food of a whole cell of the field, to be compared with `outline`.
   double lift_weight = 3.0;
   double against_weight = 1.2;  // of lift below zero: food ends low
   double colour_weight = 2.6;
   // Of a lift's weight where colour and texture are the glaze's: reflections move between the views as if
   // they stood above it.
-  double plain_share = 0.65;
+  double plain_fraction = 0.65;
   // A dish is filled where what looks like its glaze stands this high over it but for a quarter of it, and
   // ends below the dish's edge by as much as the other: what is smooth and of the glaze's colour is then
   // food, and no reflection.
@@ -39,7 +39,7 @@ struct FoodFieldParams {
   // What food reflects tints the glaze in its shade, where little other light falls: by up to so many
   // deviations, without texture, and by no more than a share of the food's own.
   double shade_deviations = 5.0;
-  double tint_share = 0.6;
+  double tint_fraction = 0.6;
   double standing_lift = 0.7;  // evidence by relief from which a cell is food, and no reflection
   // Shade begins below so much of the glaze's luma and is full by `penumbra_luma` less.
   double lit_luma = 0.9;
@@ -57,7 +57,7 @@ struct FoodFieldParams {
   int sweeps = 40;
 };
 
-struct FoodFieldWorkspace {
+struct TvSegmentationWorkspace {
   std::span<CellColour> colours;
   std::span<std::int16_t> bends;
   std::span<std::int16_t> median_bends;
@@ -82,7 +82,8 @@ struct FoodFieldWorkspace {
 
 // `cells`, of the raster's size: kFoodSeed or kGlazeSeed within the dish, kBarred outside. `relief` has the
 // raster's size; cells not known in it are told by colour alone.
-void find_food(const DishRaster& raster, ImageView<const ReliefSample> relief, const GlazeColour& glaze,
-               const FoodFieldParams& params, FoodFieldWorkspace& workspace, ImageView<std::uint8_t> cells);
+void segment_food(const DishRaster& raster, ImageView<const HeightSample> relief, const GlazeColour& glaze,
+                  const TvSegmentationParams& params, TvSegmentationWorkspace& workspace,
+                  ImageView<std::uint8_t> cells);
 
 }  // namespace traygauge

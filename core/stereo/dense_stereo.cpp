@@ -11,7 +11,7 @@
 namespace traygauge {
 namespace {
 
-using View = TwoViewSurfaceWorkspace::View;
+using View = DenseStereoWorkspace::View;
 
 template <class T>
 ImageView<T> as_picture(std::span<T> storage, ImageView<const std::uint8_t> like) {
@@ -32,13 +32,13 @@ DisparityRange height_range(const PlaneRectification& grid, double low_mm, doubl
 }
 
 // The coarsest level searches all heights within one band, which range_at widens by up to three disparities.
-int most_disparities(const TwoViewSurfaceParams& params) {
+int most_disparities(const DenseStereoParams& params) {
   return (kMaxBandLanes - 3) << (params.levels - 1);
 }
 
 // Coarser where views far apart would displace the highest food by more samples than can be searched.
 Status build_grid(const std::array<StoredView, 2>& views, const LabelTable& kept, double bottom_height_mm,
-                  double highest_mm, const TwoViewSurfaceParams& params, std::span<PlaneRow> rows,
+                  double highest_mm, const DenseStereoParams& params, std::span<PlaneRow> rows,
                   PlaneRectification& grid, DisparityRange& range) {
   PlaneRectificationParams rectification = params.rectification;
   const int most = most_disparities(params);
@@ -139,8 +139,8 @@ DisparityRange range_at(DisparityRange range, std::size_t level, int sign) {
 }
 
 // Matches view `v` against the other one.
-void match_reference(TwoViewSurfaceWorkspace& workspace, std::size_t level, std::size_t v,
-                     DisparityRange range, bool coarsest, const TwoViewSurfaceParams& params) {
+void match_reference(DenseStereoWorkspace& workspace, std::size_t level, std::size_t v, DisparityRange range,
+                     bool coarsest, const DenseStereoParams& params) {
   std::array<View, 2>& views = workspace.views;
   const ImageView<const std::uint8_t> like = views[0].gray[level];
   const ImageView<std::int16_t> first = as_picture(workspace.first_disparity, like);
@@ -168,7 +168,7 @@ void match_reference(TwoViewSurfaceWorkspace& workspace, std::size_t level, std:
   mask_symmetric_census(views[v].labels[level], mask);
   pair.mask = mask;
   const ImageView<Disparity> found = as_picture(views[v].disparity, like);
-  match_semi_global(pair, first, lanes, params.semi_global, workspace.semi_global, found);
+  match_sgm(pair, first, lanes, params.sgm, workspace.sgm, found);
   if (sign > 0) return;
   for (int y = 0; y < found.height; ++y) {
     for (int x = 0; x < found.width; ++x) {
@@ -178,8 +178,8 @@ void match_reference(TwoViewSurfaceWorkspace& workspace, std::size_t level, std:
   }
 }
 
-void match_level(TwoViewSurfaceWorkspace& workspace, std::size_t level, DisparityRange range, bool coarsest,
-                 const TwoViewSurfaceParams& params) {
+void match_level(DenseStereoWorkspace& workspace, std::size_t level, DisparityRange range, bool coarsest,
+                 const DenseStereoParams& params) {
   for (View& view : workspace.views) {
     transform_symmetric_census(view.gray[level],
                                as_picture(view.codes, ImageView<const std::uint8_t>(view.gray[level])));
@@ -187,7 +187,7 @@ void match_level(TwoViewSurfaceWorkspace& workspace, std::size_t level, Disparit
   for (std::size_t v = 0; v < 2; ++v) match_reference(workspace, level, v, range, coarsest, params);
 }
 
-void filter_level(TwoViewSurfaceWorkspace& workspace, std::size_t level, int radius) {
+void filter_level(DenseStereoWorkspace& workspace, std::size_t level, int radius) {
   const ImageView<const std::uint8_t> like = workspace.views[0].gray[level];
   for (const View& view : workspace.views) {
     filter_median(as_picture(view.disparity, like), radius, as_picture(view.consistent, like));
@@ -201,7 +201,7 @@ CameraOverRow camera_over(const PlaneRectification& grid, std::size_t v, int row
 }
 
 void fill_view(const std::array<View, 2>& views, const PlaneRectification& grid, std::size_t v,
-               const GapParams& params, ImageView<Disparity> disparity) {
+               const OcclusionParams& params, ImageView<Disparity> disparity) {
   const ImageView<const std::uint8_t> labels = views[v].labels[0];
   const auto width = static_cast<std::size_t>(disparity.width);
   for (int y = 0; y < disparity.height; ++y) {
@@ -210,14 +210,14 @@ void fill_view(const std::array<View, 2>& views, const PlaneRectification& grid,
                          v == 0 ? 1 : -1,
                          camera_over(grid, v, y),
                          camera_over(grid, 1 - v, y)};
-    const RectifiedOutlineLean outline(grid, labels, static_cast<int>(v), y);
-    fill_gaps(row, outline, params, {disparity.row(y), width});
+    const RectifiedViewSlope outline(grid, labels, static_cast<int>(v), y);
+    fill_occlusions(row, outline, params, {disparity.row(y), width});
   }
 }
 
 // Disparities that both views agree on, gaps filled, as real numbers for the refinement.
-void prepare_surfaces(TwoViewSurfaceWorkspace& workspace, const PlaneRectification& grid,
-                      const TwoViewSurfaceParams& params) {
+void prepare_surfaces(DenseStereoWorkspace& workspace, const PlaneRectification& grid,
+                      const DenseStereoParams& params) {
   std::array<View, 2>& views = workspace.views;
   const ImageView<const std::uint8_t> like = views[0].gray[0];
   for (std::size_t v = 0; v < 2; ++v) {
@@ -239,7 +239,7 @@ void prepare_surfaces(TwoViewSurfaceWorkspace& workspace, const PlaneRectificati
   }
 }
 
-void refine_surfaces(TwoViewSurfaceWorkspace& workspace, const TwoViewSurfaceParams& params) {
+void refine_surfaces(DenseStereoWorkspace& workspace, const DenseStereoParams& params) {
   std::array<View, 2>& views = workspace.views;
   for (std::size_t v = 0; v < 2; ++v) {
     const RefinementPair pair{views[v].gray[0], views[v].labels[0], views[1 - v].gray[0],
@@ -249,7 +249,8 @@ void refine_surfaces(TwoViewSurfaceWorkspace& workspace, const TwoViewSurfacePar
   }
 }
 
-void rate_evidence(std::array<View, 2>& views, std::size_t v, double confirmed_px, double& confirmed_share) {
+void rate_evidence(std::array<View, 2>& views, std::size_t v, double confirmed_px,
+                   double& confirmed_fraction) {
   const ImageView<const std::uint8_t> labels = views[v].labels[0];
   const ImageView<const float> own = as_picture(views[v].surface, labels);
   const ImageView<const float> other = as_picture(views[1 - v].surface, labels);
@@ -275,7 +276,7 @@ void rate_evidence(std::array<View, 2>& views, std::size_t v, double confirmed_p
       confirmed += evidence.at(x, y) == SurfaceEvidence::both ? 1U : 0U;
     }
   }
-  confirmed_share = samples == 0 ? 0.0 : static_cast<double>(confirmed) / static_cast<double>(samples);
+  confirmed_fraction = samples == 0 ? 0.0 : static_cast<double>(confirmed) / static_cast<double>(samples);
 }
 
 void triangulate(const PlaneRectification& grid, std::size_t v, View& view) {
@@ -294,10 +295,10 @@ void triangulate(const PlaneRectification& grid, std::size_t v, View& view) {
 
 }  // namespace
 
-Status reconstruct_surface(const std::array<StoredView, 2>& views, const LabelTable& kept,
-                           double bottom_height_mm, double top_height_mm, const TwoViewSurfaceParams& params,
-                           TwoViewSurfaceWorkspace& workspace, std::array<SurfaceGrid, 2>& grids,
-                           TwoViewSurfaceReport& report) {
+Status run_dense_stereo(const std::array<StoredView, 2>& views, const LabelTable& kept,
+                        double bottom_height_mm, double top_height_mm, const DenseStereoParams& params,
+                        DenseStereoWorkspace& workspace, std::array<SurfaceGrid, 2>& grids,
+                        DenseStereoReport& report) {
   const double highest_mm = std::clamp(top_height_mm - bottom_height_mm, 5.0, params.highest_mm);
   PlaneRectification grid;
   DisparityRange range;

@@ -21,7 +21,7 @@ namespace traygauge {
 
 inline constexpr int kMaxSurfaceLevels = 4;
 
-struct TwoViewSurfaceParams {
+struct DenseStereoParams {
   PlaneRectificationParams rectification;
   int max_columns = 896;  // of the grid, that row buffers are kept for
   int levels = 3;  // up to kMaxSurfaceLevels; the coarsest searches all heights, finer ones a band about the
@@ -31,19 +31,19 @@ struct TwoViewSurfaceParams {
   double highest_mm = 90.0;     // no food is higher above the bottom
   int median_radius = 1;
   double confirmed_px = 1.0;  // both views' refined disparities agree within
-  SemiGlobalParams semi_global;
+  SgmParams sgm;
   ConsistencyParams consistency;
-  GapParams gaps;
-  SurfaceRefinementParams refinement;
+  OcclusionParams gaps;
+  SubpixelRefinementParams refinement;
 };
 
 // Of a level at most; halving rounds up.
-constexpr int max_level_samples(const TwoViewSurfaceParams& params, int level) {
+constexpr int max_level_samples(const DenseStereoParams& params, int level) {
   const int samples = params.rectification.max_samples >> (2 * level);
   return level == 0 ? samples : samples + ((params.max_columns + params.rectification.max_rows) >> level) + 2;
 }
 
-struct TwoViewSurfaceWorkspace {
+struct DenseStereoWorkspace {
   struct View {
     std::array<ImageView<std::uint8_t>, kMaxSurfaceLevels> gray;  // memory of the caps; sizes as sampled
     std::array<ImageView<std::uint8_t>, kMaxSurfaceLevels> labels;
@@ -61,11 +61,11 @@ struct TwoViewSurfaceWorkspace {
   std::span<PlaneRow> rows;
   std::span<std::int16_t> first_disparity;
   std::span<std::uint32_t> census_mask;
-  SemiGlobalWorkspace semi_global;
-  SurfaceRefinementWorkspace refinement;
+  SgmWorkspace sgm;
+  SubpixelRefinementWorkspace refinement;
 
   template <class Allocator>
-  constexpr void allocate(Allocator& arena, const TwoViewSurfaceParams& params) {
+  constexpr void allocate(Allocator& arena, const DenseStereoParams& params) {
     const auto samples = static_cast<std::size_t>(params.rectification.max_samples);
     std::size_t pyramid = 0;
     for (int level = 0; level < params.levels; ++level)
@@ -89,7 +89,7 @@ struct TwoViewSurfaceWorkspace {
           }
           census_mask = arena.template take<std::uint32_t>(samples);
           first_disparity = arena.template take<std::int16_t>(samples);
-          semi_global.allocate(arena, params.max_columns, of_bands > of_coarsest ? of_bands : of_coarsest);
+          sgm.allocate(arena, params.max_columns, of_bands > of_coarsest ? of_bands : of_coarsest);
         },
         [&] { refinement.allocate(arena, params.max_columns, params.rectification.max_samples); },
         [&] {  // triangulation
@@ -98,7 +98,7 @@ struct TwoViewSurfaceWorkspace {
   }
 };
 
-struct TwoViewSurfaceReport {
+struct DenseStereoReport {
   int rows = 0;
   int columns = 0;
   double column_step_mm = 0.0;
@@ -108,9 +108,9 @@ struct TwoViewSurfaceReport {
 
 // The grids live in `workspace` until the next call. `bottom_height_mm` is the dish's bottom, `top_height_mm`
 // what nothing on it exceeds (the tallest sparse track and a margin), both above the table.
-Status reconstruct_surface(const std::array<StoredView, 2>& views, const LabelTable& kept,
-                           double bottom_height_mm, double top_height_mm, const TwoViewSurfaceParams& params,
-                           TwoViewSurfaceWorkspace& workspace, std::array<SurfaceGrid, 2>& grids,
-                           TwoViewSurfaceReport& report);
+Status run_dense_stereo(const std::array<StoredView, 2>& views, const LabelTable& kept,
+                        double bottom_height_mm, double top_height_mm, const DenseStereoParams& params,
+                        DenseStereoWorkspace& workspace, std::array<SurfaceGrid, 2>& grids,
+                        DenseStereoReport& report);
 
 }  // namespace traygauge

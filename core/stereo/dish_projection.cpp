@@ -45,8 +45,8 @@ double settled_height_mm(const InnerSurface& dish, const Vec3& eye_mm, const Vec
   return found;
 }
 
-void settle_dish_samples(const InnerSurface& dish, const SurfaceGrid& grid, std::span<SurfacePoint> points,
-                         std::span<SurfaceEvidence> evidence) {
+void project_onto_dish(const InnerSurface& dish, const SurfaceGrid& grid, std::span<SurfacePoint> points,
+                       std::span<SurfaceEvidence> evidence) {
   const Vec3& eye = grid.camera_mm;
   for (int y = 0; y < grid.labels.height; ++y) {
     const std::uint8_t* labels = grid.labels.row(y);

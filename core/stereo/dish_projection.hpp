@@ -16,7 +16,7 @@ double settled_height_mm(const InnerSurface& dish, const Vec3& eye_mm, const Vec
 
 // Moves the points labelled kDishLabel along their lines of sight down to `dish`. `points` and `evidence` are
 // the memory of `grid`'s own.
-void settle_dish_samples(const InnerSurface& dish, const SurfaceGrid& grid, std::span<SurfacePoint> points,
-                         std::span<SurfaceEvidence> evidence);
+void project_onto_dish(const InnerSurface& dish, const SurfaceGrid& grid, std::span<SurfacePoint> points,
+                       std::span<SurfaceEvidence> evidence);
 
 }  // namespace traygauge

@@ -29,7 +29,7 @@ double ramp(double value, double middle, double spread) {
 
 class RowFiller {
  public:
-  RowFiller(const RowOfViews& row, const OutlineLean& outline, const GapParams& params,
+  RowFiller(const RowOfViews& row, const ViewSlope& outline, const OcclusionParams& params,
             std::span<Disparity> disparity)
       : row_(row),
         labels_(row.labels.data()),
@@ -86,17 +86,17 @@ class RowFiller {
     } else if ((left.disparity > right.disparity) == (row_.sign > 0)) {
       fill_occluded(row_.sign > 0 ? left : right, row_.sign > 0 ? right : left);
     } else {
-      fill_between(gap, left, right, params_.step_share);
+      fill_between(gap, left, right, params_.step_fraction);
     }
   }
 
   // The straight line, lowered towards the lower end going on.
-  void fill_between(Gap gap, const Known& left, const Known& right, double line_share) {
+  void fill_between(Gap gap, const Known& left, const Known& right, double line_fraction) {
     const int lower = std::min(left.disparity, right.disparity);
     for (int i = gap.first; i < gap.end; ++i) {
       const int line = left.disparity +
                        (right.disparity - left.disparity) * (i - left.column) / (right.column - left.column);
-      disparity_[i] = static_cast<Disparity>(lower + static_cast<int>(line_share * (line - lower)));
+      disparity_[i] = static_cast<Disparity>(lower + static_cast<int>(line_fraction * (line - lower)));
     }
   }
 
@@ -107,11 +107,11 @@ class RowFiller {
     const double lean = row_.camera.lean(upper.column + side, side);
     const double other_lean = row_.other_camera.lean(upper.column + side, side);
     constexpr double kLeastLean = 0.02;  // between views that tell depths
-    const double wall_share = std::clamp(-lean / std::max(other_lean - lean, kLeastLean), 0.0, 1.0);
+    const double wall_fraction = std::clamp(-lean / std::max(other_lean - lean, kLeastLean), 0.0, 1.0);
     const int apart = std::abs(lower.column - upper.column);
-    const double wall = wall_share * apart;
+    const double wall = wall_fraction * apart;
     const double hidden = static_cast<double>(std::abs(upper.disparity - lower.disparity)) / kDisparityScale;
-    const double slope = params_.unmatched_fall_share * (apart - 1 - hidden);
+    const double slope = params_.unmatched_fall_fraction * (apart - 1 - hidden);
     fall(upper, side, std::max({wall, slope, 1.0}), lower.disparity, lower.column);
   }
 
@@ -127,9 +127,9 @@ class RowFiller {
     const int outline = side > 0 ? gap.end - 1 : gap.first;
     if (side == row_.sign && fill_within_hull(known, outline, side)) return;
     const int beyond = outline + side;
-    const double share = params_.contact_share +
+    const double share = params_.contact_fraction +
                          ramp(row_.camera.lean(beyond, side), params_.flank_run, params_.flank_run_spread) *
-                             (params_.limb_share - params_.contact_share);
+                             (params_.limb_fraction - params_.contact_fraction);
     const Known end{beyond, static_cast<int>(share * known.disparity)};
     fill_between(gap, side > 0 ? known : end, side > 0 ? end : known, 1.0);
   }
@@ -154,16 +154,16 @@ class RowFiller {
     const double bound = std::clamp(side * (*other - outline) * kDisparityScale / height, 0.0, 1.0);
     const double over = ramp(outline_.at(outline, side), params_.wall_lean, params_.wall_lean_spread);
     const double of_bound =
-        params_.seen_wall_share + over * (params_.limb_hull_share - params_.seen_wall_share);
-    const double share = std::max(bound * of_bound, params_.contact_share);
+        params_.seen_wall_fraction + over * (params_.limb_hull_fraction - params_.seen_wall_fraction);
+    const double share = std::max(bound * of_bound, params_.contact_fraction);
     const double open = 1.0 - bound;
-    const double other_share = std::max(
-        params_.other_outline_share + (1.0 - params_.other_outline_share) * (1.0 - open * open), share);
+    const double other_fraction = std::max(
+        params_.other_outline_fraction + (1.0 - params_.other_outline_fraction) * (1.0 - open * open), share);
     const int run = side * (outline - known.column);
     const int to_other = side * (*other - known.column) -
-                         static_cast<int>(std::lround(other_share * height / kDisparityScale));
+                         static_cast<int>(std::lround(other_fraction * height / kDisparityScale));
     const int seen_by_both = std::clamp(to_other, 0, run);
-    const Known edge{known.column + side * seen_by_both, static_cast<int>(other_share * height)};
+    const Known edge{known.column + side * seen_by_both, static_cast<int>(other_fraction * height)};
     fall(known, side, std::max(seen_by_both, 1), edge.disparity, edge.column + side);
     fall(edge, side, std::max(run - seen_by_both, 1), static_cast<int>(share * height), outline + side);
     return true;
@@ -172,16 +172,16 @@ class RowFiller {
   const RowOfViews& row_;
   const std::uint8_t* labels_;
   int width_;
-  const OutlineLean& outline_;
-  const GapParams& params_;
+  const ViewSlope& outline_;
+  const OcclusionParams& params_;
   Disparity* disparity_;
   int one_surface_;
 };
 
 }  // namespace
 
-void fill_gaps(const RowOfViews& row, const OutlineLean& outline, const GapParams& params,
-               std::span<Disparity> disparity) {
+void fill_occlusions(const RowOfViews& row, const ViewSlope& outline, const OcclusionParams& params,
+                     std::span<Disparity> disparity) {
   RowFiller(row, outline, params, disparity).fill();
 }
 

@@ -22,8 +22,8 @@ class Matcher {
   static constexpr int kLanes = kChunks * kBandLanes;
   using Path = PathCosts<kChunks>;
 
-  Matcher(const BandedPair& pair, ImageView<const std::int16_t> first_disparity,
-          const SemiGlobalParams& params, SemiGlobalWorkspace& workspace)
+  Matcher(const BandedPair& pair, ImageView<const std::int16_t> first_disparity, const SgmParams& params,
+          SgmWorkspace& workspace)
       : pair_(pair), base_(first_disparity), params_(params), workspace_(workspace) {
     width_ = pair.gray[0].width;
     height_ = pair.gray[0].height;
@@ -63,8 +63,8 @@ class Matcher {
 
   const BandedPair& pair_;
   ImageView<const std::int16_t> base_;
-  const SemiGlobalParams& params_;
-  SemiGlobalWorkspace& workspace_;
+  const SgmParams& params_;
+  SgmWorkspace& workspace_;
   int width_ = 0;
   int height_ = 0;
   std::array<ByteLanes, 256> large_penalty_{};
@@ -216,8 +216,7 @@ void Matcher<kChunks>::choose(int y, Disparity* disparity) const {
 
 template <int kChunks>
 void match_band(const BandedPair& pair, ImageView<const std::int16_t> first_disparity,
-                const SemiGlobalParams& params, SemiGlobalWorkspace& workspace,
-                ImageView<Disparity> disparity) {
+                const SgmParams& params, SgmWorkspace& workspace, ImageView<Disparity> disparity) {
   Matcher<kChunks> matcher(pair, first_disparity, params, workspace);
   matcher.sweep(true, disparity);
   matcher.sweep(false, disparity);
@@ -225,9 +224,8 @@ void match_band(const BandedPair& pair, ImageView<const std::int16_t> first_disp
 
 }  // namespace
 
-void match_semi_global(const BandedPair& pair, ImageView<const std::int16_t> first_disparity, int lanes,
-                       const SemiGlobalParams& params, SemiGlobalWorkspace& workspace,
-                       ImageView<Disparity> disparity) {
+void match_sgm(const BandedPair& pair, ImageView<const std::int16_t> first_disparity, int lanes,
+               const SgmParams& params, SgmWorkspace& workspace, ImageView<Disparity> disparity) {
   static_assert(kMaxBandLanes == 4 * kBandLanes);
   switch (lanes / kBandLanes) {
     case 1:

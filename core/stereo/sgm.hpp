@@ -12,7 +12,7 @@
 
 namespace traygauge {
 
-struct SemiGlobalParams {
+struct SgmParams {
   // In bits of the census, of 31.
   int small_step_penalty = 3;    // a change by one disparity: slanted food is the rule
   int large_step_penalty = 28;   // by more, in plain areas
@@ -39,7 +39,7 @@ struct BandedPair {
   ImageView<const std::uint32_t> mask;  // bits of the first picture's codes that count
 };
 
-struct SemiGlobalWorkspace {
+struct SgmWorkspace {
   std::span<std::uint16_t> sums;                 // path costs of all pixels and disparities
   std::array<std::span<std::uint8_t>, 2> paths;  // two rows of path costs
   std::span<std::uint32_t> padded_codes;         // one row of the second picture
@@ -60,8 +60,7 @@ struct SemiGlobalWorkspace {
 // the start of each pixel's band of `lanes` disparities (a multiple of kBandLanes, all within
 // ±kMaxDisparityPx); pixels × lanes ≤ the workspace's states. Results in sixteenths, kNoDisparity outside of
 // the labels and where nothing matched.
-void match_semi_global(const BandedPair& pair, ImageView<const std::int16_t> first_disparity, int lanes,
-                       const SemiGlobalParams& params, SemiGlobalWorkspace& workspace,
-                       ImageView<Disparity> disparity);
+void match_sgm(const BandedPair& pair, ImageView<const std::int16_t> first_disparity, int lanes,
+               const SgmParams& params, SgmWorkspace& workspace, ImageView<Disparity> disparity);
 
 }  // namespace traygauge

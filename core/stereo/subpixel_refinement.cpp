@@ -10,7 +10,7 @@
 namespace traygauge {
 namespace {
 
-constexpr int kChannels = SurfaceRefinementWorkspace::kChannels;
+constexpr int kChannels = SubpixelRefinementWorkspace::kChannels;
 constexpr float kLeastHold = 1e-6F;    // grey²: keeps a sample that nothing holds where it is
 constexpr float kLeastEnergy = 0.01F;  // grey², of a window without any gradient
 
@@ -34,7 +34,7 @@ CubicSample interpolate(const std::uint8_t* at, float t) {
 class Refinement {
  public:
   Refinement(const RefinementPair& pair, ImageView<const std::uint8_t> trusted,
-             const SurfaceRefinementParams& params, SurfaceRefinementWorkspace& workspace,
+             const SubpixelRefinementParams& params, SubpixelRefinementWorkspace& workspace,
              ImageView<float> disparity)
       : pair_(pair), trusted_(trusted), params_(params), workspace_(workspace), disparity_(disparity) {
     columns_ = static_cast<std::ptrdiff_t>(disparity.width) + std::ptrdiff_t{2} * kMaxRefinementRadius;
@@ -75,8 +75,8 @@ class Refinement {
 
   const RefinementPair& pair_;
   ImageView<const std::uint8_t> trusted_;
-  const SurfaceRefinementParams& params_;
-  SurfaceRefinementWorkspace& workspace_;
+  const SubpixelRefinementParams& params_;
+  SubpixelRefinementWorkspace& workspace_;
   ImageView<float> disparity_;
   std::ptrdiff_t columns_ = 0;
 };
@@ -260,7 +260,7 @@ void Refinement::relax(bool downwards) {
 }  // namespace
 
 void refine_surface(const RefinementPair& pair, ImageView<const std::uint8_t> trusted,
-                    const SurfaceRefinementParams& params, SurfaceRefinementWorkspace& workspace,
+                    const SubpixelRefinementParams& params, SubpixelRefinementWorkspace& workspace,
                     ImageView<float> disparity) {
   Refinement refinement(pair, trusted, params, workspace, disparity);
   for (int iteration = 0; iteration < params.iterations; ++iteration) {

@@ -13,7 +13,7 @@
 
 namespace traygauge {
 
-struct SurfaceRefinementParams {
+struct SubpixelRefinementParams {
   int iterations = 3;        // each resamples the picture anew
   int window_radius = 2;     // 1 to kMaxRefinementRadius
   double max_step_px = 1.0;  // of an iteration: the linearisation reaches about a pixel
@@ -31,7 +31,7 @@ struct SurfaceRefinementParams {
 
 inline constexpr int kMaxRefinementRadius = 6;
 
-struct SurfaceRefinementWorkspace {
+struct SubpixelRefinementWorkspace {
   static constexpr int kChannels = 5;
   std::span<float> certainty;  // gradient energy, of every sample
   std::span<float> target;     // disparity that the window asks for, times certainty
@@ -69,7 +69,7 @@ struct RefinementPair {
 // Refines `disparity` (columns), known wherever there is a label. `trusted` is 0 where a sample has no
 // partner: it follows its neighbours.
 void refine_surface(const RefinementPair& pair, ImageView<const std::uint8_t> trusted,
-                    const SurfaceRefinementParams& params, SurfaceRefinementWorkspace& workspace,
+                    const SubpixelRefinementParams& params, SubpixelRefinementWorkspace& workspace,
                     ImageView<float> disparity);
 
 }  // namespace traygauge

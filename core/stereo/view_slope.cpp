@@ -28,11 +28,11 @@ std::optional<int> outline_column(ImageView<const std::uint8_t> labels, std::uin
 
 }  // namespace
 
-Vec2 RectifiedOutlineLean::plane_mm(int row, int column) const {
+Vec2 RectifiedViewSlope::plane_mm(int row, int column) const {
   return grid_.plane_point(row, column).head<2>();
 }
 
-Vec2 RectifiedOutlineLean::normal(int column, int side) const {
+Vec2 RectifiedViewSlope::normal(int column, int side) const {
   const std::uint8_t label = labels_.at(column, row_);
   std::array<Vec2, 2 * kRowsAround + 1> points;
   std::size_t count = 0;
@@ -53,7 +53,7 @@ Vec2 RectifiedOutlineLean::normal(int column, int side) const {
   return across.dot(outwards) < 0.0 ? Vec2(-across) : across;
 }
 
-double RectifiedOutlineLean::at(int column, int side) const {
+double RectifiedViewSlope::at(int column, int side) const {
   const Vec2 run = plane_mm(row_, column) - grid_.camera_mm(view_).head<2>();
   return normal(column, side).dot(run) / grid_.camera_height_mm(view_);
 }

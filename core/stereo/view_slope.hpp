@@ -10,11 +10,10 @@
 
 namespace traygauge {
 
-class RectifiedOutlineLean final : public OutlineLean {
+class RectifiedViewSlope final : public ViewSlope {
  public:
   // `labels` as view `view` of the grid shows them; both must outlive this.
-  RectifiedOutlineLean(const PlaneRectification& grid, ImageView<const std::uint8_t> labels, int view,
-                       int row)
+  RectifiedViewSlope(const PlaneRectification& grid, ImageView<const std::uint8_t> labels, int view, int row)
       : grid_(grid), labels_(labels), view_(view), row_(row) {}
 
   // The normal is that of a line through the outline in the rows around.

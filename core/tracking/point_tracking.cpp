@@ -52,7 +52,7 @@ class Tracker {
         transfer_(first.lens, second.lens, cameras) {}
 
   // Cells of the first view that the second does not see.
-  std::span<const std::uint8_t> find_hidden_cells();
+  std::span<const std::uint8_t> find_occluded_cells();
   // Corrects the second pose from the strongest corners.
   void look_first(std::span<const Corner> corners);
   bool track(const Corner& corner, PointTrack& track);
@@ -125,7 +125,7 @@ bool Tracker::search(const Vec2& pixel, const TableRay& ray, const HeightRange& 
   return true;
 }
 
-std::span<const std::uint8_t> Tracker::find_hidden_cells() {
+std::span<const std::uint8_t> Tracker::find_occluded_cells() {
   const ImageView<const std::uint8_t> picture = first_.gray.levels[kCornerLevel];
   const CornerGrid grid(picture.width, picture.height, params_.corners);
   const std::span<std::uint8_t> hidden = workspace_.hidden_cells.first(grid.cells());
@@ -303,7 +303,7 @@ Status track_points(const TrackedView& first, const TrackedView& second,
   Tracker tracker(first, second, camera_from_table, card_thickness_mm, params, workspace, report);
   BoundedList<Corner> corners(workspace.corner_storage);
   find_corners(
-      {first.gray.levels[kCornerLevel], first.labels, 1 << kCornerLevel, tracker.find_hidden_cells()},
+      {first.gray.levels[kCornerLevel], first.labels, 1 << kCornerLevel, tracker.find_occluded_cells()},
       params.corners, random, workspace.corners, corners);
   report.corners = corners.size();
   if (corners.size() < static_cast<std::size_t>(params.min_tracks)) return StatusCode::too_few_features;

@@ -93,7 +93,7 @@ Status build_height_map(std::span<const SurfaceGrid> views, const InnerSurface& 
     seen = true;
   }
   if (!seen) return StatusCode::too_little_depth;
-  fill_hidden_cells(dish, params, steepest_sight, workspace.sources, map);
+  fill_occluded_cells(dish, params, steepest_sight, workspace.sources, map);
   return StatusCode::ok;
 }
 

@@ -61,11 +61,11 @@ Status integrate_height_map(const HeightMap& map, const InnerSurface& dish, cons
       item.column_volume_ml += height * cell_mm2 / kMm3PerMl;
       if (cell.kind == CellKind::hidden) {
         item.hidden_volume_ml += height * cell_mm2 / kMm3PerMl;
-        item.hidden_share += cell_mm2;
+        item.hidden_fraction += cell_mm2;
       }
       if (cell.kind == CellKind::surface && cell.below_label != 0) item.undercut_mm2 += cell_mm2;
       item.wall_mm2 += wall_mm2(map, x, y, params.wall_slope);
-      if (is_border(map, x, y)) item.border_share += cell_mm2;
+      if (is_border(map, x, y)) item.border_fraction += cell_mm2;
       if (cell.kind != CellKind::unseen) {
         item.centre_mm += Vec3(place_mm.x(), place_mm.y(), cell.z_mm);
         ++told_cells[cell.label];
@@ -81,8 +81,8 @@ Status integrate_height_map(const HeightMap& map, const InnerSurface& dish, cons
     any = true;
     item.volume_ml = item.column_volume_ml;
     item.mean_height_mm = item.column_volume_ml * kMm3PerMl / item.area_mm2;
-    item.hidden_share /= item.area_mm2;
-    item.border_share /= item.area_mm2;
+    item.hidden_fraction /= item.area_mm2;
+    item.border_fraction /= item.area_mm2;
     if (told_cells[label] > 0) item.centre_mm /= told_cells[label];
     item.max_height_mm = max_height(workspace.histograms.subspan(label * kBins, kBins),
                                     params.max_height_ignored_mm2 / cell_mm2);

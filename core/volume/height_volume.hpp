@@ -18,8 +18,8 @@ struct HeightVolume {
   double area_mm2 = 0.0;
   double mean_height_mm = 0.0;
   double max_height_mm = 0.0;
-  double hidden_share = 0.0;      // of the area
-  double border_share = 0.0;      // of the area, in cells at the item's outline
+  double hidden_fraction = 0.0;   // of the area
+  double border_fraction = 0.0;   // of the area, in cells at the item's outline
   double undercut_mm2 = 0.0;      // below this area of the item a view sees another surface
   double wall_mm2 = 0.0;          // seen from the side: of walls within the item
   Vec3 centre_mm = Vec3::Zero();  // of its upper surface where a view tells of it, table frame

@@ -93,7 +93,7 @@ bool reaches_wall(const HeightMap& map, const InnerSurface& dish, std::uint8_t l
     }
     reached += found ? 1 : 0;
   }
-  return reached >= params.min_wall_share * kDirections;
+  return reached >= params.min_wall_fraction * kDirections;
 }
 
 // Standard deviation of the surface's heights: nothing of a liquid lies below its level, so what was matched
@@ -147,9 +147,9 @@ LevelLiquid level_liquid(std::span<const SurfaceGrid> views, const InnerSurface&
   const double matched_mm = find_level(map, label, params.tolerance_mm, workspace.histogram, share);
   const ContactLevel contact =
       find_contact_level(views, dish, label, params.contact_tolerance_mm, workspace.histogram);
-  const bool has_contact = contact.share >= params.min_contact_share && contact.level_mm >= least_mm &&
+  const bool has_contact = contact.share >= params.min_contact_fraction && contact.level_mm >= least_mm &&
                            std::abs(contact.level_mm - matched_mm) <= params.max_contact_difference_mm;
-  if (!has_contact && (share < params.min_level_share || matched_mm < least_mm)) return {};
+  if (!has_contact && (share < params.min_level_fraction || matched_mm < least_mm)) return {};
   const LevelLiquid liquid{label, has_contact ? contact.level_mm : matched_mm};
   if (!reaches_wall(map, dish, label, liquid.level_mm, params)) return {};
   make_level(dish, liquid, params, map);

@@ -10,7 +10,7 @@
 namespace traygauge {
 
 // Of the samples of every label in all views; 1 for labels without any.
-inline std::array<double, 256> matched_shares(std::span<const SurfaceGrid> views) {
+inline std::array<double, 256> matched_fractions(std::span<const SurfaceGrid> views) {
   std::array<double, 256> samples{};
   std::array<double, 256> matched{};
   for (const SurfaceGrid& view : views) {

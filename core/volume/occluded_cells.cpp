@@ -230,8 +230,8 @@ class HiddenFill {
 
 }  // namespace
 
-void fill_hidden_cells(const InnerSurface& dish, const HeightMapParams& params, double steepest_sight,
-                       std::span<Source> sources, HeightMap& map) {
+void fill_occluded_cells(const InnerSurface& dish, const HeightMapParams& params, double steepest_sight,
+                         std::span<Source> sources, HeightMap& map) {
   HiddenFill fill(dish, params, steepest_sight, sources, map);
   fill.fill_holes();
   fill.measure_flanks();

@@ -43,8 +43,8 @@ std::array<double, 256> undercut_areas(const HeightMap& map) {
 }
 
 double overhang_probability(double undercut_mm2, double of_ball_mm2, const OverhangParams& params) {
-  const double low_mm2 = std::max(params.wall_undercut_share * of_ball_mm2, params.min_undercut_mm2);
-  const double high_mm2 = params.fruit_undercut_share * of_ball_mm2;
+  const double low_mm2 = std::max(params.wall_undercut_fraction * of_ball_mm2, params.min_undercut_mm2);
+  const double high_mm2 = params.fruit_undercut_fraction * of_ball_mm2;
   if (undercut_mm2 <= low_mm2) return 0.0;
   return undercut_mm2 >= high_mm2 ? 1.0 : (undercut_mm2 - low_mm2) / (high_mm2 - low_mm2);
 }

@@ -15,8 +15,8 @@ struct OverhangParams {
   // over none. Of what a ball of the item's size and height shows, the undercut's area of walls with noise
   // reaches the first share (rendered foods: 0.27, one in 560 0.39), that of fruit the second (0.68 and
   // more); between them it may be either.
-  double wall_undercut_share = 0.3;
-  double fruit_undercut_share = 0.65;
+  double wall_undercut_fraction = 0.3;
+  double fruit_undercut_fraction = 0.65;
   // Column volume over closed volume: scanned fruit has 1.14 to 1.24, a ball 1.25.
   double column_over_closed = 1.19;
   double min_undercut_mm2 = 30.0;  // what a few wrong samples make; nearly vertical views never show more

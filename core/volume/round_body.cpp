@@ -76,12 +76,12 @@ class RoundBody {
   BodyWidth measure_width();
   BodyShape shape_in(std::size_t v) const;
   void correct_centre();
-  double raise_share() const;
+  double raise_fraction() const;
   // Of the samples that count, how many meet a condition; mean over both views.
   template <class Counts, class Meets>
-  double mean_share(Counts&& counts, Meets&& meets) const;
-  double rim_above_share() const;
-  double sunken_share() const;
+  double mean_fraction(Counts&& counts, Meets&& meets) const;
+  double rim_above_fraction() const;
+  double sunken_fraction() const;
 
   const RoundBodyGrids& grids_;
   const InnerSurface& dish_;
@@ -95,7 +95,7 @@ class RoundBody {
 
 bool RoundBody::fit() {
   if (outline_.steepest_run > params_.max_run || outline_.usable < params_.min_rows ||
-      outline_.usable < params_.min_usable_share * outline_.shared)
+      outline_.usable < params_.min_usable_fraction * outline_.shared)
     return false;
   centre_mm_ = centre_height_mm(outline_, grids_.views, level_mm_);
   if (!(centre_mm_ > params_.min_centre_mm)) return false;
@@ -113,9 +113,9 @@ bool RoundBody::fit() {
                (by_outline + by_width));
   const auto has_room = [&] { return shape_in(0).amplitude > 0.0 && shape_in(1).amplitude > 0.0; };
   if (!has_room()) return false;
-  centre_mm_ *= raise_share();
-  if (!has_room() || rim_above_share() > params_.max_rim_above) return false;
-  return width.fullness >= params_.least_fullness || sunken_share() <= params_.max_sunken;
+  centre_mm_ *= raise_fraction();
+  if (!has_room() || rim_above_fraction() > params_.max_rim_above) return false;
+  return width.fullness >= params_.least_fullness || sunken_fraction() <= params_.max_sunken;
 }
 
 // The bulge of an ellipse with half axes a ≥ b has its most a²b² / (a² + b²) over the area πab. A view along
@@ -167,7 +167,7 @@ BodyShape RoundBody::shape_in(std::size_t v) const {
   body.limb_slope = 0.5 * body.middle * body.middle * axis_mm / most_mm2_[v];
   body.amplitude = std::numeric_limits<double>::max();
   pictures_[v].for_each_sample([&](const BodySample& sample) {
-    if (sample.bulge_mm2 < params_.contact_share * most_mm2_[v]) return;
+    if (sample.bulge_mm2 < params_.contact_fraction * most_mm2_[v]) return;
     const double floor = floor_mm(v, sample);
     const double room = body.limb(sample) - floor / (body.camera_mm - floor);
     body.amplitude = std::min(body.amplitude, room / std::sqrt(sample.bulge_mm2));
@@ -222,7 +222,7 @@ void RoundBody::correct_centre() {
 }
 
 // What is matched wrongly on shine lies too low: what is matched higher is right.
-double RoundBody::raise_share() const {
+double RoundBody::raise_fraction() const {
   constexpr double kBin = 0.005;
   constexpr double kFirst = 0.9;
   std::array<int, 64> bins{};
@@ -244,7 +244,7 @@ double RoundBody::raise_share() const {
 }
 
 template <class Counts, class Meets>
-double RoundBody::mean_share(Counts&& counts, Meets&& meets) const {
+double RoundBody::mean_fraction(Counts&& counts, Meets&& meets) const {
   double mean = 0.0;
   for (std::size_t v = 0; v < 2; ++v) {
     const BodyShape body = shape_in(v);
@@ -260,10 +260,10 @@ double RoundBody::mean_share(Counts&& counts, Meets&& meets) const {
   return mean;
 }
 
-double RoundBody::rim_above_share() const {
-  return mean_share(
+double RoundBody::rim_above_fraction() const {
+  return mean_fraction(
       [&](std::size_t v, const BodySample& sample) {
-        return sample.bulge_mm2 <= params_.rim_share * most_mm2_[v] && is_matched(v, sample);
+        return sample.bulge_mm2 <= params_.rim_fraction * most_mm2_[v] && is_matched(v, sample);
       },
       [&](std::size_t v, const BodySample& sample, const BodyShape& body) {
         return matched_mm(v, sample) > body.top_mm(sample) + params_.above_rim * centre_mm_;
@@ -271,12 +271,12 @@ double RoundBody::rim_above_share() const {
 }
 
 // Of the middle: a mirrored lamp covers a part of it, and what is plain around that is not confirmed.
-double RoundBody::sunken_share() const {
-  return mean_share([&](std::size_t v, const BodySample& sample) { return is_in_middle(v, sample); },
-                    [&](std::size_t v, const BodySample& sample, const BodyShape& body) {
-                      return evidence_of(v, sample) == SurfaceEvidence::both &&
-                             matched_mm(v, sample) < params_.sunken_top * body.top_mm(sample);
-                    });
+double RoundBody::sunken_fraction() const {
+  return mean_fraction([&](std::size_t v, const BodySample& sample) { return is_in_middle(v, sample); },
+                       [&](std::size_t v, const BodySample& sample, const BodyShape& body) {
+                         return evidence_of(v, sample) == SurfaceEvidence::both &&
+                                matched_mm(v, sample) < params_.sunken_top * body.top_mm(sample);
+                       });
 }
 
 void RoundBody::shape() const {

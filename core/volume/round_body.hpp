@@ -17,8 +17,8 @@ namespace traygauge {
 // The shares are of the height of the body's centre over the dish's bottom, unless said otherwise. Chosen on
 // rendered fruit, scanned and made up, and on the foods of the captures, none of which may pass for a fruit.
 struct RoundBodyParams {
-  int min_rows = 12;              // that show both ends in both views
-  double min_usable_share = 0.5;  // of the rows that the item is in
+  int min_rows = 12;                 // that show both ends in both views
+  double min_usable_fraction = 0.5;  // of the rows that the item is in
   // Of a line of sight, over mm that it falls: where a view sees the body more from the side, rows cut it far
   // from upright, and their sections' middles do not lie at its height.
   double max_run = 0.85;
@@ -32,15 +32,15 @@ struct RoundBodyParams {
   double least_fullness = 0.45;
   double sunken_top = 0.9;
   double max_sunken = 0.6;
-  double contact_share = 0.3;   // of the greatest bulge: further out nothing touches the dish
-  double flatness = 0.95;       // centre height over half the width, expected
-  double flatness_sigma = 0.1;  // of its logarithm
-  double outline_sigma = 0.03;  // of the logarithm of the height that outlines tell, times the elongation:
-                                // along a tube the same section errs everywhere alike
-  double raise_quantile = 0.7;  // so much of what was matched around the summit lies below the body
+  double contact_fraction = 0.3;  // of the greatest bulge: further out nothing touches the dish
+  double flatness = 0.95;         // centre height over half the width, expected
+  double flatness_sigma = 0.1;    // of its logarithm
+  double outline_sigma = 0.03;    // of the logarithm of the height that outlines tell, times the elongation:
+                                  // along a tube the same section errs everywhere alike
+  double raise_quantile = 0.7;    // so much of what was matched around the summit lies below the body
   double min_raise_samples = 100.0;
   double max_raise = 1.15;
-  double rim_share = 0.4;       // of the greatest bulge: what lies outside is the rim
+  double rim_fraction = 0.4;    // of the greatest bulge: what lies outside is the rim
   double above_rim = 0.1;       // matched so far above the body there: the edge of a cake
   double max_rim_above = 0.25;  // of the rim's matched samples
   double reach = 0.1;           // matched samples so near to the body stay where they are

@@ -30,7 +30,7 @@ double outline_mm(double area_mm2) {
 }  // namespace
 
 double height_sigma_mm(const Vec3& point_mm, const TableCameras& camera_from_table,
-                       const JointMatrix& covariance) {
+                       const BundleMatrix& covariance) {
   constexpr double kTurnRad = 1e-5;
   constexpr double kShiftMm = 1e-3;
   const std::array<Vec3, 2> rays = {camera_from_table[0] * point_mm, camera_from_table[1] * point_mm};
@@ -46,7 +46,7 @@ double height_sigma_mm(const Vec3& point_mm, const TableCameras& camera_from_tab
 }
 
 double estimate_sigma_ml(const UncertaintyInput& input, const TableCameras& camera_from_table,
-                         const JointMatrix& covariance, const UncertaintyParams& params) {
+                         const BundleMatrix& covariance, const UncertaintyParams& params) {
   const HeightVolume& item = input.volume;
   if (!(item.area_mm2 > 0.0)) return 0.0;
   const double volume_mm3 = kMm3PerMl * item.column_volume_ml;
@@ -56,13 +56,14 @@ double estimate_sigma_ml(const UncertaintyInput& input, const TableCameras& came
       std::hypot(params.outline_px * input.px_mm, input.is_outline_found ? params.found_outline_mm : 0.0);
   const double edge_mm3 = outline_mm(item.area_mm2) * edge_mm * 0.5 * item.mean_height_mm;
   const double wall_mm3 = params.wall_mm * item.wall_mm2;
-  const double unmatched_share =
-      input.is_round ? params.round_share : params.filled_share * std::pow(1.0 - input.matched_share, 2);
+  const double unmatched_fraction = input.is_round
+                                        ? params.round_fraction
+                                        : params.filled_fraction * std::pow(1.0 - input.matched_fraction, 2);
   const double variance_mm6 =
       item.area_mm2 * item.area_mm2 *
           (cameras_mm * cameras_mm + matching_mm * matching_mm + params.height_mm * params.height_mm) +
-      std::pow(params.hidden_share * kMm3PerMl * item.hidden_volume_ml, 2) + edge_mm3 * edge_mm3 +
-      wall_mm3 * wall_mm3 + std::pow(unmatched_share * volume_mm3, 2) +
+      std::pow(params.hidden_fraction * kMm3PerMl * item.hidden_volume_ml, 2) + edge_mm3 * edge_mm3 +
+      wall_mm3 * wall_mm3 + std::pow(unmatched_fraction * volume_mm3, 2) +
       std::pow(kMm3PerMl * item.closing_sigma_ml, 2);
   return std::sqrt(variance_mm6) / kMm3PerMl;
 }

@@ -12,24 +12,24 @@ struct UncertaintyParams {
   double disparity_bias_px = 0.028;  // of an item's mean disparity: smooth skin, gloss, slanted windows
   // Of an item's whole surface over the dish: how the dish was fired and glazed, and what follows the food.
   double height_mm = 0.135;
-  double hidden_share = 0.167;  // of the volume that no view sees
-  double outline_px = 0.725;    // of an item's outline, all along it: about a sample of the grid
+  double hidden_fraction = 0.167;  // of the volume that no view sees
+  double outline_px = 0.725;       // of an item's outline, all along it: about a sample of the grid
   // The same where a segmentation found it, beside that: what it moves the volumes of rendered meals by, 68
   // of 100 by less.
   double found_outline_mm = 0.55;
   double wall_mm = 0.214;  // of walls within an item, which are matched too far in or out together
   // Of the volume, times the squared share that was filled instead of matched: the wider a gap, the less its
   // rims say about it.
-  double filled_share = 0.326;
+  double filled_fraction = 0.326;
   // Of the volume of a round body, instead: its height and width are those of its outlines. From fruit
   // rendered for this, and from how closed and column volume of scanned fruit differ.
-  double round_share = 0.05;
+  double round_fraction = 0.05;
 };
 
 // What an item's uncertainty follows from.
 struct UncertaintyInput {
   HeightVolume volume;
-  double matched_share = 1.0;     // of its samples
+  double matched_fraction = 1.0;  // of its samples
   double height_per_px_mm = 0.0;  // of disparity
   double px_mm = 0.0;             // of the samples, on the dish
   bool is_round = false;          // shaped by its outlines
@@ -38,10 +38,10 @@ struct UncertaintyInput {
 
 // Standard deviation of the height of a point that both cameras see, as far as the cameras' covariance goes.
 double height_sigma_mm(const Vec3& point_mm, const TableCameras& camera_from_table,
-                       const JointMatrix& covariance);
+                       const BundleMatrix& covariance);
 
 // Standard deviation of the volume, ml.
 double estimate_sigma_ml(const UncertaintyInput& input, const TableCameras& camera_from_table,
-                         const JointMatrix& covariance, const UncertaintyParams& params);
+                         const BundleMatrix& covariance, const UncertaintyParams& params);
 
 }  // namespace traygauge

@@ -18,7 +18,7 @@ using Sightings = std::vector<const BoardSighting*>;
 constexpr int kFieldsAcross = 8;
 constexpr int kFieldsDown = 6;
 
-double covered_share(const Sightings& sightings, PictureSize size) {
+double covered_fraction(const Sightings& sightings, PictureSize size) {
   std::set<int> fields;
   for (const BoardSighting* sighting : sightings) {
     for (const Vec2& corner : sighting->corners_px) {
@@ -133,12 +133,12 @@ bool calibrate_lens(const std::vector<BoardSighting>& sightings, const Chessboar
                tilt_hint};
     return false;
   }
-  calibration.covered_share = covered_share(used, size);
-  if (calibration.covered_share < params.min_covered_share) {
-    problem = {
-        "boards all over the picture, in " + fixed(100.0 * params.min_covered_share, 0) + " % of its fields",
-        "in " + fixed(100.0 * calibration.covered_share, 0) + " %",
-        "hold the board into the picture's corners and along its edges, too"};
+  calibration.covered_fraction = covered_fraction(used, size);
+  if (calibration.covered_fraction < params.min_covered_fraction) {
+    problem = {"boards all over the picture, in " + fixed(100.0 * params.min_covered_fraction, 0) +
+                   " % of its fields",
+               "in " + fixed(100.0 * calibration.covered_fraction, 0) + " %",
+               "hold the board into the picture's corners and along its edges, too"};
     return false;
   }
 

@@ -15,7 +15,7 @@ struct LensCalibrationParams {
   // open (Zhang 2000, section 3.2); a hand that tilts the board on purpose reaches 40.
   double min_facing_spread_deg = 25.0;
   // Of 8 × 6 fields of the picture, those with a corner in them: beyond, the distortion is a guess.
-  double min_covered_share = 0.6;
+  double min_covered_fraction = 0.6;
   // A picture whose corners are so many times as far off as the median picture's was blurred or misread.
   double max_picture_rms_ratio = 3.0;
   double min_outlier_px = 0.3;  // no picture is left out for less
@@ -34,7 +34,7 @@ struct LensCalibration {
   std::vector<std::string> left_out;
   double rms_px = 0.0;           // of the corners
   double held_out_rms_px = 0.0;  // of pictures that the lens was not fitted to
-  double covered_share = 0.0;
+  double covered_fraction = 0.0;
   double facing_spread_deg = 0.0;
   double volume_percent = 0.0;  // two standard deviations
 };

@@ -89,7 +89,7 @@ std::vector<BoardSighting> find_boards(const std::vector<fs::path>& files, const
 std::string summary_of(const LensCalibration& lens) {
   return std::to_string(lens.pictures) + " pictures, corners within " + fixed(lens.rms_px, 3) + " px, " +
          fixed(lens.held_out_rms_px, 3) + " px in pictures left out of the fit; boards in " +
-         fixed(100.0 * lens.covered_share, 0) + " % of the picture, facing up to " +
+         fixed(100.0 * lens.covered_fraction, 0) + " % of the picture, facing up to " +
          fixed(lens.facing_spread_deg, 0) + " degrees apart";
 }
 

@@ -7,7 +7,7 @@
 #include "core/card/card_size.hpp"
 #include "core/geometry/levenberg_marquardt.hpp"
 #include "core/geometry/table_frame.hpp"
-#include "core/paper/pose/triangulation.hpp"
+#include "core/geometry/triangulation.hpp"
 
 namespace traygauge {
 namespace {

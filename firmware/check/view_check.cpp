@@ -33,7 +33,7 @@ CheckResult check_card(const FrameView& picture, const LensModel& lens, const Re
   return {"card", true,
           "seen at " + fixed(distance_mm, 0) + " mm, " +
               fixed(lens.pinhole.mean_focal_px() / distance_mm, 1) + " px a mm; " +
-              fixed(100.0 * found.visible_share, 0) + " % of it in view, its print agrees to " +
+              fixed(100.0 * found.visible_fraction, 0) + " % of it in view, its print agrees to " +
               fixed(100.0 * found.correlation, 0) + " %"};
 }
 

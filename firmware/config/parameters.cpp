@@ -124,8 +124,8 @@ ParameterList shared_parameters(ProfileParameters& parameters) {
 // When an item is doubted.
 ParameterList best_parameters(Configuration& configuration) {
   ParameterList list;
-  list("items.min_matched_share", configuration.pipeline.min_matched_share, ParameterRange{0, 1});
-  list("items.max_sigma_share", configuration.pipeline.max_sigma_share, ParameterRange{0, 100});
+  list("items.min_matched_fraction", configuration.pipeline.min_matched_fraction, ParameterRange{0, 1});
+  list("items.max_sigma_fraction", configuration.pipeline.max_sigma_fraction, ParameterRange{0, 100});
   return list;
 }
 

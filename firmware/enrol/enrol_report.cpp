@@ -66,7 +66,7 @@ std::string compose_enrol_message(const EnrolReport& report) {
   if (is_measured(survey)) return "The dish was measured and written to " + printable(report.file) + ".";
   if (survey.status.code() != StatusCode::too_little_depth) return sentence(survey.status.code());
   std::string text = "The glaze shows too little for a profile: heights are known on " +
-                     fixed(kPercent * survey.fitted.known_share, 0) +
+                     fixed(kPercent * survey.fitted.known_fraction, 0) +
                      "% of the way from the edge to the middle";
   if (survey.fitted.residual_mm > 0.0)
     text += ", and lie " + fixed(survey.fitted.residual_mm, 1) + " mm off any profile";
@@ -97,7 +97,7 @@ std::string compose_enrol_document(const EnrolReport& report) {
                           {"surface", number_or_null(survey.errors.height_mm, measured)}};
   document["residual_mm"] = number_or_null(survey.fitted.residual_mm, measured);
   document["spread_mm"] = number_or_null(survey.fitted.spread_mm, measured);
-  document["known_share"] = number_or_null(survey.fitted.known_share, edge);
+  document["known_fraction"] = number_or_null(survey.fitted.known_fraction, edge);
   document["widest_gap_mm"] = number_or_null(survey.fitted.widest_gap_mm, measured);
   document["lean_deg"] = number_or_null(survey.lean_deg, measured);
   document["relative_angle_deg"] = number_or_null(survey.relative_angle_deg, edge);
@@ -125,7 +125,7 @@ std::string compose_enrol_table(const EnrolReport& report) {
     text += line("surface", "± " + mm(survey.errors.height_mm) + " as a whole; medians over the azimuth " +
                                 mm(survey.fitted.residual_mm) + " about the profile, single points " +
                                 mm(survey.fitted.spread_mm) + "; " +
-                                fixed(kPercent * survey.fitted.known_share, 0) + "% of the way known");
+                                fixed(kPercent * survey.fitted.known_fraction, 0) + "% of the way known");
     text += line("lean", fixed(survey.lean_deg, 2) + "°");
   }
   if (has_edge(survey)) text += line("views", fixed(survey.relative_angle_deg, 1) + "° apart");

@@ -135,7 +135,7 @@ SetFigures set_figures(const std::vector<ItemSeries>& items) {
   figures.items_tried = static_cast<int>(all.item_mapes_with_refusals.size());
   figures.mape_refusals_as_100 = mean(all.item_mapes_with_refusals);
   if (figures.items_tried == 0) return figures;
-  figures.refused_share = kPercent * figures.refused / (figures.refused + figures.estimates);
+  figures.refused_fraction = kPercent * figures.refused / (figures.refused + figures.estimates);
   if (figures.items == 0) return figures;
   figures.mape = mean(all.item_mapes);
   figures.pmae = kPercent * all.absolute_ml / all.truth_ml;

@@ -27,8 +27,8 @@ struct SetFigures {
   int items_tried = 0;  // refused ones included
   int estimates = 0;
   int refused = 0;
-  double refused_share = kUndefined;  // of all attempts
-  double mape = kUndefined;           // equation (4)
+  double refused_fraction = kUndefined;  // of all attempts
+  double mape = kUndefined;              // equation (4)
   double mape_refusals_as_100 = kUndefined;
   double pmae = kUndefined;       // mean absolute error over mean truth
   double bias = kUndefined;       // mean signed error over estimates

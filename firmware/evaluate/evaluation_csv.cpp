@@ -99,7 +99,7 @@ std::string compose_pairs_csv(const std::vector<PairRuns>& runs) {
 std::string compose_runs_csv(const std::vector<PairRuns>& runs) {
   std::ostringstream csv;
   csv << "capture,first,second,seed,status,angle_deg,keypoints_first,keypoints_second,matches,inliers,"
-         "threshold_px,card_tracks,rim_points,rim_height_mm,rows,columns,disparities,matched_share,"
+         "threshold_px,card_tracks,rim_points,rim_height_mm,rows,columns,disparities,matched_fraction,"
          "label_agreement,total_ms,rotation_deg,direction_deg,scale_percent,bottom_tilt_deg,bottom_offset_mm,"
          "table_tilt_deg,table_offset_mm,true_angle_deg,warnings\n";
   for (const PairRuns& pair : runs) {
@@ -111,7 +111,7 @@ std::string compose_runs_csv(const std::vector<PairRuns>& runs) {
           << fixed(report.inlier_threshold_px, 3) << ',' << report.card_tracks << ',' << report.rim_points
           << ',' << fixed(report.rim_height_mm, 3) << ',' << report.rectified_rows << ','
           << report.rectified_columns << ',' << report.disparity_range.count() << ','
-          << fixed(report.matched_share, 4) << ',' << fixed(report.label_agreement, 4) << ','
+          << fixed(report.matched_fraction, 4) << ',' << fixed(report.label_agreement, 4) << ','
           << fixed(run.total_ms, 1) << ',' << errors_or_blanks(run.errors) << ','
           << csv_number(pair.true_angle_deg, 3) << ',' << list_warnings(run) << '\n';
     }

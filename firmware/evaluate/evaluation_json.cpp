@@ -28,7 +28,7 @@ Json accuracy_of(const SetFigures& figures) {
           {"items_tried", figures.items_tried},
           {"estimates", figures.estimates},
           {"refused", figures.refused},
-          {"refused_percent", number(figures.refused_share)},
+          {"refused_percent", number(figures.refused_fraction)},
           {"mape_percent", number(figures.mape)},
           {"mape_refusals_as_100_percent", number(figures.mape_refusals_as_100)},
           {"pmae_percent", number(figures.pmae)},

@@ -150,7 +150,7 @@ std::string accuracy_rows(const FigureRow& line) {
   });
   text += line("volumes", [](Group g) { return std::to_string(g.figures.estimates); });
   text += line("refused", [](Group g) {
-    return std::to_string(g.figures.refused) + " (" + percent(g.figures.refused_share, 1) + ")";
+    return std::to_string(g.figures.refused) + " (" + percent(g.figures.refused_fraction, 1) + ")";
   });
   text += line("MAPE", [](Group g) { return percent(g.figures.mape, 2); });
   text += line("  95 % interval", [](Group g) { return range(g.mape_interval, 2); });

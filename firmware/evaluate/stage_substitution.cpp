@@ -19,7 +19,7 @@ Vec2 on_plane(const Pose& camera_from_table, const Vec3& target, double height_m
   return (eye + (height_mm - eye.z()) / sight.z() * sight).head<2>();
 }
 
-Vec3 in_camera(const Pose& camera_from_table, const DishPlace& place) {
+Vec3 in_camera(const Pose& camera_from_table, const DishPose& place) {
   return camera_from_table * Vec3(place.centre_mm.x(), place.centre_mm.y(), place.edge_height_mm);
 }
 
@@ -32,11 +32,11 @@ void StageSubstitution::on_order(int first_view) {
   if (first_view == 1) std::swap(camera_from_world_[0], camera_from_world_[1]);
 }
 
-void StageSubstitution::on_geometry(JointResult& joint, std::span<const DishOnTray> dishes) {
+void StageSubstitution::on_geometry(BundleResult& bundle, std::span<const DishOnTray> dishes) {
   const bool moves_cameras =
       is_replaced(TrueStage::pose) || is_replaced(TrueStage::scale) || is_replaced(TrueStage::table);
   if (!moves_cameras && !is_replaced(TrueStage::place)) return;  // to the last bit
-  TableCameras& cameras = joint.camera_from_table;
+  TableCameras& cameras = bundle.camera_from_table;
   const TableCameras found = cameras;
   const Pose motion = second_from_first(found);
   const Pose true_motion = second_from_first(camera_from_world_);
@@ -51,9 +51,9 @@ void StageSubstitution::on_geometry(JointResult& joint, std::span<const DishOnTr
   if (!is_replaced(TrueStage::table)) cameras[0].translation *= scale;
   cameras[1] = Pose{pose.rotation, baseline_mm * pose.translation.normalized()} * cameras[0];
   for (std::size_t d = 0; d < dishes.size(); ++d) {
-    JointDishResult& dish = joint.dishes[d];
+    BundleDishResult& dish = bundle.dishes[d];
     if (!dish.status.ok()) continue;
-    DishPlace& place = dish.placed.place;
+    DishPose& place = dish.placed.place;
     Vec3 target = in_camera(found[0], place);
     const auto truth = is_replaced(TrueStage::place) ? true_place(truth_, dishes[d].label) : std::nullopt;
     if (truth) {

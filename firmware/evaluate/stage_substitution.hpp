@@ -40,7 +40,7 @@ class StageSubstitution final : public StageObserver {
       : pair_(pair), truth_(truth), surface_(surface), replaced_(replaced) {}
 
   void on_order(int first_view) override;
-  void on_geometry(JointResult& joint, std::span<const DishOnTray> dishes) override;
+  void on_geometry(BundleResult& bundle, std::span<const DishOnTray> dishes) override;
   void on_surfaces(const TableCameras& camera_from_table, std::array<SurfaceGrid, 2>& grids) override;
 
   // Of the surfaces as found; empty where a stage is replaced.

@@ -30,8 +30,8 @@ std::string describe_progress(const MeasurementReport& report) {
   }
   if (report.card_tracks > 0) add(std::to_string(report.card_tracks) + " points on the card");
   if (report.rim_points > 0) add(std::to_string(report.rim_points) + " points on the rim");
-  if (report.matched_share > 0.0)
-    add(fixed(100.0 * report.matched_share, 0) + "% of the dish matched densely");
+  if (report.matched_fraction > 0.0)
+    add(fixed(100.0 * report.matched_fraction, 0) + "% of the dish matched densely");
   return text.empty() ? text : " (" + text + ")";
 }
 

@@ -21,7 +21,7 @@ using Colour = std::array<std::uint8_t, 3>;
 
 // From the reference camera to a frame whose z is the height over the bottom of the dish and whose origin
 // lies under the middle of the food.
-Pose dish_from_camera(const FoodMesh& mesh, const Plane& bottom) {
+Pose dish_from_camera(const paper::FoodMesh& mesh, const Plane& bottom) {
   const Vec3 up = bottom.normal;
   const Vec3 right = (Vec3::UnitX() - up.x() * up).normalized();  // the camera never looks along the table
   Pose pose;
@@ -29,7 +29,7 @@ Pose dish_from_camera(const FoodMesh& mesh, const Plane& bottom) {
   pose.rotation.row(1) = up.cross(right).transpose();
   pose.rotation.row(2) = up.transpose();
   Vec3 middle = Vec3::Zero();
-  for (const MeshPoint& point : mesh.points) middle += point.position_mm;
+  for (const paper::MeshPoint& point : mesh.points) middle += point.position_mm;
   middle /= static_cast<double>(mesh.points.size());
   pose.translation = -(pose.rotation * middle);
   pose.translation.z() = -bottom.offset;
@@ -63,7 +63,7 @@ void append_float(std::string& bytes, double value) {
   append_uint32(bytes, std::bit_cast<std::uint32_t>(static_cast<float>(value)));
 }
 
-std::string compose_header(const FoodMesh& mesh) {
+std::string compose_header(const paper::FoodMesh& mesh) {
   return "ply\nformat binary_little_endian 1.0\n"
          "comment Traygauge: mm, z up from the bottom of the dish\n"
          "element vertex " +
@@ -81,7 +81,8 @@ void append_vertex(std::string& bytes, const Vec3& position_mm, const Colour& co
   bytes += static_cast<char>(label);
 }
 
-void append_face(std::string& bytes, const FoodMesh& mesh, const MeshTriangle& triangle, const Vec3& up) {
+void append_face(std::string& bytes, const paper::FoodMesh& mesh, const paper::MeshTriangle& triangle,
+                 const Vec3& up) {
   std::array<std::int32_t, 3> corners = triangle.corners;
   const auto position = [&](std::int32_t i) { return mesh.points[static_cast<std::size_t>(i)].position_mm; };
   const Vec3 first = position(corners[0]);
@@ -105,8 +106,8 @@ class CellMesh {
     }
   }
 
-  FoodMesh mesh() const {
-    FoodMesh mesh;
+  paper::FoodMesh mesh() const {
+    paper::FoodMesh mesh;
     mesh.points = points_;
     mesh.triangles = triangles_;
     return mesh;
@@ -128,7 +129,7 @@ class CellMesh {
         if (!is_item(cell.label)) continue;
         at(x, y) = static_cast<std::int32_t>(points_.size());
         const Vec2 place = map.centre_mm(x, y);
-        MeshPoint point;
+        paper::MeshPoint point;
         point.position_mm = camera_from_table_ * Vec3(place.x(), place.y(), cell.z_mm);
         point.label = cell.label;
         points_.push_back(point);
@@ -146,7 +147,7 @@ class CellMesh {
     for (const std::int32_t corner : corners) {
       if (corner < 0) return;
     }
-    MeshTriangle triangle;
+    paper::MeshTriangle triangle;
     triangle.corners = corners;
     triangle.label = points_[static_cast<std::size_t>(corners[0])].label;
     triangles_.push_back(triangle);
@@ -154,8 +155,8 @@ class CellMesh {
 
   Pose camera_from_table_;
   Plane bottom_;
-  std::vector<MeshPoint> points_;
-  std::vector<MeshTriangle> triangles_;
+  std::vector<paper::MeshPoint> points_;
+  std::vector<paper::MeshTriangle> triangles_;
 };
 
 }  // namespace
@@ -172,14 +173,15 @@ std::string compose_mesh(const Measurement& measurement, const paper::WorkingPic
                          const Picture& picture, const LensModel& lens) {
   const MeasurementViews& views = measurement.views;
   const CellMesh cells(views);
-  const FoodMesh mesh = views.surfaces.empty() ? pictures->mesh : cells.mesh();
+  const paper::FoodMesh mesh = views.surfaces.empty() ? pictures->mesh : cells.mesh();
   const Plane bottom = views.surfaces.empty() ? views.dish_bottom : cells.bottom();
   const Pose pose = dish_from_camera(mesh, bottom);
   std::string bytes = compose_header(mesh);
-  for (const MeshPoint& point : mesh.points) {
+  for (const paper::MeshPoint& point : mesh.points) {
     append_vertex(bytes, pose * point.position_mm, colour_at(point.position_mm, picture, lens), point.label);
   }
-  for (const MeshTriangle& triangle : mesh.triangles) append_face(bytes, mesh, triangle, bottom.normal);
+  for (const paper::MeshTriangle& triangle : mesh.triangles)
+    append_face(bytes, mesh, triangle, bottom.normal);
   return bytes;
 }
 

@@ -16,13 +16,13 @@ constexpr int kSegmentVersion = 1;
 
 Json dish_of(const SegmentedDish& dish) {
   const bool is_found = dish.status.ok();
-  const DishPlace& place = dish.found.place;
+  const DishPose& place = dish.found.place;
   return {{"label", dish.label},
           {"status", name(dish.status.code())},
           {"centre_mm", is_found ? Json({place.centre_mm.x(), place.centre_mm.y()}) : Json(nullptr)},
           {"size_mm", is_found ? Json(place.size_mm) : Json(nullptr)},
           {"edge_height_mm", number_or_null(place.edge_height_mm, is_found)},
-          {"rim_seen_share", number_or_null(dish.found.support, is_found)}};
+          {"rim_seen_fraction", number_or_null(dish.found.support, is_found)}};
 }
 
 Json view_of(int view, const LabelRegions& regions) {
@@ -98,7 +98,7 @@ std::string compose_segment_table(const SegmentReport& report) {
                            (segmentation.is_card_doubtful ? "; part of it is covered, or bent" : ""));
   for (std::size_t d = 0; d < segmentation.dish_count; ++d) {
     const SegmentedDish& dish = segmentation.dishes[d];
-    const DishPlace& place = dish.found.place;
+    const DishPose& place = dish.found.place;
     text += line("dish", std::to_string(dish.label) + ": " +
                              (dish.status.ok()
                                   ? fixed(place.size_mm[0], 0) + " x " + fixed(place.size_mm[1], 0) +

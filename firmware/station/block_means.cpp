@@ -53,7 +53,7 @@ bool BlockMeans::agrees_with(const BlockMeans& other, const SteadinessParams& pa
   for (std::size_t i = 0; i < means_.size(); ++i) {
     if (std::abs(means_[i] - other.means_[i]) > params.max_block_difference) ++different;
   }
-  return static_cast<double>(different) <= params.max_different_share * static_cast<double>(means_.size());
+  return static_cast<double>(different) <= params.max_different_fraction * static_cast<double>(means_.size());
 }
 
 }  // namespace traygauge

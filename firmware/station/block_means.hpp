@@ -12,7 +12,7 @@ struct SteadinessParams {
   // Blocks that differ by more have other content. Sensor noise leaves below 1 of a block's mean, a lamp's
   // flicker a few; what an arm or a hand has moved differs by 20 to 100 at every edge.
   int max_block_difference = 16;
-  double max_different_share = 0.002;  // of the blocks; an insect or a reflex is no other scene
+  double max_different_fraction = 0.002;  // of the blocks; an insect or a reflex is no other scene
 };
 
 class BlockMeans {

@@ -36,8 +36,8 @@ FrameView copy_frame(const FrameView& source, std::span<std::uint8_t> buffer) {
 FrameView mix_frames(const FrameView& source, const FrameView& other, double share,
                      std::span<std::uint8_t> buffer) {
   const bool is_last = share > 0.0;
-  const double first_share = is_last ? 1.0 - share : -share;
-  const auto torn_at = static_cast<int>(std::lround(first_share * source.height));
+  const double first_fraction = is_last ? 1.0 - share : -share;
+  const auto torn_at = static_cast<int>(std::lround(first_fraction * source.height));
   copy_rows(is_last ? source : other, 0, torn_at, source.width, buffer);
   copy_rows(is_last ? other : source, torn_at, source.height, source.width, buffer);
   return packed(source, source.width, source.height, buffer);

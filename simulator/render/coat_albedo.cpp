@@ -95,8 +95,8 @@ Line between(const Line& a, const Line& b, float share) {
 CoatAlbedo::CoatAlbedo(float coat, float alpha) : coat_(coat) {
   const Place place = place_of(alpha, kAlphas);
   row_ = place.index;
-  row_share_ = place.share;
-  const Line line = between(table().means[row_], table().means[row_ + 1], row_share_);
+  row_fraction_ = place.share;
+  const Line line = between(table().means[row_], table().means[row_ + 1], row_fraction_);
   mean_ = line.constant + coat * line.slope;
 }
 
@@ -105,7 +105,7 @@ float CoatAlbedo::at(float cosine) const {
   const auto& lines = table().lines;
   const Line low = between(lines[row_][c.index], lines[row_][c.index + 1], c.share);
   const Line high = between(lines[row_ + 1][c.index], lines[row_ + 1][c.index + 1], c.share);
-  const Line line = between(low, high, row_share_);
+  const Line line = between(low, high, row_fraction_);
   return line.constant + coat_ * line.slope;
 }
 

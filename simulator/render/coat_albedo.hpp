@@ -19,7 +19,7 @@ class CoatAlbedo {
  private:
   float coat_;
   std::size_t row_;  // of the table, and how far on the way to the next
-  float row_share_;
+  float row_fraction_;
   float mean_;
 };
 

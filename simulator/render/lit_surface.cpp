@@ -19,7 +19,7 @@ Eigen::Vector3f lit(const SurfaceResponse& response, const SurfaceHit& hit, cons
   }
   if (response.has_coat()) {
     const SurfaceResponse::CoatFactor coat = response.coat_factor(light.direction);
-    const float mirrored = response.is_sharp() ? response.mirrored_share() * coat.density : 0.0F;
+    const float mirrored = response.is_sharp() ? response.mirrored_fraction() * coat.density : 0.0F;
     factor += coat.factor / (light.density + mirrored);
   }
   return factor.cwiseProduct(light.radiance);

@@ -212,7 +212,7 @@ void PathTracer::add_light(Round& round, std::uint32_t number, Sum& sum) const {
     const bool is_penumbra = batch.count == 0 || !batch.is_all_alike();
     if (!is_penumbra && batch.is_occluded[0] != 0) return;
     if (is_penumbra) {
-      seen = seen_share(round, number);
+      seen = seen_fraction(round, number);
       sum.is_in_penumbra = true;
     }
   }
@@ -226,7 +226,7 @@ void PathTracer::add_light(Round& round, std::uint32_t number, Sum& sum) const {
 }
 
 // Of a light, as the round's surfaces see it together.
-Eigen::Vector3f PathTracer::seen_share(const Round& round, std::uint32_t number) const {
+Eigen::Vector3f PathTracer::seen_fraction(const Round& round, std::uint32_t number) const {
   const AreaLight& light = scene_.scene().lights[number];
   const auto samples = static_cast<std::uint32_t>(settings_.penumbra_samples);
   Visibility visibility;
@@ -267,7 +267,7 @@ void PathTracer::add_mirrored(Round& round, Sum& sum) const {
   for (std::size_t i = 0; i < round.responses.size(); ++i) {
     const SurfaceResponse& response = round.responses[i];
     if (!response.has_coat()) continue;
-    const float share = response.mirrored_share();
+    const float share = response.mirrored_fraction();
     const bool is_halved = share < 1.0F;
     if (is_halved && round.of_hit[i] >= round.size / 2) continue;
     const std::uint32_t index = round.index(i) - (is_halved ? round.first / 2 : 0);

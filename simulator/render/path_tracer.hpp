@@ -53,7 +53,7 @@ class PathTracer {
   void look_for_steps(const Round& round, Sum& sum) const;
   void add_lights(Round& round, Sum& sum) const;
   void add_light(Round& round, std::uint32_t number, Sum& sum) const;
-  Eigen::Vector3f seen_share(const Round& round, std::uint32_t number) const;
+  Eigen::Vector3f seen_fraction(const Round& round, std::uint32_t number) const;
   void add_mirrored(Round& round, Sum& sum) const;
   std::size_t indirect_rays(const Round& round, const Sum& sum) const;
   void add_indirect(Round& round, Sum& sum) const;

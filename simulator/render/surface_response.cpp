@@ -36,7 +36,7 @@ SurfaceResponse::SurfaceResponse(const Reflectance& reflectance, const Eigen::Ve
   base_ = base;
   if (!(reflectance.coat > 0.0F)) return;
   mirror_.setConstant(std::min(reflectance.coat, 1.0F));
-  to_viewer_share_ = 1.0F - coat_.at(viewer_cosine_);
+  to_viewer_fraction_ = 1.0F - coat_.at(viewer_cosine_);
 }
 
 Eigen::Vector3f SurfaceResponse::fresnel(float cosine) const {

@@ -27,10 +27,10 @@ class SurfaceResponse {
   bool is_sharp() const { return is_metal_ || alpha_ < kSharpAlpha; }
   // Of the rays that meet it, the share that is followed on into the mirror: half where the mirror is little
   // of what the viewer sees. Its brightest, the lights, are drawn by their own places as well.
-  float mirrored_share() const { return is_metal_ || to_viewer_share_ < kMostlyBase ? 1.0F : 0.5F; }
+  float mirrored_fraction() const { return is_metal_ || to_viewer_fraction_ < kMostlyBase ? 1.0F : 0.5F; }
 
   // Share of evenly arriving light that the base returns.
-  Eigen::Vector3f base_albedo() const { return to_viewer_share_ * base_; }
+  Eigen::Vector3f base_albedo() const { return to_viewer_fraction_ * base_; }
   // The share of light from a direction that reaches the base, over its mean. Times base_albedo / π: the
   // base's response.
   float base_entry(const Eigen::Vector3f& to_light) const;
@@ -65,9 +65,9 @@ class SurfaceResponse {
   bool is_metal_;
   float alpha_;
   float viewer_cosine_;
-  float viewer_seen_;             // share of the small mirrors that the viewer sees
-  float to_viewer_share_ = 1.0F;  // of what the base sends to the viewer passes the coat
-  CoatAlbedo coat_;               // of the coat over a base
+  float viewer_seen_;                // share of the small mirrors that the viewer sees
+  float to_viewer_fraction_ = 1.0F;  // of what the base sends to the viewer passes the coat
+  CoatAlbedo coat_;                  // of the coat over a base
 };
 
 // Unit directions about an axis.

@@ -16,12 +16,12 @@ void paint_mound(FoodPainter& painter, const BlobOutline& outline, const Mound& 
 }
 
 std::vector<Eigen::Vector2d> scatter(Draws& draws, const BlobOutline& outline, int count, double spacing_mm,
-                                     double largest_share) {
+                                     double largest_fraction) {
   std::vector<Eigen::Vector2d> places;
   const double reach = outline.reach_mm();
   for (int tries = 0; tries < count; ++tries) {
     const Eigen::Vector2d place(draws.between(-reach, reach), draws.between(-reach, reach));
-    if (outline.share(place.x(), place.y()) > largest_share) continue;
+    if (outline.share(place.x(), place.y()) > largest_fraction) continue;
     const auto is_near = [&](const Eigen::Vector2d& other) { return (other - place).norm() < spacing_mm; };
     if (spacing_mm > 0.0 && std::any_of(places.begin(), places.end(), is_near)) continue;
     places.push_back(place);

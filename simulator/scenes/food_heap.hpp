@@ -20,7 +20,7 @@ void paint_mound(FoodPainter& painter, const BlobOutline& outline, const Mound& 
 
 // Places in an outline, `spacing_mm` apart in plan where there is room; `count` tries.
 std::vector<Eigen::Vector2d> scatter(Draws& draws, const BlobOutline& outline, int count, double spacing_mm,
-                                     double largest_share);
+                                     double largest_fraction);
 
 // A rotation about z by any angle after a tilt of up to `tilt_rad` about a random level axis.
 Eigen::Matrix3d random_rotation(Draws& draws, double tilt_rad);

@@ -20,7 +20,7 @@ struct FoodTexture {
   float tone = 0.0F;      // spread of brightness between pieces
   std::uint32_t speck = 0;
   float speck_mm = 0.0F;  // radius; 0: none
-  float speck_share = 0.0F;
+  float speck_fraction = 0.0F;
   float coat = 0.02F;  // as Reflectance
   float roughness = 0.6F;
 };

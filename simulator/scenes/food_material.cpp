@@ -48,11 +48,11 @@ class FoodMaterial : public Material {
     Eigen::Vector3f base = blend(look.base, look.variant, share);
     if (texture.speck_mm > 0.0F) {
       const NearestCell cell = nearest_cell(at / (kSpeckCells * texture.speck_mm), seed_ + 17U);
-      if (hash_share(cell.id * 0xC2B2AE35U) < texture.speck_share && cell.distance < 1.0F / kSpeckCells)
+      if (hash_fraction(cell.id * 0xC2B2AE35U) < texture.speck_fraction && cell.distance < 1.0F / kSpeckCells)
         base = look.speck;
     }
     const float grain = texture.grain * fractal_noise(at / kGrainMm, seed_ + 31U, 2);
-    const float tone = texture.tone * (2.0F * hash_share(hash_cell(part, 7, 3, seed_)) - 1.0F);
+    const float tone = texture.tone * (2.0F * hash_fraction(hash_cell(part, 7, 3, seed_)) - 1.0F);
     Reflectance reflectance;
     reflectance.base = ((1.0F + grain) * (1.0F + tone) * base).cwiseMax(0.005F).cwiseMin(0.92F);
     reflectance.coat = texture.coat;

@@ -16,10 +16,10 @@ int tries_for(const FoodSize& size, double piece_mm2, double density) {
 }
 
 // The piece stands half above the heap's surface, and on the dish at the heap's edge.
-void rest(Superquadric& piece, const Eigen::Vector3d& at, double sunk_share) {
+void rest(Superquadric& piece, const Eigen::Vector3d& at, double sunk_fraction) {
   const double half_mm = (piece.rotation.row(2).transpose().cwiseProduct(piece.semi_mm)).norm();
   piece.centre_mm = at;
-  piece.centre_mm.z() = std::max(at.z() - sunk_share * half_mm, 0.85 * half_mm);
+  piece.centre_mm.z() = std::max(at.z() - sunk_fraction * half_mm, 0.85 * half_mm);
 }
 
 void paint_round_heap(FoodPainter& painter, Draws& draws, const FoodSize& size, double radius_mm,

@@ -12,9 +12,9 @@ namespace traygauge {
 namespace {
 
 // Height of a slab `inside_mm` from its border, which is rounded and begins at a share of the height.
-double slab_height(double height_mm, double inside_mm, double rounding_mm, double border_share) {
+double slab_height(double height_mm, double inside_mm, double rounding_mm, double border_fraction) {
   const double t = std::clamp(inside_mm / rounding_mm, 0.0, 1.0);
-  return height_mm * (border_share + (1.0 - border_share) * std::sqrt(t * (2.0 - t)));
+  return height_mm * (border_fraction + (1.0 - border_fraction) * std::sqrt(t * (2.0 - t)));
 }
 
 // A convex polygon with corners counter-clockwise.
@@ -29,10 +29,10 @@ double polygon_inside(const std::vector<Eigen::Vector2d>& corners, double x_mm, 
 }
 
 void paint_slab(FoodPainter& painter, const BlobOutline& outline, double height_mm, double rounding_mm,
-                double border_share, std::uint16_t part) {
+                double border_fraction, std::uint16_t part) {
   painter.piece({0.0, 0.0}, outline.reach_mm(), part, [&](double x_mm, double y_mm) {
     const double inside_mm = outline.inside_mm(x_mm, y_mm);
-    return PieceColumn{slab_height(height_mm, inside_mm, rounding_mm, border_share), inside_mm};
+    return PieceColumn{slab_height(height_mm, inside_mm, rounding_mm, border_fraction), inside_mm};
   });
 }
 

@@ -34,7 +34,7 @@ std::uint32_t hash_cell(int x, int y, int z, std::uint32_t seed) {
   return hash ^ (hash >> 16U);
 }
 
-float hash_share(std::uint32_t hash) {
+float hash_fraction(std::uint32_t hash) {
   return static_cast<float>(hash >> 8U) * (1.0F / 16777216.0F);
 }
 
@@ -90,9 +90,9 @@ NearestCell nearest_cell(const Eigen::Vector3f& point, std::uint32_t seed) {
       const int y = cell.y() + kStepY[i];
       const int z = cell.z() + dz;
       const std::uint32_t id = hash_cell(x, y, z, seed);
-      const float off_x = static_cast<float>(x) + hash_share(id) - point.x();
-      const float off_y = static_cast<float>(y) + hash_share(id * 0x9E3779B9U) - point.y();
-      const float off_z = static_cast<float>(z) + hash_share(id * 0x85EBCA6BU) - point.z();
+      const float off_x = static_cast<float>(x) + hash_fraction(id) - point.x();
+      const float off_y = static_cast<float>(y) + hash_fraction(id * 0x9E3779B9U) - point.y();
+      const float off_z = static_cast<float>(z) + hash_fraction(id * 0x85EBCA6BU) - point.z();
       ids[i] = id;
       squared[i] = off_x * off_x + off_y * off_y + off_z * off_z;
     }

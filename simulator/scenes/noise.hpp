@@ -9,7 +9,7 @@ namespace traygauge {
 std::uint32_t hash_cell(int x, int y, int z, std::uint32_t seed);
 
 // The hash as a number in [0, 1).
-float hash_share(std::uint32_t hash);
+float hash_fraction(std::uint32_t hash);
 
 // Gradient noise (Perlin 2002) with features of size 1: about -1 to 1, mean 0.
 float gradient_noise(const Eigen::Vector3f& point, std::uint32_t seed);

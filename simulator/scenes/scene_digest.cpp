@@ -67,8 +67,8 @@ class Digest {
     add(inset_mm, width_mm);
   }
   void write(const Glaze& glaze) {
-    const auto& [srgb, roughness, decoration_srgb, lines, speck_share] = glaze;
-    add(srgb, roughness, decoration_srgb, lines, speck_share);
+    const auto& [srgb, roughness, decoration_srgb, lines, speck_fraction] = glaze;
+    add(srgb, roughness, decoration_srgb, lines, speck_fraction);
   }
   void write(const LaidDish& laid) {
     const auto& [dish, centre_mm, rotation_deg, glaze, seed] = laid;

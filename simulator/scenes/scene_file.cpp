@@ -120,7 +120,7 @@ LaidDish read_laid_dish(const JsonNode& node, const std::filesystem::path& folde
   auto roughness = static_cast<double>(laid.glaze.roughness);
   table.read("roughness", roughness, {0.02, 1.0});
   laid.glaze.roughness = static_cast<float>(roughness);
-  table.read("specks", laid.glaze.speck_share, {0.0, 1.0});
+  table.read("specks", laid.glaze.speck_fraction, {0.0, 1.0});
   if (const auto lines = table.find("lines")) {
     for (const JsonNode& line : lines->elements(0, 16)) {
       const std::vector<double> pair = line.numbers(2, {0.0, 200.0});

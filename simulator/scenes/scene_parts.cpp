@@ -129,7 +129,7 @@ LaidDish draw_dish(Draws& draws, DishStyle style, double scale, int label) {
   if (decoration == 1) laid.glaze.lines = {{4.0, 2.2}};
   if (decoration == 2)
     laid.glaze.lines = {{3.0, 1.2}, {draws.between(10.0, 18.0), 0.8}, {draws.between(19.0, 21.0), 0.6}};
-  if (decoration == 3) laid.glaze.speck_share = draws.between(0.1, 0.35);
+  if (decoration == 3) laid.glaze.speck_fraction = draws.between(0.1, 0.35);
   return laid;
 }
 
@@ -153,7 +153,8 @@ void draw_foods(SceneDescription& scene, Draws& draws, int dish, DishStyle style
   }
 }
 
-void draw_filling(SceneDescription& scene, Draws& draws, int dish, const FoodKind& kind, double level_share) {
+void draw_filling(SceneDescription& scene, Draws& draws, int dish, const FoodKind& kind,
+                  double level_fraction) {
   const DishDescription& description = scene.dishes[static_cast<std::size_t>(dish)].dish;
   LaidFood food;
   food.kind = kind.name;
@@ -162,7 +163,7 @@ void draw_filling(SceneDescription& scene, Draws& draws, int dish, const FoodKin
   food.rotation_deg = draws.between(0.0, 360.0);
   food.seed = draws.seed();
   food.level_mm = tenths(description.bottom_height_mm +
-                         level_share * (description.rim_height_mm - description.bottom_height_mm));
+                         level_fraction * (description.rim_height_mm - description.bottom_height_mm));
   scene.foods.push_back(food);
 }
 
@@ -171,7 +172,7 @@ void draw_lamps(SceneDescription& scene, Draws& draws) {
   const double x = draws.between(-500.0, 500.0);
   const double y = draws.between(-500.0, 500.0);
   const double height = draws.between(1500.0, 2100.0);  // chosen: rooms of 2.3 to 2.9 m, tables of 0.75 m
-  double room_share = 0.16;  // chosen: what pale walls give back of the lamps' light
+  double room_fraction = 0.16;  // chosen: what pale walls give back of the lamps' light
   switch (draws.whole(0, 3)) {
     case 0:  // panels of 595 mm, made for ceilings in a grid of 600 mm
       for (int i = 0; i < 4; ++i) {
@@ -195,7 +196,7 @@ void draw_lamps(SceneDescription& scene, Draws& draws) {
                              {0.0, 0.0, 1300.0},
                              6.0 * Eigen::Vector3d(0.95, 1.0, 1.06)});
       scene.lamps.push_back(ceiling_lamp(x, y, height, 595.0, 595.0, 7.0 * colour));
-      room_share = 0.22;
+      room_fraction = 0.22;
       break;
     }
     default:  // a lamp hung over the table, and others far away
@@ -210,7 +211,7 @@ void draw_lamps(SceneDescription& scene, Draws& draws) {
     const Eigen::Vector3d to = lamp.centre_mm;
     irradiance += lamp.radiance.y() * std::abs(normal.dot(to)) * to.z() / std::pow(to.norm(), 4.0);
   }
-  scene.ambient = room_share * draws.between(0.8, 1.3) * irradiance / 3.14159 *
+  scene.ambient = room_fraction * draws.between(0.8, 1.3) * irradiance / 3.14159 *
                   Eigen::Vector3d(0.5 * (colour + Eigen::Vector3d::Ones()));
   for (Photograph& view : scene.views) {
     view.white_balance = {std::pow(colour.y() / colour.x(), 0.85), std::pow(colour.y() / colour.z(), 0.85)};

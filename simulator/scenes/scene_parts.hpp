@@ -21,7 +21,8 @@ void draw_foods(SceneDescription& scene, Draws& draws, int dish, DishStyle style
                 std::span<const FoodKind* const> kinds);
 
 // Fills a dish with a liquid, to a share of the height between its bottom and its rim.
-void draw_filling(SceneDescription& scene, Draws& draws, int dish, const FoodKind& kind, double level_share);
+void draw_filling(SceneDescription& scene, Draws& draws, int dish, const FoodKind& kind,
+                  double level_fraction);
 
 // Ceiling panels, tubes, a window or a pendant lamp; a phone's white balance mends most of their colour.
 void draw_lamps(SceneDescription& scene, Draws& draws);

@@ -32,7 +32,7 @@ class PatternedSurface : public Material {
     Draws draws(seed, "surface");
     seed_ = draws.seed();
     for (std::size_t i = 0; i < scratch_ways_.size(); ++i) {
-      const float angle = 6.28318F * hash_share(hash_cell(static_cast<int>(i), 3, 3, seed_));
+      const float angle = 6.28318F * hash_fraction(hash_cell(static_cast<int>(i), 3, 3, seed_));
       scratch_ways_[i] = {std::cos(angle), std::sin(angle)};
     }
     const auto choose = [&](std::span<const std::array<std::uint32_t, 3>> choices) {
@@ -124,7 +124,7 @@ class PatternedSurface : public Material {
     constexpr float kBoardMm = 92.0F;
     const float board = std::floor(at.y() / kBoardMm);
     const float across = at.y() - board * kBoardMm;
-    const float shift = 400.0F * hash_share(hash_cell(static_cast<int>(board), 5, 9, seed_));
+    const float shift = 400.0F * hash_fraction(hash_cell(static_cast<int>(board), 5, 9, seed_));
     const Eigen::Vector3f stretched(at.x() / 260.0F + shift, at.y() / 24.0F, 0.3F * board);
     const float rings = std::sin(6.0F * fractal_noise(stretched, seed_, 3));
     const float fibre = fractal_noise({at.x() / 22.0F + shift, at.y() / 1.1F, board}, seed_ + 3U, 3);
@@ -132,7 +132,7 @@ class PatternedSurface : public Material {
         blend(colours_[0], colours_[1], 0.15F + 0.6F * smooth_step(-1.4F, 1.4F, 0.8F * rings + 0.9F * fibre));
     const float pore = gradient_noise({at.x() / 9.0F + shift, at.y() / 0.7F, 0.5F}, seed_ + 7U);
     base = blend(base, colours_[2], 0.8F * smooth_step(0.35F, 0.6F, pore));
-    base *= 0.88F + 0.24F * hash_share(hash_cell(static_cast<int>(board), 1, 1, seed_));
+    base *= 0.88F + 0.24F * hash_fraction(hash_cell(static_cast<int>(board), 1, 1, seed_));
     if (across < 0.7F) base *= 0.35F;
     return coated(base, 0.03F, 0.35F);
   }
@@ -142,8 +142,8 @@ class PatternedSurface : public Material {
     for (std::uint32_t layer = 0; layer < 3; ++layer) {
       const float cell_mm = layer == 0 ? 4.5F : layer == 1 ? 2.4F : 1.3F;
       const NearestCell cell = nearest_cell({at.x() / cell_mm, at.y() / cell_mm, 0.5F}, seed_ + layer * 101U);
-      const float edge = 0.10F + 0.28F * hash_share(cell.id * 0x27D4EB2FU);
-      if (cell.distance < edge) base = hash_share(cell.id) < 0.6F ? colours_[1] : colours_[2];
+      const float edge = 0.10F + 0.28F * hash_fraction(cell.id * 0x27D4EB2FU);
+      if (cell.distance < edge) base = hash_fraction(cell.id) < 0.6F ? colours_[1] : colours_[2];
     }
     return coated(base, 0.04F, 0.3F);
   }
@@ -158,7 +158,7 @@ class PatternedSurface : public Material {
     const bool is_warp = (static_cast<int>(iu) + static_cast<int>(iv)) % 2 == 0;
     const float across = is_warp ? u - iu : v - iv;
     const float thread =
-        hash_share(hash_cell(static_cast<int>(is_warp ? iu : iv), is_warp ? 1 : 2, 0, seed_));
+        hash_fraction(hash_cell(static_cast<int>(is_warp ? iu : iv), is_warp ? 1 : 2, 0, seed_));
     const float slub =
         fractal_noise({at.x() / (is_warp ? 1.5F : 18.0F), at.y() / (is_warp ? 18.0F : 1.5F), 0.0F}, seed_, 2);
     Eigen::Vector3f base =
@@ -202,7 +202,7 @@ class PatternedSurface : public Material {
   Reflectance granite(const Eigen::Vector3f& at) const {
     const NearestCell large = nearest_cell({at.x() / 6.0F, at.y() / 6.0F, 0.5F}, seed_);
     const NearestCell small = nearest_cell({at.x() / 2.2F, at.y() / 2.2F, 0.5F}, seed_ + 40U);
-    const float choice = 0.6F * hash_share(large.id) + 0.4F * hash_share(small.id);
+    const float choice = 0.6F * hash_fraction(large.id) + 0.4F * hash_fraction(small.id);
     Eigen::Vector3f base = choice < 0.38F ? colours_[1] : choice < 0.68F ? colours_[0] : colours_[2];
     base *= 1.0F + 0.15F * fractal_noise(at / 1.5F, seed_ + 6U, 2);
     return coated(base, 0.04F, 0.15F);
@@ -210,7 +210,7 @@ class PatternedSurface : public Material {
 
   Reflectance cork(const Eigen::Vector3f& at) const {
     const NearestCell cell = nearest_cell({at.x() / 3.2F, at.y() / 3.2F, 0.5F}, seed_);
-    Eigen::Vector3f base = blend(colours_[0], colours_[1], hash_share(cell.id));
+    Eigen::Vector3f base = blend(colours_[0], colours_[1], hash_fraction(cell.id));
     base = blend(base, colours_[2], 0.8F * smooth_step(0.55F, 0.75F, cell.distance));
     base *= 1.0F + 0.12F * fractal_noise(at / 0.9F, seed_ + 8U, 2);
     return coated(base, 0.0F, 0.9F);
@@ -239,10 +239,10 @@ class GlazeMaterial : public Material {
     Reflectance reflectance;
     reflectance.roughness = glaze_.roughness;
     reflectance.base = base_ * (1.0F + 0.02F * fractal_noise(at / 25.0F, seed_, 3));
-    if (glaze_.speck_share > 0.0) {
+    if (glaze_.speck_fraction > 0.0) {
       const NearestCell cell = nearest_cell(at / 2.6F, seed_ + 11U);
-      const float radius = 0.06F + 0.12F * hash_share(cell.id * 0x27D4EB2FU);
-      if (cell.distance < radius && static_cast<double>(hash_share(cell.id)) < glaze_.speck_share)
+      const float radius = 0.06F + 0.12F * hash_fraction(cell.id * 0x27D4EB2FU);
+      if (cell.distance < radius && static_cast<double>(hash_fraction(cell.id)) < glaze_.speck_fraction)
         reflectance.base = decoration_;
     }
     if (!glaze_.lines.empty()) {

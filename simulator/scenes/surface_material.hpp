@@ -38,7 +38,7 @@ struct Glaze {
   float roughness = 0.12F;
   std::uint32_t decoration_srgb = 0x2A3C78;
   std::vector<RimLine> lines;
-  double speck_share = 0.0;  // of cells of stoneware that carry a speck
+  double speck_fraction = 0.0;  // of cells of stoneware that carry a speck
 };
 
 std::shared_ptr<const Material> make_glaze(const Glaze& glaze, const DishShell& shell, std::uint64_t seed,

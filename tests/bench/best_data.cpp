@@ -77,12 +77,12 @@ std::array<StoredView, 2> BestData::stored() const {
 }
 
 bool BestData::sample_views() {
-  const TwoViewSurfaceParams& params = configuration.surface;
-  OwnedWorkspace<TwoViewSurfaceWorkspace> workspace(params);
+  const DenseStereoParams& params = configuration.surface;
+  OwnedWorkspace<DenseStereoWorkspace> workspace(params);
   std::array<SurfaceGrid, 2> grids;
-  TwoViewSurfaceReport report;
-  if (!reconstruct_surface(stored(), labels_on_dish(labels_of_single_dish()), scene.dish.bottom_height_mm,
-                           top_mm, params, *workspace, grids, report)
+  DenseStereoReport report;
+  if (!run_dense_stereo(stored(), labels_on_dish(labels_of_single_dish()), scene.dish.bottom_height_mm,
+                        top_mm, params, *workspace, grids, report)
            .ok()) {
     return false;
   }

@@ -68,8 +68,8 @@ double percent_matched(const cv::Mat& is_matched, const cv::Mat& labels) {
 Method our_semi_global(const BestData& data) {
   const cv::Mat& like = data.views[0].sampled;
   const int lanes = std::min((data.range.count() + kBandLanes - 1) / kBandLanes * kBandLanes, kMaxBandLanes);
-  const auto workspace = std::make_shared<OwnedWorkspace<SemiGlobalWorkspace>>(
-      like.cols, static_cast<int>(like.total()) * lanes);
+  const auto workspace =
+      std::make_shared<OwnedWorkspace<SgmWorkspace>>(like.cols, static_cast<int>(like.total()) * lanes);
   const cv::Mat first(like.size(), CV_16S, cv::Scalar(data.range.min_px));
   return {"ours, census, 4 paths",
           [&data, workspace, first, lanes, disparity = cv::Mat(like.size(), CV_16S),
@@ -88,9 +88,8 @@ Method our_semi_global(const BestData& data) {
             const ImageView<std::uint32_t> masks(mask.data(), size.width, size.height);
             mask_symmetric_census(pair.labels[0], masks);
             pair.mask = masks;
-            match_semi_global(pair, view_of<std::int16_t>(first), lanes,
-                              data.configuration.surface.semi_global, **workspace,
-                              target_of<Disparity>(disparity));
+            match_sgm(pair, view_of<std::int16_t>(first), lanes, data.configuration.surface.sgm, **workspace,
+                      target_of<Disparity>(disparity));
             return percent_matched(disparity != kNoDisparity, data.views[0].sampled_labels);
           }};
 }
@@ -128,14 +127,14 @@ Comparison compare_semi_global(const BestData& data) {
 // Ours samples, matches coarse to fine, refines below the pixel, checks and triangulates; the peer matches
 // the samples with either view as the reference and filters.
 Comparison compare_surface(const BestData& data) {
-  const TwoViewSurfaceParams& params = data.configuration.surface;
+  const DenseStereoParams& params = data.configuration.surface;
   const auto ours = [&data, &params,
-                     workspace = std::make_shared<OwnedWorkspace<TwoViewSurfaceWorkspace>>(params)] {
+                     workspace = std::make_shared<OwnedWorkspace<DenseStereoWorkspace>>(params)] {
     std::array<SurfaceGrid, 2> grids;
-    TwoViewSurfaceReport report;
-    const Status status = reconstruct_surface(data.stored(), labels_on_dish(labels_of_single_dish()),
-                                              data.scene.dish.bottom_height_mm, data.top_mm, params,
-                                              **workspace, grids, report);
+    DenseStereoReport report;
+    const Status status =
+        run_dense_stereo(data.stored(), labels_on_dish(labels_of_single_dish()),
+                         data.scene.dish.bottom_height_mm, data.top_mm, params, **workspace, grids, report);
     return status.ok() ? 50.0 * (report.confirmed[0] + report.confirmed[1]) : 0.0;
   };
   const auto peer = [&data, matchers = std::array{make_matcher(data, false, cv::StereoSGBM::MODE_SGBM_3WAY),

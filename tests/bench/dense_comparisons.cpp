@@ -26,7 +26,7 @@ cv::Mat frame_mat(const Picture& frame) {
 // The frame, undistorted and with the dish at its working size. The peer takes one sample a pixel, ours as
 // many as the reduction asks for; with `maps` given the peer does not work out where the pixels come from.
 Comparison compare_resampling(const StageData& data) {
-  const Cutout& cutout = data.cutouts[0];
+  const Roi& cutout = data.cutouts[0];
   const auto ours = [&data, &cutout, gray = cv::Mat(cutout.height, cutout.width, CV_8U)]() mutable {
     resample_undistorted(data.frames[0]->frame(), data.scene.lens, cutout, target_of(gray));
     return pixels_of(gray);
@@ -73,12 +73,12 @@ Comparison compare_reduction(const StageData& data) {
 }
 
 Method our_rectification(const StageData& data) {
-  const RectificationParams& params = data.session.configuration.rectification;
-  const auto workspace = std::make_shared<OwnedWorkspace<RectificationWorkspace>>(params);
+  const paper::RectificationParams& params = data.session.configuration.rectification;
+  const auto workspace = std::make_shared<OwnedWorkspace<paper::RectificationWorkspace>>(params);
   std::array<cv::Mat, 2> gray{data.rectified[0].clone(), data.rectified[1].clone()};
   std::array<cv::Mat, 2> regions{data.rectified_regions[0].clone(), data.rectified_regions[1].clone()};
   return {"ours, polar", [&data, &params, workspace, gray, regions]() mutable {
-            PolarRectification rectification;
+            paper::PolarRectification rectification;
             const Status status =
                 rectification.build({data.cutouts[0].camera, view_of(data.regions[0])},
                                     {data.cutouts[1].camera, view_of(data.regions[1])},
@@ -124,16 +124,16 @@ Comparison compare_rectification(const StageData& data) {
 
 Method our_stereo(const StageData& data) {
   const paper::Configuration& configuration = data.session.configuration;
-  const auto workspace = std::make_shared<OwnedWorkspace<StereoWorkspace>>(
+  const auto workspace = std::make_shared<OwnedWorkspace<paper::StereoWorkspace>>(
       configuration.rectification.max_columns, configuration.rectification.max_rows,
       configuration.disparity_range.max_count, configuration.stereo);
   const DisparityRange range = data.measurement.report.disparity_range;
   return {"ours", [&data, &configuration, workspace, range,
                    disparity = cv::Mat(data.rectified[0].size(), CV_16S)]() mutable {
             const Status status =
-                match_dense(view_of(data.rectified[0]), view_of(data.rectified_regions[0]),
-                            view_of(data.rectified[1]), view_of(data.rectified_regions[1]), range,
-                            configuration.stereo, **workspace, target_of<Disparity>(disparity));
+                paper::match_dense(view_of(data.rectified[0]), view_of(data.rectified_regions[0]),
+                                   view_of(data.rectified[1]), view_of(data.rectified_regions[1]), range,
+                                   configuration.stereo, **workspace, target_of<Disparity>(disparity));
             if (!status.ok()) return 0.0;
             return 100.0 * cv::countNonZero(disparity != kNoDisparity) /
                    cv::countNonZero(data.rectified_regions[0]);
@@ -169,7 +169,7 @@ Comparison compare_stereo(const StageData& data) {
 }
 
 // The peer triangulates the same points one by one and integrates the triangles of one label.
-double volume_by_subdivision(const FoodMesh& mesh, const PinholeCamera& camera, const Plane& bottom,
+double volume_by_subdivision(const paper::FoodMesh& mesh, const PinholeCamera& camera, const Plane& bottom,
                              cv::Size size) {
   cv::Subdiv2D subdivision(cv::Rect(cv::Point(), size));
   std::vector<int> point_of(4 + mesh.points.size() + 4, -1);
@@ -184,7 +184,7 @@ double volume_by_subdivision(const FoodMesh& mesh, const PinholeCamera& camera, 
   subdivision.getLeadingEdgeList(edges);
   double volume_mm3 = 0.0;
   for (const int edge : edges) {
-    std::array<const MeshPoint*, 3> corners{};
+    std::array<const paper::MeshPoint*, 3> corners{};
     int side = edge;
     for (auto& corner : corners) {
       const int point = point_of[static_cast<std::size_t>(subdivision.edgeOrg(side))];
@@ -205,20 +205,21 @@ Comparison compare_volume(const StageData& data) {
   const paper::Configuration& configuration = data.session.configuration;
   const auto points = static_cast<std::size_t>(configuration.mesh.points);
   const cv::Size size = data.working[0].size();
-  const auto mesh_workspace = std::make_shared<OwnedWorkspace<FoodMeshWorkspace>>(
+  const auto mesh_workspace = std::make_shared<OwnedWorkspace<paper::FoodMeshWorkspace>>(
       points, static_cast<std::size_t>(size.width), static_cast<std::size_t>(size.height));
-  const auto volume_workspace = std::make_shared<OwnedWorkspace<VolumeWorkspace>>(points);
+  const auto volume_workspace = std::make_shared<OwnedWorkspace<paper::VolumeWorkspace>>(points);
   const MeasurementViews& views = data.measurement.views;
   const paper::WorkingPictures& pictures = data.session.estimator.pictures();
   const auto ours = [&data, &configuration, &views, &pictures, mesh_workspace, volume_workspace] {
-    FoodMesh mesh;
-    Status status = build_food_mesh(pictures.depth_mm, view_of(data.working_labels[0]),
-                                    data.cutouts[0].camera, configuration.mesh, **mesh_workspace, mesh);
+    paper::FoodMesh mesh;
+    Status status =
+        paper::build_food_mesh(pictures.depth_mm, view_of(data.working_labels[0]), data.cutouts[0].camera,
+                               configuration.mesh, **mesh_workspace, mesh);
     if (!status.ok()) return 0.0;
-    status = integrate_volume(mesh, views.dish_bottom, configuration.volume, **volume_workspace);
+    status = paper::integrate_volume(mesh, views.dish_bottom, configuration.volume, **volume_workspace);
     if (!status.ok()) return 0.0;
     double total_ml = 0.0;
-    for (const ItemVolume& item : (**volume_workspace).items) total_ml += item.volume_ml;
+    for (const paper::ItemVolume& item : (**volume_workspace).items) total_ml += item.volume_ml;
     return total_ml;
   };
   const auto peer = [&data, &views, &pictures, size] {

@@ -24,7 +24,7 @@ Comparison compare(const Scene& scene) {
   };
   return {scene.name + ", " + name_of<AnySession>(),
           "% volume error",
-          {{"ours, whole measurement", ours}, {"OpenCV's parts, no joint fit", peer}}};
+          {{"ours, whole measurement", ours}, {"OpenCV's parts, no bundle fit", peer}}};
 }
 
 }  // namespace

@@ -19,18 +19,18 @@ Method surf_method(const StageData& data) {
   const cv::Mat& picture = data.features[0].picture;
   const paper::Configuration& configuration = data.session.configuration;
   const auto workspace =
-      std::make_shared<OwnedWorkspace<SurfWorkspace>>(picture.cols, picture.rows, configuration.surf);
+      std::make_shared<OwnedWorkspace<paper::SurfWorkspace>>(picture.cols, picture.rows, configuration.surf);
   const auto cap = static_cast<std::size_t>(configuration.caps.max_keypoints);
-  return {"ours", [&picture, &configuration, workspace, keypoints = std::vector<Keypoint>(cap),
-                   descriptors = std::vector<Descriptor>(cap),
+  return {"ours", [&picture, &configuration, workspace, keypoints = std::vector<paper::Keypoint>(cap),
+                   descriptors = std::vector<paper::Descriptor>(cap),
                    sums = std::vector<std::uint32_t>(static_cast<std::size_t>(picture.cols + 1) *
                                                      static_cast<std::size_t>(picture.rows + 1))]() mutable {
             const ImageView<std::uint32_t> integral(sums.data(), picture.cols + 1, picture.rows + 1);
-            build_integral(view_of(picture), integral);
-            BoundedList<Keypoint> found(keypoints);
-            detect_surf(integral, configuration.surf, **workspace, found);
-            describe_surf(integral, configuration.surf, found.items(),
-                          std::span(descriptors).first(found.size()));
+            paper::build_integral(view_of(picture), integral);
+            BoundedList<paper::Keypoint> found(keypoints);
+            paper::detect_surf(integral, configuration.surf, **workspace, found);
+            paper::describe_surf(integral, configuration.surf, found.items(),
+                                 std::span(descriptors).first(found.size()));
             return static_cast<double>(found.size());
           }};
 }
@@ -53,15 +53,16 @@ Comparison compare_features(const StageData& data) {
                            cv::ORB::create(data.session.configuration.caps.max_keypoints))}};
 }
 
-Method our_matching(const std::string& name, const StageData& data, MatcherParams::Search search) {
-  MatcherParams params = data.session.configuration.matcher;
+Method our_matching(const std::string& name, const StageData& data, paper::MatcherParams::Search search) {
+  paper::MatcherParams params = data.session.configuration.matcher;
   params.search = search;
-  const auto workspace =
-      std::make_shared<OwnedWorkspace<MatcherWorkspace>>(data.session.configuration.caps.max_keypoints);
+  const auto workspace = std::make_shared<OwnedWorkspace<paper::MatcherWorkspace>>(
+      data.session.configuration.caps.max_keypoints);
   return {name, [&data, params, workspace,
-                 storage = std::vector<Match>(data.features[0].keypoints.size())]() mutable {
-            BoundedList<Match> matches(storage);
-            match_features(data.features[0].set(), data.features[1].set(), params, **workspace, matches);
+                 storage = std::vector<paper::Match>(data.features[0].keypoints.size())]() mutable {
+            BoundedList<paper::Match> matches(storage);
+            paper::match_features(data.features[0].set(), data.features[1].set(), params, **workspace,
+                                  matches);
             return static_cast<double>(matches.size());
           }};
 }
@@ -69,7 +70,7 @@ Method our_matching(const std::string& name, const StageData& data, MatcherParam
 // Two neighbours each way; a pair counts when it is mutual and passes the ratio from the first side.
 Method opencv_matching(const std::string& name, const StageData& data, bool exhaustive) {
   const auto as_mat = [](const ViewFeatures& features) {
-    return cv::Mat(static_cast<int>(features.descriptors.size()), kDescriptorLength, CV_32F,
+    return cv::Mat(static_cast<int>(features.descriptors.size()), paper::kDescriptorLength, CV_32F,
                    const_cast<float*>(features.descriptors.front().data()));
   };
   return {name, [first = as_mat(data.features[0]), second = as_mat(data.features[1]), exhaustive,
@@ -81,7 +82,7 @@ Method opencv_matching(const std::string& name, const StageData& data, bool exha
 }
 
 Comparison compare_matching(const StageData& data) {
-  using Search = MatcherParams::Search;
+  using Search = paper::MatcherParams::Search;
   return {"matching",
           "matches",
           {our_matching("ours, exhaustive", data, Search::exhaustive),
@@ -117,8 +118,8 @@ Comparison compare_five_point(const StageData& data) {
   }
   const auto ours = [samples] {
     int solutions = 0;
-    std::array<Mat3, kMaxEssentials> essentials;
-    for (const auto& sample : samples) solutions += solve_five_point(sample, essentials);
+    std::array<Mat3, paper::kMaxEssentials> essentials;
+    for (const auto& sample : samples) solutions += paper::solve_five_point(sample, essentials);
     return static_cast<double>(solutions);
   };
   const auto peer = [points] {
@@ -151,14 +152,14 @@ Method opencv_pose(const std::string& name, const StageData& data, int method) {
 
 Comparison compare_pose(const StageData& data) {
   const paper::Configuration& configuration = data.session.configuration;
-  const auto workspace = std::make_shared<OwnedWorkspace<RelativePoseWorkspace>>(
+  const auto workspace = std::make_shared<OwnedWorkspace<paper::RelativePoseWorkspace>>(
       data.rays.size(), static_cast<std::size_t>(configuration.pose.noise_sample));
   const auto ours = [&data, &configuration, workspace,
                      flags = std::vector<std::uint8_t>(data.rays.size())]() mutable {
     Random random(1);
-    RelativePose pose;
-    const Status status = estimate_relative_pose(data.rays, data.scene.lens.pinhole.mean_focal_px(),
-                                                 configuration.pose, random, **workspace, pose, flags);
+    paper::RelativePose pose;
+    const Status status = paper::estimate_relative_pose(data.rays, data.scene.lens.pinhole.mean_focal_px(),
+                                                        configuration.pose, random, **workspace, pose, flags);
     return status.ok() ? static_cast<double>(pose.inliers) : 0.0;
   };
   return {"pose",

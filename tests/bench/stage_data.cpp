@@ -33,26 +33,26 @@ void find_features(const paper::Configuration& configuration, ViewFeatures& feat
   std::vector<std::uint32_t> sums(static_cast<std::size_t>(picture.cols + 1) *
                                   static_cast<std::size_t>(picture.rows + 1));
   const ImageView<std::uint32_t> integral(sums.data(), picture.cols + 1, picture.rows + 1);
-  build_integral(view_of(picture), integral);
-  OwnedWorkspace<SurfWorkspace> workspace(picture.cols, picture.rows, configuration.surf);
+  paper::build_integral(view_of(picture), integral);
+  OwnedWorkspace<paper::SurfWorkspace> workspace(picture.cols, picture.rows, configuration.surf);
   features.keypoints.resize(static_cast<std::size_t>(configuration.caps.max_keypoints));
-  BoundedList<Keypoint> found(features.keypoints);
-  detect_surf(integral, configuration.surf, *workspace, found);
+  BoundedList<paper::Keypoint> found(features.keypoints);
+  paper::detect_surf(integral, configuration.surf, *workspace, found);
   features.keypoints.resize(found.size());
   features.descriptors.resize(found.size());
-  describe_surf(integral, configuration.surf, features.keypoints, features.descriptors);
+  paper::describe_surf(integral, configuration.surf, features.keypoints, features.descriptors);
 }
 
 std::vector<RayMatch> match_rays(const std::array<ViewFeatures, 2>& features, const LensModel& lens,
                                  const paper::Configuration& configuration) {
-  OwnedWorkspace<MatcherWorkspace> workspace(configuration.caps.max_keypoints);
-  std::vector<Match> storage(features[0].keypoints.size());
-  BoundedList<Match> matches(storage);
-  match_features(features[0].set(), features[1].set(), configuration.matcher, *workspace, matches);
+  OwnedWorkspace<paper::MatcherWorkspace> workspace(configuration.caps.max_keypoints);
+  std::vector<paper::Match> storage(features[0].keypoints.size());
+  BoundedList<paper::Match> matches(storage);
+  paper::match_features(features[0].set(), features[1].set(), configuration.matcher, *workspace, matches);
   const double scale = static_cast<double>(features[0].picture.cols) / lens.width;
   const double second_scale = static_cast<double>(features[1].picture.cols) / lens.width;
   std::vector<RayMatch> rays;
-  for (const Match& match : matches.items()) {
+  for (const paper::Match& match : matches.items()) {
     const Vec2 first = features[0].keypoints[static_cast<std::size_t>(match.first)].pixel;
     const Vec2 second = features[1].keypoints[static_cast<std::size_t>(match.second)].pixel;
     const auto in_frame = [](const Vec2& pixel, double s) {
@@ -68,13 +68,13 @@ std::vector<RayMatch> match_rays(const std::array<ViewFeatures, 2>& features, co
 
 std::vector<RayMatch> find_inliers(const std::vector<RayMatch>& rays, const Scene& scene,
                                    const paper::Configuration& configuration, bool swap) {
-  OwnedWorkspace<RelativePoseWorkspace> workspace(rays.size(),
-                                                  static_cast<std::size_t>(configuration.pose.noise_sample));
+  OwnedWorkspace<paper::RelativePoseWorkspace> workspace(
+      rays.size(), static_cast<std::size_t>(configuration.pose.noise_sample));
   Random random(1);
-  RelativePose pose;
+  paper::RelativePose pose;
   std::vector<std::uint8_t> flags(rays.size());
-  const Status status = estimate_relative_pose(rays, scene.lens.pinhole.mean_focal_px(), configuration.pose,
-                                               random, *workspace, pose, flags);
+  const Status status = paper::estimate_relative_pose(rays, scene.lens.pinhole.mean_focal_px(),
+                                                      configuration.pose, random, *workspace, pose, flags);
   std::vector<RayMatch> inliers;
   if (!status.ok()) return inliers;
   for (std::size_t i = 0; i < rays.size(); ++i) {
@@ -86,9 +86,9 @@ std::vector<RayMatch> find_inliers(const std::vector<RayMatch>& rays, const Scen
 }
 
 void rectify_views(StageData& data) {
-  const RectificationParams params = data.session.configuration.rectification;
-  OwnedWorkspace<RectificationWorkspace> workspace(params);
-  PolarRectification rectification;
+  const paper::RectificationParams params = data.session.configuration.rectification;
+  OwnedWorkspace<paper::RectificationWorkspace> workspace(params);
+  paper::PolarRectification rectification;
   if (!rectification
            .build({data.cutouts[0].camera, view_of(data.regions[0])},
                   {data.cutouts[1].camera, view_of(data.regions[1])}, data.other_from_reference, data.inliers,

@@ -5,18 +5,18 @@
 #include <opencv2/core.hpp>
 #include <vector>
 
+#include "core/geometry/triangulation.hpp"
 #include "core/image/resample.hpp"
-#include "core/paper/pose/ray_match.hpp"
 #include "tests/bench/scene.hpp"
 
 namespace traygauge::bench {
 
 struct ViewFeatures {
   cv::Mat picture;  // grey, the frame at the scale at which salient points are looked for
-  std::vector<Keypoint> keypoints;
-  std::vector<Descriptor> descriptors;
+  std::vector<paper::Keypoint> keypoints;
+  std::vector<paper::Descriptor> descriptors;
 
-  FeatureSet set() const { return {keypoints, descriptors}; }
+  paper::FeatureSet set() const { return {keypoints, descriptors}; }
 };
 
 struct StageData {
@@ -30,7 +30,7 @@ struct StageData {
   std::array<ViewFeatures, 2> features;
   std::vector<RayMatch> rays;              // of all matches
   std::vector<RayMatch> inliers;           // reference first
-  std::array<Cutout, 2> cutouts;           // of the working pictures, reference first
+  std::array<Roi, 2> cutouts;              // of the working pictures, reference first
   std::array<const Picture*, 2> frames{};  // reference first, as all that follows
   std::array<cv::Mat, 2> working;          // grey
   std::array<cv::Mat, 2> working_labels;

@@ -76,10 +76,10 @@ TEST_P(CaptureAccuracy, NothingIsRefused) {
 
 // The rendered outlines are exact.
 TEST_P(CaptureAccuracy, LabelsOfBothViewsAgree) {
-  const double min_share = GetParam() == Profile::best ? 0.97 : 0.94;
+  const double min_fraction = GetParam() == Profile::best ? 0.97 : 0.94;
   for (const PairRuns& pair : protocol_runs(GetParam())) {
     for (const auto& run : pair.runs) {
-      EXPECT_GT(run.report.label_agreement, min_share)
+      EXPECT_GT(run.report.label_agreement, min_fraction)
           << pair.capture << " " << pair.pair[0] << "," << pair.pair[1];
     }
   }

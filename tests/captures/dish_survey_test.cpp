@@ -53,7 +53,7 @@ TEST(DishSurveyOfCaptures, SizeAndEdgeNeedNoDescription) {
     const DishDescription& truth = capture.dishes.front();
     for (const std::array<int, 2>& pair : capture.pairs) {
       const Survey survey(capture, pair);
-      const DishPlace& place = survey.result().place;
+      const DishPose& place = survey.result().place;
       const auto [low, high] = std::minmax(place.size_mm[0], place.size_mm[1]);
       EXPECT_NEAR(low, std::min(truth.outer_size_mm[0], truth.outer_size_mm[1]), 0.15);
       EXPECT_NEAR(high, std::max(truth.outer_size_mm[0], truth.outer_size_mm[1]), 0.15);

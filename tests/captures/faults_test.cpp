@@ -309,7 +309,7 @@ TEST(PicturesWithoutAFault, RaiseNoDoubt) {
                                               Warning::white_balance_unequal};
   int pairs = 0;
   int unsure_pairs = 0;
-  const double max_sigma_share = PipelineParams().max_sigma_share;
+  const double max_sigma_fraction = PipelineParams().max_sigma_fraction;
   for (const fs::path& folder : capture_folders()) {
     const Capture capture = read_capture(folder);
     for (const auto& pair : capture.pairs) {
@@ -323,7 +323,7 @@ TEST(PicturesWithoutAFault, RaiseNoDoubt) {
       }
       const bool is_unsure = std::any_of(
           measurement.items.begin(), measurement.items.end(),
-          [&](const ItemResult& item) { return item.sigma_ml > max_sigma_share * item.volume_ml; });
+          [&](const ItemResult& item) { return item.sigma_ml > max_sigma_fraction * item.volume_ml; });
       EXPECT_EQ(measurement.warnings.holds(Warning::item_uncertain), is_unsure);
       unsure_pairs += is_unsure ? 1 : 0;
       ++pairs;

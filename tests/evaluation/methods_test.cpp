@@ -105,7 +105,7 @@ TEST(SingleView, ChoosesTheShapeAndKeepsItsProportions) {
   }
 }
 
-std::vector<Vec3> cloud_on(const Solid& solid, int count, double noise_mm, double outlier_share,
+std::vector<Vec3> cloud_on(const Solid& solid, int count, double noise_mm, double outlier_fraction,
                            std::uint64_t seed) {
   Random random(seed);
   std::vector<Vec3> points;
@@ -114,7 +114,7 @@ std::vector<Vec3> cloud_on(const Solid& solid, int count, double noise_mm, doubl
         solid.centre_mm + Vec2(50.0 * (2.0 * random.uniform() - 1.0), 50.0 * (2.0 * random.uniform() - 1.0));
     if (relative_height(solid, place) <= 0.0) continue;
     double z = height_at(solid, place) + noise_mm * traygauge::test::normal(random);
-    if (random.uniform() < outlier_share) z += 60.0 + 100.0 * random.uniform();
+    if (random.uniform() < outlier_fraction) z += 60.0 + 100.0 * random.uniform();
     points.emplace_back(place.x(), place.y(), z);
   }
   return points;

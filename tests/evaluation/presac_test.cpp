@@ -24,7 +24,7 @@ TEST(Presac, FindsTheMotionAmongOutliers) {
     traygauge::test::TrayOptions options;
     options.angle_deg = 20.0;
     options.noise_px = 0.3;
-    options.outlier_share = 0.3;
+    options.outlier_fraction = 0.3;
     const auto scene = traygauge::test::tray_scene(seed, options);
     Random random(seed);
     Presac presac;

@@ -15,12 +15,12 @@ view.matching_dish_px=65536 view.matching_dish_px=262144 limits.max_keypoints=15
 surf.first_step_px=2 surf.min_response=0.0002 surf.min_response=0.0004 surf.octaves=3
 matcher.distinctiveness_ratio=1 matcher.distinctiveness_ratio=1.05 matcher.distinctiveness_ratio=1.15 matcher.top_ranking=2
 matcher.distance_cutoff=0.25 matcher.distance_cutoff=0.5
-pose.threshold=fixed pose.threshold=a_contrario pose.max_noise_share=0.01 pose.max_noise_share=0.1
+pose.threshold=fixed pose.threshold=a_contrario pose.max_noise_fraction=0.01 pose.max_noise_fraction=0.1
 pose.noise_sample=250 pose.noise_sample=4000 pose.min_inliers=8 pose.min_inliers=32 pose.min_inlier_rate=0.05 pose.min_inlier_rate=0.3
 pose.local_optimisation=false pose.local_iterations=5 pose.local_iterations=50 pose.max_restarts=0 pose.refine=false
 pose.robust_scale=2 pose.robust_scale=100 pose.try_planar_twin=false
 card.model=absolute_pose card.scale=median card.scale=card_motion card.tracks=one_side card.plane=absolute_pose
-card.inlier_share=0.01 card.min_distance_share=0.1 card.min_distance_share=0.5
+card.inlier_fraction=0.01 card.min_distance_fraction=0.1 card.min_distance_fraction=0.5
 geometry.reference_is_steeper=false
 disparity_range.enlargement_px=8 disparity_range.enlargement_px=32
 stereo.cost=sad stereo.cost=zncc stereo.census_radius_px=2 stereo.census_radius_px=4 stereo.window_radius_px=0 stereo.window_radius_px=2

@@ -113,14 +113,14 @@ TEST(Parameters, WhatCannotBeMeantIsRefusedInOneLine) {
   expect_refused({"--set", "pictures.underexposed_white=2.5"}, "found 2.5");
   expect_refused({"--set", "geometry.max_angle_deg=2 "}, "expected");
   expect_refused({"--set", "stereo.levels=2"}, "profile best does not read it; add --profile paper");
-  expect_refused({"--profile", "paper", "--set", "items.max_sigma_share=0.1"},
+  expect_refused({"--profile", "paper", "--set", "items.max_sigma_fraction=0.1"},
                  "profile paper does not read it");
   expect_refused({"--profile", "paper", "--set", "stereo.cost=ssd"}, "expected census or sad or zncc");
   expect_refused({"--profile", "paper", "--set", "surf.upright=yes"}, "expected true or false");
-  const CommandResult both = run({"evaluate", "--parameters", "--set", "items.max_sigma_share=0.1", "--set",
-                                  "geometry.max_angle_deg=4e1"});
+  const CommandResult both = run({"evaluate", "--parameters", "--set", "items.max_sigma_fraction=0.1",
+                                  "--set", "geometry.max_angle_deg=4e1"});
   EXPECT_EQ(both.status, kExitMeasured) << both.error;
-  EXPECT_NE(both.out.find("items.max_sigma_share=0.1 "), std::string::npos);
+  EXPECT_NE(both.out.find("items.max_sigma_fraction=0.1 "), std::string::npos);
   EXPECT_NE(both.out.find("geometry.max_angle_deg=40 "), std::string::npos);
 }
 

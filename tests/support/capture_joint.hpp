@@ -16,10 +16,10 @@ namespace traygauge::test {
 struct TrueDish {
   DishModel model;
   DishRegion region;
-  DishPlace place;  // in the table frame; the drop of the edge is not known
+  DishPose place;  // in the table frame; the drop of the edge is not known
 };
 
-struct JointCapture {
+struct BundleCapture {
   CaptureTruth truth;
   Pose table_from_world;
   double card_thickness_mm = 0.0;
@@ -69,8 +69,8 @@ inline TrueDish read_dish(const nlohmann::json& description, const nlohmann::jso
   return dish;
 }
 
-inline JointCapture read_joint_capture(const std::string& name) {
-  JointCapture capture;
+inline BundleCapture read_bundle_capture(const std::string& name) {
+  BundleCapture capture;
   capture.truth = read_capture_truth(captures_folder() / name);
   const nlohmann::json& description = capture.truth.description;
   const nlohmann::json& card = description["card"];

@@ -26,12 +26,12 @@ Status SparseStages::run(const std::array<Photograph, 2>& photographs, const std
                    {cards[0].camera_from_table, cards[1].camera_from_table}, card_middle_mm.z(), tracking_,
                    random, *tracking_space_, tracks_, report);
   if (!status.ok()) return status;
-  JointInput input;
+  BundleInput input;
   input.cards = cards;
   input.card_middle_mm = card_middle_mm;
   input.tracks = tracks_;
   for (std::size_t v = 0; v < 2; ++v) input.focals_px[v] = photographs[v].view.lens.pinhole.mean_focal_px();
-  return refine_jointly(input, {}, *joint_space_, joint_);
+  return adjust_bundle(input, {}, *joint_space_, joint_);
 }
 
 PoseDeviation compare_motion(const TableCameras& found, const TableCameras& truth) {

@@ -6,7 +6,7 @@
 #include <span>
 
 #include "core/adjustment/bundle_adjustment.hpp"
-#include "core/paper/pose/ray_match.hpp"
+#include "core/geometry/triangulation.hpp"
 #include "core/tracking/point_tracking.hpp"
 #include "tests/support/allocated.hpp"
 #include "tests/support/photograph_scene.hpp"
@@ -19,7 +19,7 @@ class SparseStages {
   Status run(const std::array<Photograph, 2>& photographs, const std::array<CardPrior, 2>& cards,
              const Vec3& card_middle_mm, std::uint64_t seed);
 
-  const JointResult& joint() const { return joint_; }
+  const BundleResult& bundle() const { return joint_; }
   std::span<const PointTrack> tracks() const { return tracks_; }
 
  private:
@@ -27,9 +27,9 @@ class SparseStages {
   Allocated<PointTrackingWorkspace> tracking_space_{1600, 1200, tracking_};
   Allocated<PyramidWorkspace> first_pyramid_{1600, 1200};
   Allocated<PyramidWorkspace> second_pyramid_{1600, 1200};
-  Allocated<JointWorkspace> joint_space_{std::size_t{2048}, std::size_t{64}};
+  Allocated<BundleWorkspace> joint_space_{std::size_t{2048}, std::size_t{64}};
   std::span<const PointTrack> tracks_;
-  JointResult joint_;
+  BundleResult joint_;
 };
 
 // What one pose is off from another.

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 
-namespace traygauge {
+namespace traygauge::paper {
 namespace {
 
 // The first of the shortest runs that hold half of the values.
@@ -32,4 +32,4 @@ double half_sample_mode(std::span<const double> sorted, const ModeParams& params
   return sum / static_cast<double>(end - begin);
 }
 
-}  // namespace traygauge
+}  // namespace traygauge::paper

@@ -3,7 +3,7 @@
 
 #include <span>
 
-namespace traygauge {
+namespace traygauge::paper {
 
 struct ModeParams {
   // Rounds of halving: one finds the densest half, more follow the sharpest peak and get noisy.
@@ -18,4 +18,4 @@ struct ModeParams {
 // nearly the precision of the mean. `sorted` ascends; 0 when it is empty. O(n).
 double half_sample_mode(std::span<const double> sorted, const ModeParams& params);
 
-}  // namespace traygauge
+}  // namespace traygauge::paper

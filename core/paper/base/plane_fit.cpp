@@ -6,7 +6,7 @@
 
 #include "core/base/ransac.hpp"
 
-namespace traygauge {
+namespace traygauge::paper {
 namespace {
 
 constexpr std::size_t kPlaneSample = 3;
@@ -103,4 +103,4 @@ bool fit_plane(std::span<Vec3> points_mm, const PlaneFitParams& params, Random& 
   return true;
 }
 
-}  // namespace traygauge
+}  // namespace traygauge::paper

@@ -7,7 +7,7 @@
 #include "core/base/random.hpp"
 #include "core/geometry/geometry.hpp"
 
-namespace traygauge {
+namespace traygauge::paper {
 
 struct PlaneFitParams {
   double threshold_mm = 3.0;       // distance of an inlier; rough borders need twice what exact ones do
@@ -36,4 +36,4 @@ bool fit_plane_least_squares(std::span<const Vec3> points_mm, Plane& plane);
 // `points_mm` so that the inliers come first. False when fewer than `min_inliers` agree.
 bool fit_plane(std::span<Vec3> points_mm, const PlaneFitParams& params, Random& random, PlaneFit& fit);
 
-}  // namespace traygauge
+}  // namespace traygauge::paper

@@ -7,7 +7,7 @@
 #include "core/card/homography.hpp"
 #include "core/paper/base/plane_fit.hpp"
 
-namespace traygauge {
+namespace traygauge::paper {
 
 namespace {
 
@@ -22,7 +22,7 @@ std::span<Vec3> list_points(std::span<const CardTrack> tracks, std::span<const s
 }
 
 PlaneFitParams plane_fit_params(const CardPlaneParams& params, std::size_t points) {
-  const auto share = static_cast<int>(std::ceil(params.min_inlier_share * static_cast<double>(points)));
+  const auto share = static_cast<int>(std::ceil(params.min_inlier_fraction * static_cast<double>(points)));
   PlaneFitParams fit;
   fit.threshold_mm = params.inlier_mm;
   fit.min_iterations = params.min_iterations;
@@ -54,11 +54,11 @@ Status fit_card_plane(std::span<const CardTrack> tracks, std::span<const std::ui
   const PlaneFitParams plane_params = plane_fit_params(params.plane, points_mm.size());
   PlaneFit fit;
   if (!fit_plane(points_mm, plane_params, random, fit) ||
-      fit.weak_spread_mm < params.plane.min_spread_share * card_length_mm) {
+      fit.weak_spread_mm < params.plane.min_spread_fraction * card_length_mm) {
     return StatusCode::table_not_found;
   }
   card_plane_in_first = fit.plane;
   return {};
 }
 
-}  // namespace traygauge
+}  // namespace traygauge::paper

@@ -9,7 +9,7 @@
 #include "core/geometry/geometry.hpp"
 #include "core/paper/card/card_scale.hpp"
 
-namespace traygauge {
+namespace traygauge::paper {
 
 // RANSAC over the flagged tracks' points of the sparse cloud, then least squares on the inliers; or the
 // card's absolute pose (CardPlaneParams::source). mm; the normal points to the camera; the table is
@@ -18,4 +18,4 @@ Status fit_card_plane(std::span<const CardTrack> tracks, std::span<const std::ui
                       double card_length_mm, double mm_per_baseline, const CardScaleParams& params,
                       Random& random, CardScaleWorkspace& workspace, Plane& card_plane_in_first);
 
-}  // namespace traygauge
+}  // namespace traygauge::paper

@@ -7,7 +7,7 @@
 #include "core/card/card.hpp"
 #include "core/paper/base/half_sample_mode.hpp"
 
-namespace traygauge {
+namespace traygauge::paper {
 
 // Which matches make a track of a match between the views.
 enum class TrackRule : std::uint8_t {
@@ -24,8 +24,9 @@ enum class ScaleMethod : std::uint8_t {
 struct ScaleParams {
   ScaleMethod method = ScaleMethod::half_sample_mode;
   ModeParams mode;
-  double min_distance_share = 0.25;  // pairs of points nearer than this share of the card's length are noise
-  int min_pairs = 10;                // fewer have no mode
+  double min_distance_fraction =
+      0.25;            // pairs of points nearer than this share of the card's length are noise
+  int min_pairs = 10;  // fewer have no mode
   double max_spread =
       0.2;  // interquartile range of the ratios over the scale; beyond it the cloud is not rigid
 };
@@ -40,10 +41,10 @@ struct CardPlaneParams {
   CardPlaneSource source = CardPlaneSource::sparse_points;
   double inlier_mm = 1.0;  // twice the depth noise of 0.3 px at 50 cm over a base of 15 cm
   int min_inliers = 6;
-  double min_inlier_share = 0.5;   // of the card's points: fewer and most of the cloud there is wrong
-  double min_tilt_cosine = 0.17;   // between the plane's normal and the view, as in detection
-  double min_spread_share = 0.05;  // as in detection: nearly collinear points have no plane
-  int refits = 4;                  // rounds of least squares and new inliers
+  double min_inlier_fraction = 0.5;   // of the card's points: fewer and most of the cloud there is wrong
+  double min_tilt_cosine = 0.17;      // between the plane's normal and the view, as in detection
+  double min_spread_fraction = 0.05;  // as in detection: nearly collinear points have no plane
+  int refits = 4;                     // rounds of least squares and new inliers
   double confidence = 0.999;
   int min_iterations = 50;
   int max_iterations = 500;
@@ -67,4 +68,4 @@ struct CardScaleWorkspace : CardWorkspace {
   }
 };
 
-}  // namespace traygauge
+}  // namespace traygauge::paper

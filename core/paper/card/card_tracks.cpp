@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace traygauge {
+namespace traygauge::paper {
 
 namespace {
 
@@ -50,4 +50,4 @@ void build_card_tracks(const CardObservations& observations, TrackRule rule, Bou
   }
 }
 
-}  // namespace traygauge
+}  // namespace traygauge::paper

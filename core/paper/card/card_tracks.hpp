@@ -8,7 +8,7 @@
 #include "core/paper/card/card_scale.hpp"
 #include "core/paper/matching/match.hpp"
 
-namespace traygauge {
+namespace traygauge::paper {
 
 // All matches sorted by their first, then second index, as match_features leaves them.
 struct CardObservations {
@@ -25,4 +25,4 @@ struct CardObservations {
 // One track for each match of the views, of the sparse cloud, whose ends agree on a point of the pattern.
 void build_card_tracks(const CardObservations& observations, TrackRule rule, BoundedList<CardTrack>& tracks);
 
-}  // namespace traygauge
+}  // namespace traygauge::paper

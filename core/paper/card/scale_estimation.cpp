@@ -8,7 +8,7 @@
 #include "core/card/homography.hpp"
 #include "core/paper/base/half_sample_mode.hpp"
 
-namespace traygauge {
+namespace traygauge::paper {
 
 namespace {
 
@@ -71,7 +71,7 @@ Status estimate_scale(std::span<const CardTrack> tracks, std::span<const std::ui
   estimate = {};
   const auto points = list_inliers(inliers, workspace.indices);
   BoundedList<double> ratios(workspace.ratios);
-  collect_ratios(tracks, points, params.scale.min_distance_share * card_length_mm, random, ratios);
+  collect_ratios(tracks, points, params.scale.min_distance_fraction * card_length_mm, random, ratios);
   estimate.pairs = static_cast<int>(ratios.size());
   if (ratios.empty() || estimate.pairs < params.scale.min_pairs) return StatusCode::scale_not_found;
   std::sort(ratios.begin(), ratios.end());
@@ -94,4 +94,4 @@ Status estimate_scale(std::span<const CardTrack> tracks, std::span<const std::ui
   return {};
 }
 
-}  // namespace traygauge
+}  // namespace traygauge::paper

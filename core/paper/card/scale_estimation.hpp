@@ -8,7 +8,7 @@
 #include "core/base/status.hpp"
 #include "core/paper/card/card_scale.hpp"
 
-namespace traygauge {
+namespace traygauge::paper {
 
 struct ScaleEstimate {
   double mm_per_baseline = 0.0;
@@ -23,4 +23,4 @@ Status estimate_scale(std::span<const CardTrack> tracks, std::span<const std::ui
                       double card_length_mm, const CardScaleParams& params, Random& random,
                       CardScaleWorkspace& workspace, ScaleEstimate& estimate);
 
-}  // namespace traygauge
+}  // namespace traygauge::paper

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-namespace traygauge {
+namespace traygauge::paper {
 
 inline constexpr float kPi = 3.14159265F;
 
@@ -23,4 +23,4 @@ inline float angle_of(float x, float y) {
   return y < 0.0F ? -angle : angle;
 }
 
-}  // namespace traygauge
+}  // namespace traygauge::paper

@@ -4,7 +4,7 @@
 
 #include "core/paper/image/integral.hpp"
 
-namespace traygauge {
+namespace traygauge::paper {
 namespace {
 
 // Rows of the integral image and of the column sums never overlap; said so, and one term at a time, the loops
@@ -118,4 +118,4 @@ BoxDerivatives derivatives_at(ImageView<const std::uint32_t> integral, BoxFilter
   return {static_cast<float>(xx) * scale, static_cast<float>(yy) * scale, static_cast<float>(xy) * scale};
 }
 
-}  // namespace traygauge
+}  // namespace traygauge::paper

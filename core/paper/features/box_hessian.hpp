@@ -7,7 +7,7 @@
 #include "core/image_view/image_view.hpp"
 #include "core/paper/features/surf.hpp"
 
-namespace traygauge {
+namespace traygauge::paper {
 
 // The filter of one layer, centred on a pixel; the smallest, 9 pixels wide, stands for sigma 1.2.
 struct BoxFilter {
@@ -46,4 +46,4 @@ struct BoxDerivatives {
 };
 BoxDerivatives derivatives_at(ImageView<const std::uint32_t> integral, BoxFilter filter, int x, int y);
 
-}  // namespace traygauge
+}  // namespace traygauge::paper

@@ -8,7 +8,7 @@
 #include "core/paper/features/strongest_keypoints.hpp"
 #include "core/paper/features/surf.hpp"
 
-namespace traygauge {
+namespace traygauge::paper {
 namespace {
 
 // How far from its sample, in samples, an interpolated maximum may lie. OpenSURF's 0.5 loses a tenth of the
@@ -214,4 +214,4 @@ void detect_surf(ImageView<const std::uint32_t> integral, const SurfParams& para
   for (Keypoint& keypoint : keypoints) refine_position(integral, keypoint);
 }
 
-}  // namespace traygauge
+}  // namespace traygauge::paper

@@ -7,7 +7,7 @@
 
 #include "core/image_view/image_view.hpp"
 
-namespace traygauge {
+namespace traygauge::paper {
 
 struct HaarResponse {
   float dx = 0.0F;  // right half minus left half
@@ -53,4 +53,4 @@ inline bool fits_inside(ImageView<const std::uint32_t> integral, double x, doubl
          y + reach <= integral.height - 3.0;
 }
 
-}  // namespace traygauge
+}  // namespace traygauge::paper

@@ -7,7 +7,7 @@
 
 #include "core/geometry/geometry.hpp"
 
-namespace traygauge {
+namespace traygauge::paper {
 
 struct Keypoint {
   Vec2 pixel = Vec2::Zero();  // in the picture that it was detected in
@@ -26,4 +26,4 @@ struct FeatureSet {
   std::span<const Descriptor> descriptors;
 };
 
-}  // namespace traygauge
+}  // namespace traygauge::paper

@@ -8,7 +8,7 @@
 #include "core/paper/features/angle.hpp"
 #include "core/paper/features/haar.hpp"
 
-namespace traygauge {
+namespace traygauge::paper {
 namespace {
 
 constexpr int kRadius = 6;              // in sigmas
@@ -112,4 +112,4 @@ Direction find_orientation(ImageView<const std::uint32_t> integral, const Keypoi
   return {sum.x / length, sum.y / length};
 }
 
-}  // namespace traygauge
+}  // namespace traygauge::paper

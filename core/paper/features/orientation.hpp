@@ -6,7 +6,7 @@
 #include "core/image_view/image_view.hpp"
 #include "core/paper/features/keypoint.hpp"
 
-namespace traygauge {
+namespace traygauge::paper {
 
 // A unit vector; (1, 0) on uniform ground.
 struct Direction {
@@ -18,4 +18,4 @@ struct Direction {
 // sigma) in a window of 60°, turned in steps of 5°.
 Direction find_orientation(ImageView<const std::uint32_t> integral, const Keypoint& keypoint);
 
-}  // namespace traygauge
+}  // namespace traygauge::paper

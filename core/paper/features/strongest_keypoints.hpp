@@ -6,7 +6,7 @@
 #include "core/base/bounded_list.hpp"
 #include "core/paper/features/keypoint.hpp"
 
-namespace traygauge {
+namespace traygauge::paper {
 
 // A strict order: response, then position from the top left, then scale.
 inline bool is_stronger(const Keypoint& a, const Keypoint& b) {
@@ -48,4 +48,4 @@ class StrongestKeypoints {
   BoundedList<Keypoint>& list_;
 };
 
-}  // namespace traygauge
+}  // namespace traygauge::paper

@@ -14,7 +14,7 @@
 #include "core/image_view/image_view.hpp"
 #include "core/paper/features/keypoint.hpp"
 
-namespace traygauge {
+namespace traygauge::paper {
 
 inline constexpr int kMaxOctaves = 5;
 inline constexpr int kLayersPerOctave = 4;
@@ -74,4 +74,4 @@ void detect_surf(ImageView<const std::uint32_t> integral, const SurfParams& para
 void describe_surf(ImageView<const std::uint32_t> integral, const SurfParams& params,
                    std::span<Keypoint> keypoints, std::span<Descriptor> descriptors);
 
-}  // namespace traygauge
+}  // namespace traygauge::paper

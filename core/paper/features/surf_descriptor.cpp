@@ -12,7 +12,7 @@
 #include "core/paper/features/orientation.hpp"
 #include "core/paper/features/surf.hpp"
 
-namespace traygauge {
+namespace traygauge::paper {
 namespace {
 
 constexpr std::size_t kSubregions = 4;     // each way
@@ -120,4 +120,4 @@ void describe_surf(ImageView<const std::uint32_t> integral, const SurfParams& pa
   }
 }
 
-}  // namespace traygauge
+}  // namespace traygauge::paper

@@ -5,7 +5,7 @@
 
 #include "core/image/resample.hpp"
 
-namespace traygauge {
+namespace traygauge::paper {
 namespace {
 
 // The two source pixels beside a target coordinate, and the weight of the latter in 256ths.
@@ -43,4 +43,4 @@ void enlarge(ImageView<const std::uint8_t> source, ImageView<std::uint8_t> targe
   }
 }
 
-}  // namespace traygauge
+}  // namespace traygauge::paper

@@ -5,9 +5,9 @@
 
 #include "core/image_view/image_view.hpp"
 
-namespace traygauge {
+namespace traygauge::paper {
 
 // Bilinear, to the size of `target`; beyond the outermost pixel centres the border repeats.
 void enlarge(ImageView<const std::uint8_t> source, ImageView<std::uint8_t> target);
 
-}  // namespace traygauge
+}  // namespace traygauge::paper

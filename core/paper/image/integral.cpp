@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace traygauge {
+namespace traygauge::paper {
 
 void build_integral(ImageView<const std::uint8_t> image, ImageView<std::uint32_t> integral) {
   std::fill_n(integral.row(0), image.width + 1, 0U);
@@ -19,4 +19,4 @@ void build_integral(ImageView<const std::uint8_t> image, ImageView<std::uint32_t
   }
 }
 
-}  // namespace traygauge
+}  // namespace traygauge::paper

@@ -5,7 +5,7 @@
 
 #include "core/image_view/image_view.hpp"
 
-namespace traygauge {
+namespace traygauge::paper {
 
 // integral(x, y) = sum of image over [0, x) × [0, y); `integral` is one larger than `image` each way.
 // 32 bits hold pictures of up to 16.8 megapixels.
@@ -18,4 +18,4 @@ inline std::uint32_t box_sum(ImageView<const std::uint32_t> integral, int x, int
   return bottom[width] - bottom[0] - top[width] + top[0];
 }
 
-}  // namespace traygauge
+}  // namespace traygauge::paper

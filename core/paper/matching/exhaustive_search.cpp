@@ -7,7 +7,7 @@
 
 #include "core/base/lanes.hpp"
 
-namespace traygauge {
+namespace traygauge::paper {
 
 namespace {
 
@@ -113,4 +113,4 @@ void search_exhaustively(const FeatureSet& first, const PackedDescriptors& packe
   }
 }
 
-}  // namespace traygauge
+}  // namespace traygauge::paper

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace traygauge {
+namespace traygauge::paper {
 
 namespace {
 
@@ -166,4 +166,4 @@ void search_tree(const FeatureSet& queries, const PackedDescriptors& packed, con
   }
 }
 
-}  // namespace traygauge
+}  // namespace traygauge::paper

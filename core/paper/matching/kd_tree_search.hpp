@@ -9,7 +9,7 @@
 #include "core/paper/matching/neighbours.hpp"
 #include "core/paper/matching/packed_descriptors.hpp"
 
-namespace traygauge {
+namespace traygauge::paper {
 
 inline constexpr int kMaxTreeDepth = 24;  // halving blocks: enough for 2^24 blocks of eight
 
@@ -39,4 +39,4 @@ void build_tree(const FeatureSet& features, PackedDescriptors& packed, KdTree& t
 void search_tree(const FeatureSet& queries, const PackedDescriptors& packed, const KdTree& tree, int count,
                  std::span<Neighbours> neighbours);
 
-}  // namespace traygauge
+}  // namespace traygauge::paper

@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-namespace traygauge {
+namespace traygauge::paper {
 
 struct Match {
   std::int32_t first = 0;   // index into the first picture's features
@@ -11,4 +11,4 @@ struct Match {
   float distance = 0.0F;    // Euclidean distance of the descriptors
 };
 
-}  // namespace traygauge
+}  // namespace traygauge::paper

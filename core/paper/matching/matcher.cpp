@@ -5,7 +5,7 @@
 
 #include "core/paper/matching/exhaustive_search.hpp"
 
-namespace traygauge {
+namespace traygauge::paper {
 
 namespace {
 
@@ -95,4 +95,4 @@ void match_features(const FeatureSet& first, const FeatureSet& second, const Mat
   for (const Match& match : candidates.first(kept)) matches.push_back(match);
 }
 
-}  // namespace traygauge
+}  // namespace traygauge::paper

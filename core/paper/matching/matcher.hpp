@@ -13,7 +13,7 @@
 #include "core/paper/matching/neighbours.hpp"
 #include "core/paper/matching/packed_descriptors.hpp"
 
-namespace traygauge {
+namespace traygauge::paper {
 
 struct MatcherParams {
   // k: a pair counts when each is among the other's k nearest; 1 or 2 (Table I).
@@ -55,4 +55,4 @@ struct MatcherWorkspace {
 void match_features(const FeatureSet& first, const FeatureSet& second, const MatcherParams& params,
                     MatcherWorkspace& workspace, BoundedList<Match>& matches);
 
-}  // namespace traygauge
+}  // namespace traygauge::paper

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <limits>
 
-namespace traygauge {
+namespace traygauge::paper {
 
 inline constexpr int kMaxNeighbours = 3;  // two that can match, and the one that the second is judged against
 
@@ -41,4 +41,4 @@ struct Neighbours {
   }
 };
 
-}  // namespace traygauge
+}  // namespace traygauge::paper

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace traygauge {
+namespace traygauge::paper {
 
 namespace {
 
@@ -34,4 +34,4 @@ void fill_blocks(std::span<const Descriptor> descriptors, PackedDescriptors& pac
   }
 }
 
-}  // namespace traygauge
+}  // namespace traygauge::paper

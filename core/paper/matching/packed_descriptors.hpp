@@ -8,7 +8,7 @@
 
 #include "core/paper/features/keypoint.hpp"
 
-namespace traygauge {
+namespace traygauge::paper {
 
 inline constexpr int kBlockSize = 8;  // descriptors side by side: two or one SIMD registers
 inline constexpr int kBlockFloats = kBlockSize * kDescriptorLength;
@@ -73,4 +73,4 @@ inline void block_squares(const Descriptor& query, const float* block,
   squares = sums;
 }
 
-}  // namespace traygauge
+}  // namespace traygauge::paper

@@ -47,9 +47,9 @@ struct ViewParams {
   double max_card_rotation_deg =
       5.0;  // between the scene's motion and the card's own, which is sure to 1 or 2 degrees
   double min_card_pose_fitness = 0.8;  // eq. (1) of the card's motion over that of the scene's, to replace it
-  double min_kept_keypoint_share = 1.0 / 3.0;  // of the salient points found; fewer: warning
-  int min_keypoints = 50;                      // fewer: too_few_features
-  double min_matched_share = 0.5;              // of the dish with a depth; less: too_little_depth
+  double min_kept_keypoint_fraction = 1.0 / 3.0;  // of the salient points found; fewer: warning
+  int min_keypoints = 50;                         // fewer: too_few_features
+  double min_matched_fraction = 0.5;              // of the dish with a depth; less: too_little_depth
 };
 
 // Which view leads, and what is warned of.
@@ -61,8 +61,8 @@ struct PairParams {
 
 // When an item counts as measured.
 struct VolumeExtractionParams {
-  int min_item_px = 64;            // of the working picture, about 25 mm²: some 2 mesh points
-  double min_covered_share = 0.5;  // of the item's pixels under triangles; the rest has no depth
+  int min_item_px = 64;               // of the working picture, about 25 mm²: some 2 mesh points
+  double min_covered_fraction = 0.5;  // of the item's pixels under triangles; the rest has no depth
 };
 
 // Outlines of the wrong view give a rim that no dish on a table has.

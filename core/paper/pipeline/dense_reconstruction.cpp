@@ -97,10 +97,10 @@ Status reconstruct_dense(const ReferencePair& pair, const Configuration& configu
   };
   const DepthMapReport filled =
       fill_depth_map(pair.reference->working_labels, pair.cameras(), correspondence, depth);
-  report.matched_share = filled.known_share();
+  report.matched_fraction = filled.known_fraction();
   pictures.depth_mm = depth;
-  return filled.known_share() < configuration.view.min_matched_share ? StatusCode::too_little_depth
-                                                                     : StatusCode::ok;
+  return filled.known_fraction() < configuration.view.min_matched_fraction ? StatusCode::too_little_depth
+                                                                           : StatusCode::ok;
 }
 
 }  // namespace traygauge::paper

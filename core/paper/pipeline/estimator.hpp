@@ -11,12 +11,13 @@
 #include "core/pipeline/memory_row.hpp"
 #include "core/pipeline/view_input.hpp"
 
-namespace traygauge {
+namespace traygauge::paper {
 class MotionSearch;
 }
 
 namespace traygauge::paper {
 
+class MotionSearch;
 struct EstimatorState;
 
 // Bytes that an Estimator with this configuration takes from its block.

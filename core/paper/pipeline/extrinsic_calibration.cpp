@@ -6,13 +6,13 @@
 
 #include "core/card/card_pose.hpp"
 #include "core/card/homography.hpp"
+#include "core/geometry/triangulation.hpp"
 #include "core/labels/label_regions.hpp"
 #include "core/paper/card/card_plane.hpp"
 #include "core/paper/card/card_tracks.hpp"
 #include "core/paper/card/scale_estimation.hpp"
 #include "core/paper/pose/epipolar.hpp"
 #include "core/paper/pose/model_search.hpp"
-#include "core/paper/pose/triangulation.hpp"
 
 namespace traygauge::paper {
 namespace {

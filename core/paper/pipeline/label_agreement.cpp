@@ -4,7 +4,7 @@
 
 #include "core/labels/label_regions.hpp"
 
-namespace traygauge {
+namespace traygauge::paper {
 
 double measure_label_agreement(ImageView<const std::uint8_t> reference_labels,
                                ImageView<const std::uint8_t> other_labels, ImageView<const float> depth_mm,
@@ -29,4 +29,4 @@ double measure_label_agreement(ImageView<const std::uint8_t> reference_labels,
   return looked_at == 0 ? 0.0 : static_cast<double>(agreeing) / looked_at;
 }
 
-}  // namespace traygauge
+}  // namespace traygauge::paper

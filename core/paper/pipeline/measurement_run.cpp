@@ -20,7 +20,7 @@ struct LinesOfSight {
 };
 
 // Where the ray from a camera through the middle of its picture of the dish meets the table.
-Vec3 place_dish(const PreparedView& view, const Pose& first_from_view, const Plane& table) {
+Vec3 fit_dish_pose(const PreparedView& view, const Pose& first_from_view, const Plane& table) {
   const Vec2 middle = view.dish.camera.ray(Vec2(0.5 * view.dish.width, 0.5 * view.dish.height));
   const Vec3 direction = first_from_view.rotation * middle.homogeneous();
   return first_from_view.translation -
@@ -32,8 +32,8 @@ Vec3 place_dish(const PreparedView& view, const Pose& first_from_view, const Pla
 LinesOfSight look_from_dish(const PreparedView& first, const PreparedView& second,
                             const Extrinsics& extrinsics) {
   const Pose first_from_second = extrinsics.second_from_first.inverse();
-  const Vec3 dish = 0.5 * (place_dish(first, Pose{}, extrinsics.table) +
-                           place_dish(second, first_from_second, extrinsics.table));
+  const Vec3 dish = 0.5 * (fit_dish_pose(first, Pose{}, extrinsics.table) +
+                           fit_dish_pose(second, first_from_second, extrinsics.table));
   return {(-dish).normalized(), (first_from_second.translation - dish).normalized()};
 }
 
@@ -76,10 +76,10 @@ void show_pictures(EstimatorState& state) {
 void warn_about_views(const EstimatorState& state, Measurement& measurement) {
   const Extrinsics& extrinsics = state.extrinsics;
   const auto& views = state.memory.views;
-  const double min_kept_share = state.configuration.view.min_kept_keypoint_share;
+  const double min_kept_fraction = state.configuration.view.min_kept_keypoint_fraction;
   const auto is_crowded = [&](const PreparedView& view) {
     return static_cast<double>(view.keypoints.size()) <
-           min_kept_share * static_cast<double>(view.keypoints_found);
+           min_kept_fraction * static_cast<double>(view.keypoints_found);
   };
   WarningSet& warnings = measurement.warnings;
   warnings.raise_if(is_crowded(views[0]) || is_crowded(views[1]), Warning::keypoints_capped);
@@ -138,7 +138,7 @@ Status measure_views(EstimatorState& state, std::uint64_t seed, StageClock& cloc
   measurement.report.label_agreement =
       measure_label_agreement(pair.reference->working_labels, pair.other->working_labels,
                               state.pictures.depth_mm, pair.cameras(), agreement);
-  if (measurement.report.label_agreement < agreement.min_share) return StatusCode::labels_inconsistent;
+  if (measurement.report.label_agreement < agreement.min_fraction) return StatusCode::labels_inconsistent;
   status = find_dish_bottom(pair, table, state.configuration, random, state.memory.extraction,
                             measurement.report, state.pictures, views);
   if (!status.ok()) return status;

@@ -43,7 +43,7 @@ void visit_paper_pose(Config& c, Visit&& visit) {
   using Choices = ParameterChoices;
   visit("pose.threshold", c.pose.threshold, Choices{{"fixed", "a_contrario", "false_discovery"}});
   visit("pose.fixed_threshold_px", c.pose.fixed_threshold_px, Range{0.01, 1000});
-  visit("pose.max_noise_share", c.pose.max_noise_share, Range{1e-6, 0.999});
+  visit("pose.max_noise_fraction", c.pose.max_noise_fraction, Range{1e-6, 0.999});
   visit("pose.noise_sample", c.pose.noise_sample, Range{1, 100'000});
   visit("pose.min_inliers", c.pose.min_inliers, Range{6, 1 << 16});
   visit("pose.min_inlier_rate", c.pose.min_inlier_rate, Range{0, 1});
@@ -59,10 +59,10 @@ void visit_paper_pose(Config& c, Visit&& visit) {
   auto& card = c.card_search;
   visit("card.tracks", card.tracks, Choices{{"triangle", "one_side"}});
   visit("card.model", card.detection.model, Choices{{"homography", "absolute_pose"}});
-  visit("card.inlier_share", card.detection.inlier_share, Range{1e-4, 1});
+  visit("card.inlier_fraction", card.detection.inlier_fraction, Range{1e-4, 1});
   visit("card.min_tracks", card.detection.min_tracks, Range{4, 1 << 16});
   visit("card.scale", card.scale.method, Choices{{"half_sample_mode", "median", "card_motion"}});
-  visit("card.min_distance_share", card.scale.min_distance_share, Range{0, 1});
+  visit("card.min_distance_fraction", card.scale.min_distance_fraction, Range{0, 1});
   visit("card.plane", card.plane.source, Choices{{"sparse_points", "absolute_pose"}});
   visit("card.plane_inlier_mm", card.plane.inlier_mm, Range{0.001, 1000});
   visit("geometry.reference_is_steeper", c.pair.reference_is_steeper);

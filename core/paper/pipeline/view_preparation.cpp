@@ -16,7 +16,7 @@ double area_scale(double pixels, double target_pixels) {
 
 // The smallest upright rectangle of the undistorted, scaled picture that holds the box and a margin. The
 // box's edge is sampled because lens distortion bends it.
-Cutout cut_out(const LensModel& lens, const PixelBox& box, double scale, double margin_px) {
+Roi cut_out(const LensModel& lens, const PixelBox& box, double scale, double margin_px) {
   PinholeCamera scaled{lens.pinhole.fx_px * scale, lens.pinhole.fy_px * scale,
                        scale_coordinate(lens.pinhole.cx_px, scale),
                        scale_coordinate(lens.pinhole.cy_px, scale)};

@@ -31,8 +31,8 @@ struct PreparedView {
   std::span<Keypoint> keypoint_storage;
   std::span<Descriptor> descriptor_storage;
   std::span<Vec2> ray_storage;
-  Cutout cutout;  // the working picture's geometry
-  Cutout dish;    // of the part of it that holds the dish
+  Roi cutout;  // the working picture's geometry
+  Roi dish;    // of the part of it that holds the dish
   std::span<std::uint8_t> gray_storage;
   std::span<std::uint8_t> label_storage;
   ImageView<std::uint8_t> gray;

@@ -57,7 +57,7 @@ StatusCode judge_item(std::uint8_t label, const ReferencePair& pair, const FoodM
   const StatusCode pixels =
       judge_item_pixels(label, pair.reference->quality(), pair.other->quality(), configuration.view_checks);
   if (pixels != StatusCode::ok) return pixels;
-  if (mesh.coverage[label].share() < params.min_covered_share) return StatusCode::too_little_depth;
+  if (mesh.coverage[label].share() < params.min_covered_fraction) return StatusCode::too_little_depth;
   return volume.volume_ml > 0.0 ? StatusCode::ok : StatusCode::item_below_dish;
 }
 

@@ -10,9 +10,9 @@
 #include <span>
 
 #include "core/geometry/geometry.hpp"
-#include "core/paper/pose/ray_match.hpp"
+#include "core/geometry/triangulation.hpp"
 
-namespace traygauge {
+namespace traygauge::paper {
 
 // x2ᵀ E x1 and the squared normals of both epipolar lines; Real is double or an Eigen array of it.
 template <class Real>
@@ -68,4 +68,4 @@ inline double inlier_fitness(const Mat3& essential, std::span<const RayMatch> ma
   return sum;
 }
 
-}  // namespace traygauge
+}  // namespace traygauge::paper

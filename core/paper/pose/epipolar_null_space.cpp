@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstddef>
 
-namespace traygauge {
+namespace traygauge::paper {
 namespace {
 
 constexpr std::size_t kEntries = 9;
@@ -154,4 +154,4 @@ void span_epipolar_null_space(std::span<const RayMatch> matches, std::array<Mat3
   mix(basis);
 }
 
-}  // namespace traygauge
+}  // namespace traygauge::paper

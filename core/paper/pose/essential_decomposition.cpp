@@ -2,9 +2,9 @@
 
 #include <cmath>
 
-#include "core/paper/pose/triangulation.hpp"
+#include "core/geometry/triangulation.hpp"
 
-namespace traygauge {
+namespace traygauge::paper {
 namespace {
 
 // The rotation R of E = [t]× R, t of unit length (Horn 1990): R = cof E − [t]× E.
@@ -49,4 +49,4 @@ std::size_t count_in_front(const MatchTable& matches, std::span<const std::uint3
   return count;
 }
 
-}  // namespace traygauge
+}  // namespace traygauge::paper

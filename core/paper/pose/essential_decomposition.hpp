@@ -9,7 +9,7 @@
 #include "core/geometry/geometry.hpp"
 #include "core/paper/pose/match_table.hpp"
 
-namespace traygauge {
+namespace traygauge::paper {
 
 // The four motions with unit translation that share an essential matrix of any scale and sign (H&Z 9.6.2):
 // two rotations, each with both directions of the translation.
@@ -20,4 +20,4 @@ std::array<Pose, 4> decompose_essential(const Mat3& essential);
 std::size_t count_in_front(const MatchTable& matches, std::span<const std::uint32_t> indices,
                            const Pose& second_from_first, double min_parallax_rad);
 
-}  // namespace traygauge
+}  // namespace traygauge::paper

@@ -7,7 +7,7 @@
 #include "core/paper/pose/epipolar_null_space.hpp"
 #include "core/paper/pose/polynomial_roots.hpp"
 
-namespace traygauge {
+namespace traygauge::paper {
 namespace {
 
 // E = x X + y Y + z Z + W with X, Y, Z, W the basis of the null space. Orders of monomials:
@@ -308,4 +308,4 @@ int solve_five_point(std::span<const RayMatch> matches, std::array<Mat3, kMaxEss
   return static_cast<int>(count);
 }
 
-}  // namespace traygauge
+}  // namespace traygauge::paper

@@ -6,9 +6,9 @@
 #include <span>
 
 #include "core/geometry/geometry.hpp"
-#include "core/paper/pose/ray_match.hpp"
+#include "core/geometry/triangulation.hpp"
 
-namespace traygauge {
+namespace traygauge::paper {
 
 inline constexpr std::size_t kMaxEssentials = 10;
 
@@ -17,4 +17,4 @@ inline constexpr std::size_t kMaxEssentials = 10;
 // none. Points in special position (repeated, all on one line) give none or arbitrary ones.
 int solve_five_point(std::span<const RayMatch> matches, std::array<Mat3, kMaxEssentials>& essentials);
 
-}  // namespace traygauge
+}  // namespace traygauge::paper

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstddef>
 
-namespace traygauge {
+namespace traygauge::paper {
 namespace {
 
 constexpr double kNone = -1.0;
@@ -45,7 +45,7 @@ double log_combinations(std::span<const double> log_factorials, std::size_t n, s
 }  // namespace
 
 double false_discovery_threshold_px(std::span<double> data_px, std::span<double> noise_px,
-                                    double max_noise_share, double max_threshold_px) {
+                                    double max_noise_fraction, double max_threshold_px) {
   const auto data_count = static_cast<double>(data_px.size());
   const auto noise_count = static_cast<double>(noise_px.size());
   std::span<double> data = keep_up_to(data_px, max_threshold_px);
@@ -60,7 +60,7 @@ double false_discovery_threshold_px(std::span<double> data_px, std::span<double>
     while (below > 0 && noise[below - 1] > threshold) --below;
     const double cdf_noise = static_cast<double>(below + 1) / (noise_count + 1.0);
     const double cdf_data = static_cast<double>(inliers) / data_count;
-    if (cdf_noise < max_noise_share * cdf_data) return threshold;
+    if (cdf_noise < max_noise_fraction * cdf_data) return threshold;
     std::pop_heap(data.begin(), data.begin() + static_cast<std::ptrdiff_t>(inliers));
   }
   return kNone;
@@ -101,4 +101,4 @@ void fill_log_factorials(std::span<double> values) {
   }
 }
 
-}  // namespace traygauge
+}  // namespace traygauge::paper

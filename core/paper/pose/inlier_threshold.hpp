@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <span>
 
-namespace traygauge {
+namespace traygauge::paper {
 
 enum class InlierThreshold : std::uint8_t {
   fixed,            // one distance for all pairs
@@ -14,12 +14,12 @@ enum class InlierThreshold : std::uint8_t {
 };
 
 // The largest data distance T, not above `max_threshold_px`, at which random matches can make up less than
-// `max_noise_share` of the inliers: Cdf_noise(T) / Cdf_data(T) < p. Negative when there is none. Both spans
-// hold distances to the model in any order, and come back rearranged. Cdf_noise is taken as (k + 1) / (m + 1)
-// for k of m random matches: at the start of the curve, where none lies below T, the plain quotient would be
-// zero and would trust any handful of data.
+// `max_noise_fraction` of the inliers: Cdf_noise(T) / Cdf_data(T) < p. Negative when there is none. Both
+// spans hold distances to the model in any order, and come back rearranged. Cdf_noise is taken as (k + 1) /
+// (m + 1) for k of m random matches: at the start of the curve, where none lies below T, the plain quotient
+// would be zero and would trust any handful of data.
 double false_discovery_threshold_px(std::span<double> data_px, std::span<double> noise_px,
-                                    double max_noise_share, double max_threshold_px);
+                                    double max_noise_fraction, double max_threshold_px);
 
 struct AContrarioModel {
   int sample_size = 5;  // matches that define a model
@@ -38,4 +38,4 @@ double a_contrario_threshold_px(std::span<double> data_px, const AContrarioModel
 // values[n] = ln n!, with the same bits on every processor.
 void fill_log_factorials(std::span<double> values);
 
-}  // namespace traygauge
+}  // namespace traygauge::paper

@@ -4,7 +4,7 @@
 
 #include "core/paper/pose/epipolar.hpp"
 
-namespace traygauge {
+namespace traygauge::paper {
 namespace {
 
 constexpr std::size_t kMatchLanes = 4;   // matches computed side by side
@@ -91,4 +91,4 @@ double MatchTable::fitness(const Mat3& essential, double focal_px, double thresh
   return fitness;
 }
 
-}  // namespace traygauge
+}  // namespace traygauge::paper

@@ -5,9 +5,9 @@
 #include <span>
 
 #include "core/geometry/geometry.hpp"
-#include "core/paper/pose/ray_match.hpp"
+#include "core/geometry/triangulation.hpp"
 
-namespace traygauge {
+namespace traygauge::paper {
 
 class MatchTable {
  public:
@@ -47,4 +47,4 @@ class MatchTable {
   std::size_t size_ = 0;
 };
 
-}  // namespace traygauge
+}  // namespace traygauge::paper

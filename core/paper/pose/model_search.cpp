@@ -6,7 +6,7 @@
 #include "core/base/ransac.hpp"
 #include "core/paper/pose/five_point.hpp"
 
-namespace traygauge {
+namespace traygauge::paper {
 namespace {
 
 constexpr std::size_t kMinimalSample = 5;
@@ -141,4 +141,4 @@ bool is_non_trivial(std::size_t inliers, std::size_t matches, const RelativePose
          static_cast<double>(inliers) >= params.min_inlier_rate * static_cast<double>(matches);
 }
 
-}  // namespace traygauge
+}  // namespace traygauge::paper

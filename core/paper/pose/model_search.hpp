@@ -5,7 +5,7 @@
 #include "core/paper/pose/relative_pose.hpp"
 #include "core/paper/pose/threshold_estimator.hpp"
 
-namespace traygauge {
+namespace traygauge::paper {
 
 struct FoundModel {
   Mat3 essential = Mat3::Zero();
@@ -25,4 +25,4 @@ std::span<const std::uint32_t> list_inliers(const Mat3& essential, double focal_
 // Whether so many inliers are more than a trivial model has.
 bool is_non_trivial(std::size_t inliers, std::size_t matches, const RelativePoseParams& params);
 
-}  // namespace traygauge
+}  // namespace traygauge::paper

@@ -5,9 +5,9 @@
 
 #include "core/base/random.hpp"
 #include "core/geometry/geometry.hpp"
-#include "core/paper/pose/ray_match.hpp"
+#include "core/geometry/triangulation.hpp"
 
-namespace traygauge {
+namespace traygauge::paper {
 
 class MotionSearch {
  public:
@@ -19,4 +19,4 @@ class MotionSearch {
   ~MotionSearch() = default;
 };
 
-}  // namespace traygauge
+}  // namespace traygauge::paper

@@ -3,9 +3,9 @@
 #include <cmath>
 
 #include "core/geometry/levenberg_marquardt.hpp"
-#include "core/paper/pose/triangulation.hpp"
+#include "core/geometry/triangulation.hpp"
 
-namespace traygauge {
+namespace traygauge::paper {
 namespace {
 
 constexpr double kMinVectorLength = 1e-6;  // of baseline over plane distance, and of the twin's normal
@@ -48,4 +48,4 @@ bool find_planar_twin(const MatchTable& matches, std::span<const std::uint32_t> 
   return true;
 }
 
-}  // namespace traygauge
+}  // namespace traygauge::paper

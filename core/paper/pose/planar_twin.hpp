@@ -7,7 +7,7 @@
 #include "core/geometry/geometry.hpp"
 #include "core/paper/pose/match_table.hpp"
 
-namespace traygauge {
+namespace traygauge::paper {
 
 // Matches of a plane determine a homography, which splits into two motions (Faugeras and Lustman 1988). Given
 // one of them and the matches, lays a plane through the scene and returns the other, with unit translation. A
@@ -16,4 +16,4 @@ namespace traygauge {
 bool find_planar_twin(const MatchTable& matches, std::span<const std::uint32_t> indices,
                       const Pose& second_from_first, Pose& twin_second_from_first);
 
-}  // namespace traygauge
+}  // namespace traygauge::paper

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstddef>
 
-namespace traygauge {
+namespace traygauge::paper {
 namespace {
 
 // A bracket of length 2 bisected this often is below the resolution of a double; Newton needs about six.
@@ -100,4 +100,4 @@ int find_real_roots(const PolynomialCoefficients& coefficients, Roots& roots) {
   return count;
 }
 
-}  // namespace traygauge
+}  // namespace traygauge::paper

@@ -3,7 +3,7 @@
 
 #include <array>
 
-namespace traygauge {
+namespace traygauge::paper {
 
 inline constexpr int kPolynomialDegree = 10;
 using PolynomialCoefficients = std::array<double, kPolynomialDegree + 1>;  // [k] belongs to z^k
@@ -12,4 +12,4 @@ using PolynomialCoefficients = std::array<double, kPolynomialDegree + 1>;  // [k
 // root may be found twice or not at all. Bounded: no root takes more than a fixed number of evaluations.
 int find_real_roots(const PolynomialCoefficients& coefficients, std::array<double, kPolynomialDegree>& roots);
 
-}  // namespace traygauge
+}  // namespace traygauge::paper

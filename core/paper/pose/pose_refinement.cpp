@@ -5,7 +5,7 @@
 
 #include "core/paper/pose/epipolar.hpp"
 
-namespace traygauge {
+namespace traygauge::paper {
 namespace {
 
 constexpr double kMinNormal = 1e-12;  // of an epipolar line; a point that near the epipole has no direction
@@ -90,4 +90,4 @@ Pose EpipolarProblem::moved(const Pose& pose, const Equations::Vector& step) {
   return {Eigen::Quaterniond(turn * pose.rotation).normalized().toRotationMatrix(), translation.normalized()};
 }
 
-}  // namespace traygauge
+}  // namespace traygauge::paper

@@ -8,7 +8,7 @@
 #include "core/geometry/levenberg_marquardt.hpp"
 #include "core/paper/pose/match_table.hpp"
 
-namespace traygauge {
+namespace traygauge::paper {
 
 // Five degrees of freedom: a small rotation w with R ← exp(w) R, and two tangents of the unit sphere at t.
 inline constexpr int kPoseParameters = 5;
@@ -37,4 +37,4 @@ class EpipolarProblem {
   double inverse_squared_scale_;
 };
 
-}  // namespace traygauge
+}  // namespace traygauge::paper

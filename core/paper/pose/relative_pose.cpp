@@ -5,15 +5,15 @@
 #include <numbers>
 
 #include "core/base/median.hpp"
+#include "core/geometry/triangulation.hpp"
 #include "core/paper/pose/epipolar.hpp"
 #include "core/paper/pose/essential_decomposition.hpp"
 #include "core/paper/pose/model_search.hpp"
 #include "core/paper/pose/planar_twin.hpp"
 #include "core/paper/pose/pose_refinement.hpp"
 #include "core/paper/pose/threshold_estimator.hpp"
-#include "core/paper/pose/triangulation.hpp"
 
-namespace traygauge {
+namespace traygauge::paper {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180.0;
@@ -185,7 +185,7 @@ Status validate(const RelativePoseParams& params) {
   const bool thresholds_hold = params.fixed_threshold_px > 0.0 && params.min_threshold_px > 0.0 &&
                                params.max_threshold_px >= params.min_threshold_px &&
                                params.fitness_threshold_px > 0.0 && params.robust_scale > 0.0;
-  const bool rates_hold = params.max_noise_share > 0.0 && params.max_noise_share < 1.0 &&
+  const bool rates_hold = params.max_noise_fraction > 0.0 && params.max_noise_fraction < 1.0 &&
                           params.min_inlier_rate >= 0.0 && params.min_inlier_rate <= 1.0 &&
                           params.confidence > 0.0 && params.confidence < 1.0;
   const bool counts_hold = params.noise_sample > 0 && params.min_inliers >= 6 && params.local_samples >= 5 &&
@@ -236,4 +236,4 @@ Status refine_relative_pose(std::span<const RayMatch> matches, double focal_px,
   return conclude(matches, focal_px, params, workspace, pose, inliers);
 }
 
-}  // namespace traygauge
+}  // namespace traygauge::paper

@@ -10,28 +10,28 @@
 #include "core/base/random.hpp"
 #include "core/base/status.hpp"
 #include "core/geometry/geometry.hpp"
+#include "core/geometry/triangulation.hpp"
 #include "core/paper/pose/inlier_threshold.hpp"
 #include "core/paper/pose/match_table.hpp"
-#include "core/paper/pose/ray_match.hpp"
 
-namespace traygauge {
+namespace traygauge::paper {
 
 // "The paper leaves it open" marks values found by measurement on rendered and real pairs. Distances are
 // those of core/paper/pose/epipolar.hpp.
 struct RelativePoseParams {
   InlierThreshold threshold = InlierThreshold::false_discovery;
-  double fixed_threshold_px = 1.0;  // used by `fixed`
-  double max_noise_share = 0.03;    // p of the paper: largest share of noise among inliers
-  int noise_sample = 1000;          // random matches that make Cdf_noise; the paper leaves it open
-  double min_threshold_px = 0.2;    // no adaptive threshold is below this: exact matches deviate by rounding
-  double max_threshold_px = 10.0;   // … or above this
-  int min_inliers = 16;             // fewer inliers are a trivial model; the paper leaves it open
-  double min_inlier_rate = 0.15;    // … and so is a smaller inlier rate
-  bool local_optimisation = true;   // LO of Fig. 4
-  int local_samples = 10;           // matches a sample in LO (paper); 5 to 32
-  int local_iterations = 20;        // samples a run of LO; the paper leaves it open
-  int max_restarts = 20;            // of LO at a better model, per run; the paper leaves it open
-  double confidence = 0.999;        // that one sample was free of outliers
+  double fixed_threshold_px = 1.0;   // used by `fixed`
+  double max_noise_fraction = 0.03;  // p of the paper: largest share of noise among inliers
+  int noise_sample = 1000;           // random matches that make Cdf_noise; the paper leaves it open
+  double min_threshold_px = 0.2;     // no adaptive threshold is below this: exact matches deviate by rounding
+  double max_threshold_px = 10.0;    // … or above this
+  int min_inliers = 16;              // fewer inliers are a trivial model; the paper leaves it open
+  double min_inlier_rate = 0.15;     // … and so is a smaller inlier rate
+  bool local_optimisation = true;    // LO of Fig. 4
+  int local_samples = 10;            // matches a sample in LO (paper); 5 to 32
+  int local_iterations = 20;         // samples a run of LO; the paper leaves it open
+  int max_restarts = 20;             // of LO at a better model, per run; the paper leaves it open
+  double confidence = 0.999;         // that one sample was free of outliers
   int min_iterations = 50;
   int max_iterations = 2000;
   bool refine = true;  // Levenberg-Marquardt (Table III)
@@ -95,4 +95,4 @@ Status refine_relative_pose(std::span<const RayMatch> matches, double focal_px,
                             Random& random, RelativePoseWorkspace& workspace, RelativePose& pose,
                             std::span<std::uint8_t> inliers);
 
-}  // namespace traygauge
+}  // namespace traygauge::paper

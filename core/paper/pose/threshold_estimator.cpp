@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace traygauge {
+namespace traygauge::paper {
 namespace {
 
 // 2 D / A of the box around points, in 1/px (Moisan et al. [30], eq. 8). The box of the matched points stands
@@ -62,9 +62,10 @@ double ThresholdEstimator::threshold_px(const Mat3& essential) const {
   } else {
     const std::span<double> noise = workspace_.noise_px.first(workspace_.noise.size());
     workspace_.noise.measure_distances(essential, focal_px_, noise);
-    threshold = false_discovery_threshold_px(data, noise, params_.max_noise_share, params_.max_threshold_px);
+    threshold =
+        false_discovery_threshold_px(data, noise, params_.max_noise_fraction, params_.max_threshold_px);
   }
   return threshold < 0.0 ? threshold : std::max(threshold, params_.min_threshold_px);
 }
 
-}  // namespace traygauge
+}  // namespace traygauge::paper

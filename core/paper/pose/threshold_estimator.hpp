@@ -4,7 +4,7 @@
 #include "core/base/random.hpp"
 #include "core/paper/pose/relative_pose.hpp"
 
-namespace traygauge {
+namespace traygauge::paper {
 
 class ThresholdEstimator {
  public:
@@ -26,4 +26,4 @@ class ThresholdEstimator {
   AContrarioModel a_contrario_;
 };
 
-}  // namespace traygauge
+}  // namespace traygauge::paper

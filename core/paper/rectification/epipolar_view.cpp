@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-namespace traygauge {
+namespace traygauge::paper {
 namespace {
 
 Vec3 project(const PinholeCamera& camera, const Vec3& direction) {
@@ -70,4 +70,4 @@ double EpipolarView::angle_per_pixel(double angle, const Eigen::AlignedBox2d& bo
   return std::hypot(normal.x() / camera.fx_px, normal.y() / camera.fy_px) / outermost;
 }
 
-}  // namespace traygauge
+}  // namespace traygauge::paper

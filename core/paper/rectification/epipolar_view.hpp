@@ -8,7 +8,7 @@
 #include "core/geometry/camera.hpp"
 #include "core/geometry/geometry.hpp"
 
-namespace traygauge {
+namespace traygauge::paper {
 
 // A straight line in a picture: origin + column * step, in pixels.
 struct RectifiedLine {
@@ -51,4 +51,4 @@ struct EpipolarView {
   Vec3 ray(const Vec2& pixel) const;
 };
 
-}  // namespace traygauge
+}  // namespace traygauge::paper

@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-namespace traygauge {
+namespace traygauge::paper {
 namespace {
 
 using Fixed = std::int64_t;  // 32 fractional bits: 1000 increments are off by less than 1e-6 px
@@ -115,4 +115,4 @@ void sample_line_nearest(ImageView<const std::uint8_t> source, const RectifiedLi
   std::fill(target.begin() + walk.last, target.end(), std::uint8_t{0});
 }
 
-}  // namespace traygauge
+}  // namespace traygauge::paper

@@ -7,7 +7,7 @@
 #include "core/image_view/image_view.hpp"
 #include "core/paper/rectification/epipolar_view.hpp"
 
-namespace traygauge {
+namespace traygauge::paper {
 
 // target[column] = source at line.pixel(column), bilinear on 1/256 of a pixel in integers; 0 outside.
 void sample_line_bilinear(ImageView<const std::uint8_t> source, const RectifiedLine& line,
@@ -17,4 +17,4 @@ void sample_line_bilinear(ImageView<const std::uint8_t> source, const RectifiedL
 void sample_line_nearest(ImageView<const std::uint8_t> source, const RectifiedLine& line,
                          std::span<std::uint8_t> target);
 
-}  // namespace traygauge
+}  // namespace traygauge::paper

@@ -6,7 +6,7 @@
 
 #include "core/paper/rectification/line_sampling.hpp"
 
-namespace traygauge {
+namespace traygauge::paper {
 namespace {
 
 constexpr double kFullTurn = 2.0 * std::numbers::pi;
@@ -248,4 +248,4 @@ void PolarRectification::rectify_labels(int view, ImageView<const std::uint8_t> 
   }
 }
 
-}  // namespace traygauge
+}  // namespace traygauge::paper

@@ -19,7 +19,7 @@
 #include "core/paper/rectification/epipolar_view.hpp"
 #include "core/paper/rectification/region_extent.hpp"
 
-namespace traygauge {
+namespace traygauge::paper {
 
 struct RectificationParams {
   int max_rows = 1024;    // rows of the rectified pictures that memory is kept for; dishes of 2^17 px take
@@ -116,4 +116,4 @@ class PolarRectification {
   bool mirrored_ = false;
 };
 
-}  // namespace traygauge
+}  // namespace traygauge::paper

@@ -5,7 +5,7 @@
 #include <limits>
 #include <numbers>
 
-namespace traygauge {
+namespace traygauge::paper {
 namespace {
 
 // First and last pixel of the region in one picture row; false when there is none.
@@ -100,4 +100,4 @@ RegionExtent measure_extent(const EpipolarView& view, ImageView<const std::uint8
   return extent;
 }
 
-}  // namespace traygauge
+}  // namespace traygauge::paper

@@ -7,7 +7,7 @@
 #include "core/image_view/image_view.hpp"
 #include "core/paper/rectification/epipolar_view.hpp"
 
-namespace traygauge {
+namespace traygauge::paper {
 
 // The box around the pixel centres of a region (non-zero pixels); empty when there are none.
 Eigen::AlignedBox2d bounding_box(ImageView<const std::uint8_t> region);
@@ -24,4 +24,4 @@ struct RegionExtent {
 // `near_px` of it.
 RegionExtent measure_extent(const EpipolarView& view, ImageView<const std::uint8_t> region, double near_px);
 
-}  // namespace traygauge
+}  // namespace traygauge::paper

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace traygauge {
+namespace traygauge::paper {
 namespace {
 
 std::size_t slot_of(int x) {
@@ -47,4 +47,4 @@ void sum_window(const WindowSums& sums, int x, int width, Interval interval, int
   }
 }
 
-}  // namespace traygauge
+}  // namespace traygauge::paper

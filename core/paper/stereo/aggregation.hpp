@@ -8,7 +8,7 @@
 #include "core/paper/stereo/stereo_params.hpp"
 #include "core/stereo/row_lanes.hpp"
 
-namespace traygauge {
+namespace traygauge::paper {
 
 // Slides along a block from left to right and keeps one window's width of column sums.
 struct WindowSums {
@@ -36,4 +36,4 @@ void add_column(const MatchingBlock& block, int x, Interval interval, const Ster
 // Window sums around column x (columns x − radius … x + radius have been added): interval.count() lanes.
 void sum_window(const WindowSums& sums, int x, int width, Interval interval, int radius_px, CostLanes* costs);
 
-}  // namespace traygauge
+}  // namespace traygauge::paper

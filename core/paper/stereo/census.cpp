@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace traygauge {
+namespace traygauge::paper {
 namespace {
 
 // Bits set in each pair of neighbouring bits, then in each nibble.
@@ -79,4 +79,4 @@ void hamming_distances(const ByteLanes* first, const ByteLanes* second, int radi
   }
 }
 
-}  // namespace traygauge
+}  // namespace traygauge::paper

@@ -6,7 +6,7 @@
 #include "core/paper/stereo/row_block.hpp"
 #include "core/stereo/row_lanes.hpp"
 
-namespace traygauge {
+namespace traygauge::paper {
 
 // A square of radius r has (2r + 1)² − 1 = 8 · r (r + 1) / 2 neighbours: whole bytes.
 constexpr int census_bytes(int radius_px) {
@@ -23,4 +23,4 @@ void transform_census(const BlockPicture& block, int radius_px, std::span<ByteLa
 void hamming_distances(const ByteLanes* first, const ByteLanes* second, int radius_px, int count,
                        ByteLanes* distances);
 
-}  // namespace traygauge
+}  // namespace traygauge::paper

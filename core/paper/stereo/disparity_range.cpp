@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstddef>
 
-namespace traygauge {
+namespace traygauge::paper {
 
 Status estimate_disparity_range(std::span<double> match_disparities_px, const DisparityRangeParams& params,
                                 DisparityRange& range) {
@@ -21,4 +21,4 @@ Status estimate_disparity_range(std::span<double> match_disparities_px, const Di
   return {};
 }
 
-}  // namespace traygauge
+}  // namespace traygauge::paper

@@ -6,7 +6,7 @@
 #include "core/base/status.hpp"
 #include "core/stereo/disparity.hpp"
 
-namespace traygauge {
+namespace traygauge::paper {
 
 struct DisparityRangeParams {
   double share = 0.90;      // of the matches, the central ones (paper III-B-2)
@@ -21,4 +21,4 @@ struct DisparityRangeParams {
 Status estimate_disparity_range(std::span<double> match_disparities_px, const DisparityRangeParams& params,
                                 DisparityRange& range);
 
-}  // namespace traygauge
+}  // namespace traygauge::paper

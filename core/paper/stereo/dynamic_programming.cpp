@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace traygauge {
+namespace traygauge::paper {
 namespace {
 
 // A step costs at most this; with the highest window sum and one more step it still fits 16 bits.
@@ -93,4 +93,4 @@ void find_best_paths(const PathStates& states, Interval columns, std::span<const
   }
 }
 
-}  // namespace traygauge
+}  // namespace traygauge::paper

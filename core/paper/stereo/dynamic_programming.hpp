@@ -6,7 +6,7 @@
 #include "core/stereo/disparity.hpp"
 #include "core/stereo/row_lanes.hpp"
 
-namespace traygauge {
+namespace traygauge::paper {
 
 // Costs and predecessors of all (column, disparity) states of a block, column after column.
 struct PathStates {
@@ -43,4 +43,4 @@ struct PathStates {
 void find_best_paths(const PathStates& states, Interval columns, std::span<const CostLanes> smoothness,
                      std::span<CostLanes> disparities);
 
-}  // namespace traygauge
+}  // namespace traygauge::paper

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace traygauge {
+namespace traygauge::paper {
 namespace {
 
 constexpr int floor_of_shift(int value, int level) {
@@ -34,7 +34,7 @@ Interval search_neighbourhood(ImageView<const Disparity> coarse, int column, int
   return {fine_low, fine_high};
 }
 
-void fill_gaps(DisparityRange range, Interval columns, std::span<Interval> bands) {
+void fill_occlusions(DisparityRange range, Interval columns, std::span<Interval> bands) {
   Interval last;
   for (int x = columns.lo; x <= columns.hi; ++x) {
     Interval& band = bands[static_cast<std::size_t>(x)];
@@ -79,7 +79,7 @@ void narrow_bands(ImageView<const Disparity> coarse, int top, DisparityRange ran
     band.lo = std::clamp(found.lo - params.band_px, range.min_px, range.max_px);
     band.hi = std::clamp(found.hi + params.band_px, range.min_px, range.max_px);
   }
-  fill_gaps(range, columns, bands);
+  fill_occlusions(range, columns, bands);
 }
 
-}  // namespace traygauge
+}  // namespace traygauge::paper

@@ -9,7 +9,7 @@
 #include "core/stereo/disparity.hpp"
 #include "core/stereo/row_lanes.hpp"
 
-namespace traygauge {
+namespace traygauge::paper {
 
 inline constexpr int kMaxLevels = 6;
 
@@ -25,4 +25,4 @@ void open_bands(DisparityRange range, Interval columns, std::span<Interval> band
 void narrow_bands(ImageView<const Disparity> coarse, int top, DisparityRange range,
                   const StereoParams& params, Interval columns, std::span<Interval> bands);
 
-}  // namespace traygauge
+}  // namespace traygauge::paper

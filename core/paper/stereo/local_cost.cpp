@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace traygauge {
+namespace traygauge::paper {
 namespace {
 
 ByteLanes absolute_difference(ByteLanes a, ByteLanes b) {
@@ -52,4 +52,4 @@ void local_costs(const MatchingBlock& block, int x, Interval interval, const Ste
   std::fill(compared, costs + interval.count(), outside);
 }
 
-}  // namespace traygauge
+}  // namespace traygauge::paper

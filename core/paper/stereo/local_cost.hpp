@@ -9,7 +9,7 @@
 #include "core/paper/stereo/stereo_params.hpp"
 #include "core/stereo/row_lanes.hpp"
 
-namespace traygauge {
+namespace traygauge::paper {
 
 // Both pictures over a block's rows, and what the costs need of them.
 struct MatchingBlock {
@@ -38,4 +38,4 @@ void local_costs(const MatchingBlock& block, int x, Interval interval, const Ste
 // What a partner outside the second mask costs.
 int highest_local_cost(const StereoParams& params);
 
-}  // namespace traygauge
+}  // namespace traygauge::paper

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace traygauge {
+namespace traygauge::paper {
 namespace {
 
 bool has_masked_row(ByteLanes inside) {
@@ -38,4 +38,4 @@ Interval masked_columns(const BlockPicture& block) {
   return columns;
 }
 
-}  // namespace traygauge
+}  // namespace traygauge::paper

@@ -7,7 +7,7 @@
 #include "core/image_view/image_view.hpp"
 #include "core/stereo/row_lanes.hpp"
 
-namespace traygauge {
+namespace traygauge::paper {
 
 // One picture of the pair over the block's rows.
 struct BlockPicture {
@@ -29,4 +29,4 @@ void load_block(ImageView<const std::uint8_t> picture, ImageView<const std::uint
 // The columns in which a row of the block itself lies within the mask; empty when none does.
 Interval masked_columns(const BlockPicture& block);
 
-}  // namespace traygauge
+}  // namespace traygauge::paper

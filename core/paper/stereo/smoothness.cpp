@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace traygauge {
+namespace traygauge::paper {
 namespace {
 
 constexpr int kFirstRow = -kFirstPixelRow;  // of the block, within a PixelColumn
@@ -51,4 +51,4 @@ void smoothness_costs(const BlockPicture& picture, const StereoParams& params, s
   }
 }
 
-}  // namespace traygauge
+}  // namespace traygauge::paper

@@ -8,7 +8,7 @@
 #include "core/paper/stereo/stereo_params.hpp"
 #include "core/stereo/row_lanes.hpp"
 
-namespace traygauge {
+namespace traygauge::paper {
 
 inline constexpr int kMaxVarianceRadius = -kFirstPixelRow;
 
@@ -16,4 +16,4 @@ inline constexpr int kMaxVarianceRadius = -kFirstPixelRow;
 // smoothness · window area / (1 + variance / smoothness_deviation²), rounded down, at least 1.
 void smoothness_costs(const BlockPicture& picture, const StereoParams& params, std::span<CostLanes> costs);
 
-}  // namespace traygauge
+}  // namespace traygauge::paper

@@ -7,7 +7,7 @@
 #include "core/stereo/median.hpp"
 #include "core/stereo/subpixel.hpp"
 
-namespace traygauge {
+namespace traygauge::paper {
 namespace {
 
 template <class T>
@@ -155,4 +155,4 @@ Status match_dense(ImageView<const std::uint8_t> first, ImageView<const std::uin
   return {};
 }
 
-}  // namespace traygauge
+}  // namespace traygauge::paper

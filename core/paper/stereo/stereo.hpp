@@ -19,7 +19,7 @@
 #include "core/paper/stereo/zncc.hpp"
 #include "core/stereo/disparity.hpp"
 
-namespace traygauge {
+namespace traygauge::paper {
 
 // A rectified pair at one level.
 struct StereoPair {
@@ -82,4 +82,4 @@ Status match_dense(ImageView<const std::uint8_t> first, ImageView<const std::uin
                    DisparityRange range, const StereoParams& params, StereoWorkspace& workspace,
                    ImageView<Disparity> disparity);
 
-}  // namespace traygauge
+}  // namespace traygauge::paper

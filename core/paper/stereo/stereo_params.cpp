@@ -6,7 +6,7 @@
 #include "core/stereo/median.hpp"
 #include "core/stereo/row_lanes.hpp"
 
-namespace traygauge {
+namespace traygauge::paper {
 
 Status validate(const StereoParams& params) {
   constexpr int kWidestBand = 1 << 10;
@@ -23,4 +23,4 @@ Status validate(const StereoParams& params) {
   return valid ? Status{} : Status{StatusCode::invalid_configuration};
 }
 
-}  // namespace traygauge
+}  // namespace traygauge::paper

@@ -7,7 +7,7 @@
 
 #include "core/base/status.hpp"
 
-namespace traygauge {
+namespace traygauge::paper {
 
 enum class MatchingCost : std::uint8_t { census, sad, zncc };
 
@@ -46,4 +46,4 @@ struct StereoParams {
 // invalid_configuration when a value lies outside its range.
 Status validate(const StereoParams& params);
 
-}  // namespace traygauge
+}  // namespace traygauge::paper

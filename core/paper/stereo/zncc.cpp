@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace traygauge {
+namespace traygauge::paper {
 namespace {
 
 // Pixels are taken relative to mid-grey, so that products fit 16 bits and window sums 32.
@@ -85,4 +85,4 @@ void correlation_costs(const MatchingBlock& block, int x, Interval interval, con
   }
 }
 
-}  // namespace traygauge
+}  // namespace traygauge::paper

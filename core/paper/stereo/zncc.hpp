@@ -7,7 +7,7 @@
 #include "core/paper/stereo/stereo_params.hpp"
 #include "core/stereo/row_lanes.hpp"
 
-namespace traygauge {
+namespace traygauge::paper {
 
 // Sums of one window, over the rows of a block.
 struct WindowMoments {
@@ -38,4 +38,4 @@ void prepare_correlation(const MatchingBlock& block, int radius_px, CorrelationW
 void correlation_costs(const MatchingBlock& block, int x, Interval interval, const StereoParams& params,
                        CorrelationWorkspace& workspace, CostLanes* costs);
 
-}  // namespace traygauge
+}  // namespace traygauge::paper

@@ -10,13 +10,13 @@
 #include "core/labels/label_regions.hpp"
 #include "core/paper/surface/disparity_lookup.hpp"  // IWYU pragma: export
 
-namespace traygauge {
+namespace traygauge::paper {
 
 struct DepthMapReport {
   std::uint32_t dish_pixels = 0;
   std::uint32_t known_pixels = 0;  // of those, with a depth
 
-  double known_share() const {
+  double known_fraction() const {
     return dish_pixels == 0 ? 0.0 : static_cast<double>(known_pixels) / dish_pixels;
   }
 };
@@ -53,4 +53,4 @@ DepthMapReport fill_depth_map(ImageView<const std::uint8_t> labels, const Camera
   return report;
 }
 
-}  // namespace traygauge
+}  // namespace traygauge::paper

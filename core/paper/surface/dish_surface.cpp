@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace traygauge {
+namespace traygauge::paper {
 
 Status measure_rim_height(const DishInput& input, const DishParams& params, DishWorkspace& workspace,
                           double& rim_height_mm) {
@@ -27,4 +27,4 @@ Plane place_dish_bottom(const DishInput& input, const DishParams& params, double
   return input.rim.raised(bottom_height_mm - rim_height_mm);
 }
 
-}  // namespace traygauge
+}  // namespace traygauge::paper

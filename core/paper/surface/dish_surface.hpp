@@ -9,7 +9,7 @@
 #include "core/geometry/geometry.hpp"
 #include "core/paper/base/half_sample_mode.hpp"
 
-namespace traygauge {
+namespace traygauge::paper {
 
 // What defines the dish surface.
 enum class DishSurface : std::uint8_t {
@@ -57,4 +57,4 @@ Status measure_rim_height(const DishInput& input, const DishParams& params, Dish
 Plane place_dish_bottom(const DishInput& input, const DishParams& params, double rim_height_mm,
                         double bottom_height_mm);
 
-}  // namespace traygauge
+}  // namespace traygauge::paper

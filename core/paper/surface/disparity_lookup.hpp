@@ -7,7 +7,7 @@
 #include "core/image_view/image_view.hpp"
 #include "core/stereo/disparity.hpp"
 
-namespace traygauge {
+namespace traygauge::paper {
 
 struct DisparityLookupParams {
   // Neighbours that differ by more belong to another surface and are not mixed in: larger smears edges,
@@ -24,11 +24,11 @@ inline bool lookup_disparity(ImageView<const Disparity> disparity, double column
   }
   const int left = static_cast<int>(std::floor(column));
   const int top = static_cast<int>(std::floor(row));
-  const double right_share = column - left;
-  const double bottom_share = row - top;
-  const std::array<double, 4> weights{(1.0 - right_share) * (1.0 - bottom_share),
-                                      right_share * (1.0 - bottom_share), (1.0 - right_share) * bottom_share,
-                                      right_share * bottom_share};
+  const double right_fraction = column - left;
+  const double bottom_fraction = row - top;
+  const std::array<double, 4> weights{
+      (1.0 - right_fraction) * (1.0 - bottom_fraction), right_fraction * (1.0 - bottom_fraction),
+      (1.0 - right_fraction) * bottom_fraction, right_fraction * bottom_fraction};
   std::array<int, 4> values{};
   int nearest = -1;
   for (int k = 0; k < 4; ++k) {
@@ -54,4 +54,4 @@ inline bool lookup_disparity(ImageView<const Disparity> disparity, double column
   return true;
 }
 
-}  // namespace traygauge
+}  // namespace traygauge::paper

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace traygauge {
+namespace traygauge::paper {
 namespace {
 
 constexpr int kGrowSteps = 32;       // 1.25^32 exceeds any picture's width
@@ -69,4 +69,4 @@ FoodGrid fit_food_grid(ImageView<const std::uint8_t> labels, const PixelBox& foo
   return place_grid(labels, food, best_spacing, columns, rows);
 }
 
-}  // namespace traygauge
+}  // namespace traygauge::paper

@@ -7,7 +7,7 @@
 #include "core/image_view/image_view.hpp"
 #include "core/labels/label_regions.hpp"
 
-namespace traygauge {
+namespace traygauge::paper {
 
 // Pixel columns × pixel rows; a grid point is a pixel, so its depth and ray are exact.
 struct FoodGrid {
@@ -23,4 +23,4 @@ struct FoodGrid {
 FoodGrid fit_food_grid(ImageView<const std::uint8_t> labels, const PixelBox& food, std::uint32_t food_pixels,
                        int max_points, std::span<std::int32_t> columns, std::span<std::int32_t> rows);
 
-}  // namespace traygauge
+}  // namespace traygauge::paper

@@ -7,7 +7,7 @@
 #include "core/labels/label_regions.hpp"
 #include "core/paper/surface/food_grid.hpp"
 
-namespace traygauge {
+namespace traygauge::paper {
 namespace {
 
 constexpr std::int32_t kNoPoint = -1;
@@ -218,4 +218,4 @@ Status build_food_mesh(ImageView<const float> depth_mm, ImageView<const std::uin
   return mesh.triangles.empty() ? StatusCode::too_little_depth : StatusCode::ok;
 }
 
-}  // namespace traygauge
+}  // namespace traygauge::paper

@@ -13,7 +13,7 @@
 #include "core/geometry/geometry.hpp"
 #include "core/image_view/image_view.hpp"
 
-namespace traygauge {
+namespace traygauge::paper {
 
 enum class DepthSampling : std::uint8_t {
   pixel,      // the depth at the grid point (paper)
@@ -90,4 +90,4 @@ Status build_food_mesh(ImageView<const float> depth_mm, ImageView<const std::uin
                        const PinholeCamera& camera, const FoodMeshParams& params,
                        FoodMeshWorkspace& workspace, FoodMesh& mesh);
 
-}  // namespace traygauge
+}  // namespace traygauge::paper

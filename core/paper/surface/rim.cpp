@@ -4,7 +4,7 @@
 #include <cmath>
 #include <span>
 
-namespace traygauge {
+namespace traygauge::paper {
 namespace {
 
 constexpr std::size_t kBlockSides = RimWorkspace::kBlockSides;
@@ -216,4 +216,4 @@ Status fit_rim_plane(const Pose& second_from_first, const RimParams& params, Ran
   return StatusCode::ok;
 }
 
-}  // namespace traygauge
+}  // namespace traygauge::paper

@@ -14,7 +14,7 @@
 #include "core/image_view/image_view.hpp"
 #include "core/paper/base/plane_fit.hpp"
 
-namespace traygauge {
+namespace traygauge::paper {
 
 // Where the rim's 3-D points come from.
 enum class RimSource : std::uint8_t {
@@ -82,4 +82,4 @@ double tilt_sigma_rad(const PlaneFit& fit, const RimParams& params);
 Status fit_rim_plane(const Pose& second_from_first, const RimParams& params, Random& random,
                      BoundedList<Vec3>& points_mm, PlaneFit& fit);
 
-}  // namespace traygauge
+}  // namespace traygauge::paper

@@ -5,7 +5,7 @@
 
 #include "core/base/units.hpp"
 
-namespace traygauge {
+namespace traygauge::paper {
 namespace {
 
 // Area of the triangle's shadow on the plane; negative where the surface is folded over. Corners run
@@ -66,4 +66,4 @@ Status integrate_volume(const FoodMesh& mesh, const Plane& dish_bottom, const Vo
   return StatusCode::ok;
 }
 
-}  // namespace traygauge
+}  // namespace traygauge::paper

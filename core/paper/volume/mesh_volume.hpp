@@ -11,7 +11,7 @@
 #include "core/geometry/geometry.hpp"
 #include "core/paper/surface/food_mesh.hpp"
 
-namespace traygauge {
+namespace traygauge::paper {
 
 struct ItemVolume {
   std::uint8_t label = 0;
@@ -54,4 +54,4 @@ struct VolumeWorkspace {
 Status integrate_volume(const FoodMesh& mesh, const Plane& dish_bottom, const VolumeParams& params,
                         VolumeWorkspace& workspace);
 
-}  // namespace traygauge
+}  // namespace traygauge::paper

@@ -22,7 +22,7 @@ namespace traygauge {
 namespace {
 
 using test::Allocated;
-using test::JointCapture;
+using test::BundleCapture;
 
 constexpr std::size_t kMaxOutlinePoints = 1024;
 
@@ -49,7 +49,7 @@ struct PreparedPair {
   std::vector<PointTrack> tracks;
   std::array<std::vector<std::vector<Vec2>>, 2> outlines;
   FocalsPx focals_px{};
-  const JointCapture* capture = nullptr;
+  const BundleCapture* capture = nullptr;
 };
 
 // The stages before the refinement, once for all tests.
@@ -58,14 +58,14 @@ class Preparation {
   Preparation() {
     captures_.reserve(capture_names().size());
     for (const std::string& name : capture_names()) {
-      captures_.push_back(test::read_joint_capture(name));
+      captures_.push_back(test::read_bundle_capture(name));
       prepare(name, captures_.back());
     }
   }
   const std::vector<PreparedPair>& pairs() const { return pairs_; }
   std::vector<DishModel> all_dishes() const {
     std::vector<DishModel> models;
-    for (const JointCapture& capture : captures_) {
+    for (const BundleCapture& capture : captures_) {
       for (const test::TrueDish& dish : capture.dishes) {
         const auto is_same = [&](const DishModel& model) {
           return model.outer_size_mm == dish.model.outer_size_mm &&
@@ -78,7 +78,7 @@ class Preparation {
   }
 
  private:
-  void prepare(const std::string& name, const JointCapture& capture) {
+  void prepare(const std::string& name, const BundleCapture& capture) {
     const nlohmann::json& card = capture.truth.description["card"];
     CardModelSize size;
     size.width_mm = card["width_mm"];
@@ -104,7 +104,7 @@ class Preparation {
     }
   }
 
-  PreparedView prepare_view(const test::TrueView& view, const JointCapture& capture) {
+  PreparedView prepare_view(const test::TrueView& view, const BundleCapture& capture) {
     PreparedView prepared;
     prepared.gray = view.read_gray();
     prepared.labels = view.read_labels();
@@ -124,7 +124,7 @@ class Preparation {
     return prepared;
   }
 
-  std::vector<PointTrack> track(const JointCapture& capture, const std::vector<PreparedView>& views,
+  std::vector<PointTrack> track(const BundleCapture& capture, const std::vector<PreparedView>& views,
                                 std::size_t first, std::size_t second) {
     const auto tracked = [&](std::size_t view, const PyramidWorkspace& workspace) {
       return TrackedView{build_pyramid(test::view_of(views[view].gray), workspace),
@@ -149,7 +149,7 @@ class Preparation {
   std::array<Allocated<PyramidWorkspace>, 2> pyramids_{Allocated<PyramidWorkspace>{1600, 1200},
                                                        Allocated<PyramidWorkspace>{1600, 1200}};
   Allocated<DishOutlineWorkspace> outline_workspace_{std::size_t{16384}};
-  std::vector<JointCapture> captures_;
+  std::vector<BundleCapture> captures_;
   std::vector<PreparedPair> pairs_;
 };
 
@@ -193,7 +193,7 @@ struct Deviations {
   }
 };
 
-void add(const PreparedPair& pair, const JointResult& result, Deviations& deviations) {
+void add(const PreparedPair& pair, const BundleResult& result, Deviations& deviations) {
   const TableCameras& found = result.camera_from_table;
   const Pose motion = second_from_first(found);
   const Pose truth = second_from_first(pair.truth);
@@ -214,8 +214,8 @@ void add(const PreparedPair& pair, const JointResult& result, Deviations& deviat
   }
 }
 
-std::vector<JointDish> dishes_of(const PreparedPair& pair, std::span<const DishModel> known) {
-  std::vector<JointDish> dishes;
+std::vector<BundleDish> dishes_of(const PreparedPair& pair, std::span<const DishModel> known) {
+  std::vector<BundleDish> dishes;
   for (std::size_t i = 0; i < pair.capture->dishes.size(); ++i) {
     const std::span<const DishModel> described(&pair.capture->dishes[i].model, 1);
     dishes.push_back({{pair.outlines[0][i], pair.outlines[1][i]}, known.empty() ? described : known});
@@ -223,14 +223,14 @@ std::vector<JointDish> dishes_of(const PreparedPair& pair, std::span<const DishM
   return dishes;
 }
 
-Deviations refine_all(const JointParams& params) {
-  Allocated<JointWorkspace> workspace(std::size_t{2048}, kMaxOutlinePoints);
+Deviations refine_all(const BundleParams& params) {
+  Allocated<BundleWorkspace> workspace(std::size_t{2048}, kMaxOutlinePoints);
   Deviations deviations;
   for (const PreparedPair& pair : prepared().pairs()) {
-    const std::vector<JointDish> dishes = dishes_of(pair, {});
-    const JointInput input{pair.cards, pair.capture->card_middle_mm, pair.tracks, dishes, pair.focals_px};
-    JointResult result;
-    const Status status = refine_jointly(input, params, *workspace, result);
+    const std::vector<BundleDish> dishes = dishes_of(pair, {});
+    const BundleInput input{pair.cards, pair.capture->card_middle_mm, pair.tracks, dishes, pair.focals_px};
+    BundleResult result;
+    const Status status = adjust_bundle(input, params, *workspace, result);
     bool is_good = status.ok();
     for (std::size_t i = 0; params.use_rims && i < dishes.size(); ++i)
       is_good = is_good && result.dishes[i].status.ok();
@@ -268,7 +268,7 @@ TEST_F(JointCaptures, CamerasTableAndDishesAreTheTrueOnes) {
 
 TEST_F(JointCaptures, EachTermHelps) {
   const Deviations all = refine_all({});
-  JointParams params;
+  BundleParams params;
   params.use_rims = false;
   const Deviations no_rim = refine_all(params);
   no_rim.print("no rim");
@@ -291,12 +291,12 @@ TEST_F(JointCaptures, EachTermHelps) {
 TEST_F(JointCaptures, DishesAreToldApart) {
   const std::vector<DishModel> known = prepared().all_dishes();
   ASSERT_GE(known.size(), 4U);
-  Allocated<JointWorkspace> workspace(std::size_t{2048}, kMaxOutlinePoints);
+  Allocated<BundleWorkspace> workspace(std::size_t{2048}, kMaxOutlinePoints);
   for (const PreparedPair& pair : prepared().pairs()) {
-    const std::vector<JointDish> dishes = dishes_of(pair, known);
-    const JointInput input{pair.cards, pair.capture->card_middle_mm, pair.tracks, dishes, pair.focals_px};
-    JointResult result;
-    ASSERT_TRUE(refine_jointly(input, {}, *workspace, result).ok()) << pair.name;
+    const std::vector<BundleDish> dishes = dishes_of(pair, known);
+    const BundleInput input{pair.cards, pair.capture->card_middle_mm, pair.tracks, dishes, pair.focals_px};
+    BundleResult result;
+    ASSERT_TRUE(adjust_bundle(input, {}, *workspace, result).ok()) << pair.name;
     for (std::size_t i = 0; i < dishes.size(); ++i) {
       ASSERT_TRUE(result.dishes[i].status.ok()) << pair.name << " dish " << i;
       const DishModel& chosen = known[static_cast<std::size_t>(result.dishes[i].placed.candidate)];

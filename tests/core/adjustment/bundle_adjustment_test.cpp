@@ -15,9 +15,9 @@ namespace traygauge {
 namespace {
 
 using test::Allocated;
-using test::JointScene;
-using test::JointSceneOptions;
-using Workspace = Allocated<JointWorkspace>;
+using test::BundleScene;
+using test::BundleSceneOptions;
+using Workspace = Allocated<BundleWorkspace>;
 
 constexpr int kSeeds = 100;
 
@@ -59,7 +59,7 @@ Vec6 table_by_camera(const Pose& camera, const Vec2& place_mm) {
   return -derivative;
 }
 
-void add_scene(const JointScene& scene, const JointResult& result, Errors& errors) {
+void add_scene(const BundleScene& scene, const BundleResult& result, Errors& errors) {
   const TableCameras& found = result.camera_from_table;
   const TableCameras& truth = scene.camera_from_table;
   const Pose found_motion = second_from_first(found);
@@ -89,13 +89,13 @@ void add_scene(const JointScene& scene, const JointResult& result, Errors& error
   errors.card_nees += lie.dot(inverse_information<3>(of_lie) * lie) / kSeeds;
 }
 
-Errors run(const JointSceneOptions& options, const JointParams& params = {}) {
+Errors run(const BundleSceneOptions& options, const BundleParams& params = {}) {
   Workspace workspace(std::size_t{1024}, std::size_t{512});
   Errors errors;
   for (std::uint64_t seed = 0; seed < kSeeds; ++seed) {
-    JointScene scene = test::joint_scene(seed, options);
-    JointResult result;
-    const Status status = refine_jointly(scene.input(), params, *workspace, result);
+    BundleScene scene = test::bundle_scene(seed, options);
+    BundleResult result;
+    const Status status = adjust_bundle(scene.input(), params, *workspace, result);
     const bool is_placed = !params.use_rims || result.dishes[0].status.ok();
     if (!status.ok() || !is_placed) {
       ++errors.failures;
@@ -108,7 +108,7 @@ Errors run(const JointSceneOptions& options, const JointParams& params = {}) {
   return errors;
 }
 
-TEST(JointRefinement, ErrorsAreThoseItStates) {
+TEST(BundleAdjustment, ErrorsAreThoseItStates) {
   const Errors errors = run({});
   errors.print("as stated");
   EXPECT_EQ(errors.failures, 0);
@@ -120,8 +120,8 @@ TEST(JointRefinement, ErrorsAreThoseItStates) {
   EXPECT_NEAR(errors.card_nees, 2.9, 0.75);
 }
 
-TEST(JointRefinement, EachTermHelps) {
-  JointParams params;
+TEST(BundleAdjustment, EachTermHelps) {
+  BundleParams params;
   const Errors all = run({}, params);
   params.use_rims = false;
   const Errors no_rim = run({}, params);
@@ -138,11 +138,11 @@ TEST(JointRefinement, EachTermHelps) {
   EXPECT_LT(median(no_table.direction_deg), 0.5 * median(card.direction_deg));
 }
 
-TEST(JointRefinement, OutliersDoNoHarm) {
+TEST(BundleAdjustment, OutliersDoNoHarm) {
   const Errors clean = run({});
-  JointSceneOptions options;
-  options.outlier_share = 0.35;
-  options.outline_occluded_share = 0.2;
+  BundleSceneOptions options;
+  options.outlier_fraction = 0.35;
+  options.outline_occluded_fraction = 0.2;
   const Errors errors = run(options);
   errors.print("a third outliers");
   EXPECT_EQ(errors.failures, 0);
@@ -153,16 +153,16 @@ TEST(JointRefinement, OutliersDoNoHarm) {
 }
 
 // The card lies on the tray, most of the background is the table below or things upon it.
-TEST(JointRefinement, WhatIsNotTheTableDoesNotBendIt) {
+TEST(BundleAdjustment, WhatIsNotTheTableDoesNotBendIt) {
   const Errors clean = run({});
-  JointSceneOptions options;
+  BundleSceneOptions options;
   options.is_on_tray = true;
-  options.raised_share = 0.2;
+  options.raised_fraction = 0.2;
   const Errors errors = run(options);
   errors.print("table below the tray, napkin");
   options.is_on_tray = false;
-  options.lowered_share = 0.4;
-  options.raised_share = 0.1;
+  options.lowered_fraction = 0.4;
+  options.raised_fraction = 0.1;
   const Errors mixed = run(options);
   mixed.print("half of it on other levels");
   EXPECT_EQ(errors.failures, 0);
@@ -173,14 +173,14 @@ TEST(JointRefinement, WhatIsNotTheTableDoesNotBendIt) {
 }
 
 // A tray pushed under a still camera: the static table, most of the tracks, is the wrong majority.
-TEST(JointRefinement, AMovedBackgroundDoesNotVote) {
-  JointSceneOptions options;
+TEST(BundleAdjustment, AMovedBackgroundDoesNotVote) {
+  BundleSceneOptions options;
   options.table_moved_mm = {6.0, -4.0, 0.0};
   options.table_tracks = 400;
   options.dish_tracks = 120;
   const Errors errors = run(options);
   errors.print("moved background");
-  JointSceneOptions without = options;
+  BundleSceneOptions without = options;
   without.table_tracks = 0;
   const Errors alone = run(without);
   alone.print("no background");
@@ -189,12 +189,12 @@ TEST(JointRefinement, AMovedBackgroundDoesNotVote) {
   EXPECT_LT(median(errors.table_mm), 1.5 * median(alone.table_mm));
 }
 
-TEST(JointRefinement, ADishThatMovedAgainstTheCardIsRefused) {
+TEST(BundleAdjustment, ADishThatMovedAgainstTheCardIsRefused) {
   int refused = 0;
   Workspace workspace(std::size_t{1024}, std::size_t{512});
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
-    JointScene scene = test::joint_scene(seed, {});
-    const JointScene other = test::joint_scene(seed + 1000, {});
+    BundleScene scene = test::bundle_scene(seed, {});
+    const BundleScene other = test::bundle_scene(seed + 1000, {});
     Random random(seed);
     // The dish's tracks move 5 mm, in any direction along the table.
     const double angle = test::uniform(random, 0.0, 6.28);
@@ -204,16 +204,16 @@ TEST(JointRefinement, ADishThatMovedAgainstTheCardIsRefused) {
       const Vec3 in_second = scene.camera_from_table[1].rotation * shift;
       track.second += (in_second.head<2>() - in_second.z() * track.second) / 500.0;
     }
-    JointResult result;
-    const Status status = refine_jointly(scene.input(), {}, *workspace, result);
+    BundleResult result;
+    const Status status = adjust_bundle(scene.input(), {}, *workspace, result);
     refused += status.code() == StatusCode::pose_contradicts_card ? 1 : 0;
   }
   // Where the shift runs along the epipolar lines it only looks like another height.
   EXPECT_GE(refused, 15);
 }
 
-TEST(JointRefinement, NoisierTracksThanStatedWidenTheCovariance) {
-  JointSceneOptions options;
+TEST(BundleAdjustment, NoisierTracksThanStatedWidenTheCovariance) {
+  BundleSceneOptions options;
   options.track_error_factor = 2.5;
   const Errors errors = run(options);
   errors.print("tracks 2.5 times worse");
@@ -221,16 +221,16 @@ TEST(JointRefinement, NoisierTracksThanStatedWidenTheCovariance) {
   EXPECT_LT(errors.camera_nees, 18.0);
 }
 
-TEST(JointRefinement, PlacesAnOvalDish) {
-  JointSceneOptions options;
+TEST(BundleAdjustment, PlacesAnOvalDish) {
+  BundleSceneOptions options;
   options.dish = test::oval_plate();
   Workspace workspace(std::size_t{1024}, std::size_t{512});
   std::vector<double> azimuth_deg;
   for (std::uint64_t seed = 0; seed < 50; ++seed) {
-    JointScene scene = test::joint_scene(seed, options);
+    BundleScene scene = test::bundle_scene(seed, options);
     scene.candidates = {test::dinner_plate(), test::oval_plate()};
-    JointResult result;
-    ASSERT_TRUE(refine_jointly(scene.input(), {}, *workspace, result).ok()) << "seed " << seed;
+    BundleResult result;
+    ASSERT_TRUE(adjust_bundle(scene.input(), {}, *workspace, result).ok()) << "seed " << seed;
     ASSERT_TRUE(result.dishes[0].status.ok()) << "seed " << seed;
     EXPECT_EQ(result.dishes[0].placed.candidate, 1);
     azimuth_deg.push_back(
@@ -244,9 +244,9 @@ TEST(JointRefinement, PlacesAnOvalDish) {
 // Derivatives of both residuals of a track by both cameras against differences.
 TEST(TrackResiduals, DerivativesAreTheNumericOnes) {
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
-    JointSceneOptions options;
+    BundleSceneOptions options;
     options.track_sigma_px = 1.0;
-    const JointScene scene = test::joint_scene(seed, options);
+    const BundleScene scene = test::bundle_scene(seed, options);
     const TrackResiduals residuals(scene.camera_from_table, test::kFocalPx);
     const PairByCameras chain = residuals.by_cameras();
     for (int i = 0; i < 40; ++i) {
@@ -281,24 +281,24 @@ TEST(TrackResiduals, DerivativesAreTheNumericOnes) {
   }
 }
 
-TEST(JointRefinement, SurvivesNonsense) {
+TEST(BundleAdjustment, SurvivesNonsense) {
   Workspace workspace(std::size_t{1024}, std::size_t{512});
-  JointScene scene = test::joint_scene(3, {});
-  JointResult result;
-  JointInput input = scene.input();
+  BundleScene scene = test::bundle_scene(3, {});
+  BundleResult result;
+  BundleInput input = scene.input();
   input.cards[0].camera_from_table.translation.x() = std::nan("");
-  EXPECT_EQ(refine_jointly(input, {}, *workspace, result).code(), StatusCode::card_not_found);
+  EXPECT_EQ(adjust_bundle(input, {}, *workspace, result).code(), StatusCode::card_not_found);
   input = scene.input();
   input.cards[1].information.setZero();
-  EXPECT_EQ(refine_jointly(input, {}, *workspace, result).code(), StatusCode::card_not_found);
+  EXPECT_EQ(adjust_bundle(input, {}, *workspace, result).code(), StatusCode::card_not_found);
   input = scene.input();
   input.tracks = {};
   input.dishes = {};
-  EXPECT_TRUE(refine_jointly(input, {}, *workspace, result).ok());
+  EXPECT_TRUE(adjust_bundle(input, {}, *workspace, result).ok());
   EXPECT_EQ(result.lines.count, 0);
   input = scene.input();
   input.cards[1] = input.cards[0];  // no base
-  const Status status = refine_jointly(input, {}, *workspace, result);
+  const Status status = adjust_bundle(input, {}, *workspace, result);
   EXPECT_TRUE(!status.ok() || result.covariance.allFinite());
 }
 

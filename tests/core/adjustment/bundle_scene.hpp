@@ -12,7 +12,7 @@
 
 namespace traygauge::test {
 
-struct JointSceneOptions {
+struct BundleSceneOptions {
   double card_turn_sigma_deg = 0.02;
   double card_shift_sigma_mm = 0.05;
   double lie_tilt_sigma_deg = 0.1;
@@ -21,14 +21,14 @@ struct JointSceneOptions {
   double track_error_factor = 1.0;  // the tracks are that much worse than they say
   int table_tracks = 250;
   int dish_tracks = 250;
-  double outlier_share = 0.0;           // of all tracks: anywhere within 40 px
-  bool is_on_tray = false;              // 440 by 320 mm; the table beyond it is 3 mm lower
-  double lowered_share = 0.0;           // of the table's tracks: 3 mm lower, anywhere
-  double raised_share = 0.0;            // of them: a napkin and cutlery, 0.5 to 15 mm higher
-  Vec3 table_moved_mm = Vec3::Zero();   // all of the table's tracks, between the views
-  double outline_sigma_px = 0.5;        // the same over four points
-  int outline_points = 240;             // a view
-  double outline_occluded_share = 0.0;  // runs of the outline that lie elsewhere
+  double outlier_fraction = 0.0;           // of all tracks: anywhere within 40 px
+  bool is_on_tray = false;                 // 440 by 320 mm; the table beyond it is 3 mm lower
+  double lowered_fraction = 0.0;           // of the table's tracks: 3 mm lower, anywhere
+  double raised_fraction = 0.0;            // of them: a napkin and cutlery, 0.5 to 15 mm higher
+  Vec3 table_moved_mm = Vec3::Zero();      // all of the table's tracks, between the views
+  double outline_sigma_px = 0.5;           // the same over four points
+  int outline_points = 240;                // a view
+  double outline_occluded_fraction = 0.0;  // runs of the outline that lie elsewhere
   DishModel dish;
 };
 
@@ -53,18 +53,18 @@ inline DishModel oval_plate() {
   return model;
 }
 
-struct JointScene {
+struct BundleScene {
   TableCameras camera_from_table;
-  CardLie card;
-  DishPlace place;
+  CardTilt card;
+  DishPose place;
   std::array<CardPrior, 2> cards;
   std::vector<PointTrack> tracks;
   std::array<std::vector<Vec2>, 2> outlines;
   Vec3 card_middle_mm{42.8, -27.0, 0.2};
   std::vector<DishModel> candidates;
-  std::vector<JointDish> dishes;
+  std::vector<BundleDish> dishes;
 
-  JointInput input() {
+  BundleInput input() {
     dishes = {{{outlines[0], outlines[1]}, candidates}};
     return {cards, card_middle_mm, tracks, dishes, {kFocalPx, kFocalPx}};
   }
@@ -80,7 +80,7 @@ inline Vec2 noise_ray(Random& random, double sigma_px) {
 
 // Where the camera sees the outline: the upper edge, or on the near side the lower end of its upright side,
 // where both bound a convex solid: the outermost of both in the picture.
-inline Vec2 outline_ray(const DishPlace& place, const Pose& camera_from_table, double angle_rad) {
+inline Vec2 outline_ray(const DishPose& place, const Pose& camera_from_table, double angle_rad) {
   const Vec2 axis(std::cos(place.azimuth_rad), std::sin(place.azimuth_rad));
   const Vec2 across(-axis.y(), axis.x());
   const Vec2 local(0.5 * place.size_mm[0] * std::cos(angle_rad),
@@ -94,7 +94,7 @@ inline Vec2 outline_ray(const DishPlace& place, const Pose& camera_from_table, d
   return ray_of(camera_from_table, is_from_outside ? edge - place.edge_drop_mm * Vec3::UnitZ() : edge);
 }
 
-inline void add_tracks(Random& random, const JointSceneOptions& options, JointScene& scene) {
+inline void add_tracks(Random& random, const BundleSceneOptions& options, BundleScene& scene) {
   const auto add = [&](const Vec3& point, const Vec3& moved_point, std::uint8_t label) {
     PointTrack track;
     track.first = ray_of(scene.camera_from_table[0], point);
@@ -102,7 +102,7 @@ inline void add_tracks(Random& random, const JointSceneOptions& options, JointSc
                    noise_ray(random, options.track_sigma_px * options.track_error_factor);
     track.sigma_px = static_cast<float>(options.track_sigma_px);
     track.label = label;
-    if (random.uniform() < options.outlier_share) track.second += noise_ray(random, 20.0);
+    if (random.uniform() < options.outlier_fraction) track.second += noise_ray(random, 20.0);
     scene.tracks.push_back(track);
   };
   const Vec2 centre = scene.place.centre_mm;
@@ -114,9 +114,9 @@ inline void add_tracks(Random& random, const JointSceneOptions& options, JointSc
     const bool is_beyond = std::abs(offset.x() - 50.0) > 220.0 || std::abs(offset.y()) > 160.0;
     double height = options.is_on_tray && is_beyond ? -3.0 : 0.0;
     const double draw = random.uniform();
-    if (draw < options.lowered_share)
+    if (draw < options.lowered_fraction)
       height = -3.0;
-    else if (draw < options.lowered_share + options.raised_share)
+    else if (draw < options.lowered_fraction + options.raised_fraction)
       height = uniform(random, 0.5, 15.0);
     const Vec3 point(centre.x() + offset.x(), centre.y() + offset.y(), height);
     add(point, point + options.table_moved_mm, 0);
@@ -130,12 +130,12 @@ inline void add_tracks(Random& random, const JointSceneOptions& options, JointSc
   }
 }
 
-inline void add_outlines(Random& random, const JointSceneOptions& options, JointScene& scene) {
+inline void add_outlines(Random& random, const BundleSceneOptions& options, BundleScene& scene) {
   constexpr int kCorrelated = 4;
   for (std::size_t view = 0; view < 2; ++view) {
     const Pose& camera = scene.camera_from_table[view];
     double shift = 0.0;
-    const double occluded_from = uniform(random, 0.0, 1.0 - options.outline_occluded_share);
+    const double occluded_from = uniform(random, 0.0, 1.0 - options.outline_occluded_fraction);
     for (int i = 0; i < options.outline_points; ++i) {
       const double share = static_cast<double>(i) / options.outline_points;
       const double angle = 2.0 * std::numbers::pi * share;
@@ -144,19 +144,19 @@ inline void add_outlines(Random& random, const JointSceneOptions& options, Joint
       const Vec2 ahead = outline_ray(scene.place, camera, angle + 0.01);
       const Vec2 along = (ahead - ray).normalized();
       const bool is_occluded =
-          share > occluded_from && share < occluded_from + options.outline_occluded_share;
+          share > occluded_from && share < occluded_from + options.outline_occluded_fraction;
       const double off = is_occluded ? 25.0 : shift;
       scene.outlines[view].push_back(ray + off / kFocalPx * Vec2(-along.y(), along.x()));
     }
   }
 }
 
-inline JointScene joint_scene(std::uint64_t seed, const JointSceneOptions& options) {
+inline BundleScene bundle_scene(std::uint64_t seed, const BundleSceneOptions& options) {
   Random random(seed);
-  JointScene scene;
+  BundleScene scene;
   const DishModel model = options.dish.outer_size_mm[0] > 0.0 ? options.dish : dinner_plate();
   scene.candidates = {model};
-  // Prior errors of the dish as DishPlacementParams states them.
+  // Prior errors of the dish as DishPoseParams states them.
   scene.place.centre_mm = {uniform(random, -170, -130), uniform(random, -60, 60)};
   scene.place.azimuth_rad =
       model.outer_size_mm[0] == model.outer_size_mm[1] ? 0.0 : uniform(random, -1.5, 1.5);

@@ -40,7 +40,7 @@ TEST(CardAlignmentCaptures, EveryViewOfEveryCapture) {
         EXPECT_LT(error.corner_rms_px, 0.1) << view.image;
         EXPECT_LT(error.normal_deg, 0.15) << view.image;
         EXPECT_LT(error.normalised_square, 30.0) << view.image;
-        EXPECT_GT(alignment.visible_share, 0.9) << view.image;
+        EXPECT_GT(alignment.visible_fraction, 0.9) << view.image;
         corners_px.push_back(error.corner_rms_px);
         normals_deg.push_back(error.normal_deg);
         heights_mm.push_back(error.height_200_mm);

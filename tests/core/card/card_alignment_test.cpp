@@ -60,7 +60,7 @@ class CardAlignmentTest : public ::testing::Test {
     CardAlignment alignment;
     const Status status = aligner_.align(render, alignment);
     ASSERT_TRUE(status.ok()) << what << " " << name(status.code()) << ", correlation "
-                             << alignment.correlation << ", seen " << alignment.visible_share;
+                             << alignment.correlation << ", seen " << alignment.visible_fraction;
     const CardPoseError error = compare_poses(alignment, pose, kCard, kFocalPx);
     EXPECT_LT(error.corner_rms_px, max_px) << what;
     EXPECT_LT(error.normal_deg, max_deg) << what;

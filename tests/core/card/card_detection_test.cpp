@@ -48,7 +48,7 @@ TEST_F(FindCard, HalfOfTheMatchesMayBeWrong) {
   for (unsigned seed = 1; seed <= 200; ++seed) {
     SCOPED_TRACE(testing::Message() << "seed " << seed);
     std::mt19937 random(seed);
-    const CardScene scene = make_card_scene(random, {.count = 80, .noise_px = 0.3, .outlier_share = 0.5});
+    const CardScene scene = make_card_scene(random, {.count = 80, .noise_px = 0.3, .outlier_fraction = 0.5});
     for (const CardModel model : kModels) {
       CardParams params;
       params.detection.model = model;
@@ -88,10 +88,10 @@ TEST_F(FindCard, ChanceAloneIsRefused) {
     const auto tracks = random_tracks(random, 50 + static_cast<int>(random() % 150));
     CardParams params;
     params.detection.min_tracks = 6;
-    params.detection.min_spread_share = 0.0;
+    params.detection.min_spread_fraction = 0.0;
     params.detection.max_skew = 1.0;
     params.detection.min_distance_mm = 0.0;
-    params.detection.inlier_share = 0.05;
+    params.detection.inlier_fraction = 0.05;
     params.detection.max_iterations = 500;
     EXPECT_EQ(find(tracks, params, seed).code(), StatusCode::card_not_found) << "seed " << seed;
     params.detection.max_false_alarms = 1e30;
@@ -108,7 +108,7 @@ TEST_F(FindCard, RandomMatchesInASmallPatchAreNoCard) {
     auto tracks = random_tracks(random, 20 + static_cast<int>(random() % 60));
     for (CardTrack& track : tracks) track.first *= 0.2;
     CardParams params;
-    params.detection.inlier_share = 0.05;
+    params.detection.inlier_fraction = 0.05;
     params.detection.max_iterations = 500;
     EXPECT_EQ(find(tracks, params, seed).code(), StatusCode::card_not_found) << "seed " << seed;
   }
@@ -160,7 +160,7 @@ TEST_F(FindCard, DegenerateTracksAreRefused) {
 
 TEST_F(FindCard, SameSeedSameBits) {
   std::mt19937 random(4);
-  const CardScene scene = make_card_scene(random, {.count = 60, .noise_px = 0.5, .outlier_share = 0.4});
+  const CardScene scene = make_card_scene(random, {.count = 60, .noise_px = 0.5, .outlier_fraction = 0.4});
   ASSERT_TRUE(find(scene.tracks, {}, 7).ok());
   const CardFit once = fit_;
   ASSERT_TRUE(find(scene.tracks, {}, 7).ok());

@@ -26,7 +26,7 @@ struct CardScene {
 struct SceneOptions {
   int count = 60;
   double noise_px = 0.0;
-  double outlier_share = 0.0;
+  double outlier_fraction = 0.0;
   double distance_mm = 500.0;
   double baseline_mm = 150.0;
   double max_tilt_rad = 0.6;
@@ -89,7 +89,7 @@ inline CardScene make_card_scene(std::mt19937& random, const SceneOptions& optio
     track.second =
         project(scene.second_from_card, track.pattern_mm) + noise * Vec2(gauss(random), gauss(random));
     track.point_in_first = triangulate_midpoint(unit_pose, track.first, track.second);
-    const bool is_outlier = unit(random) < options.outlier_share;
+    const bool is_outlier = unit(random) < options.outlier_fraction;
     if (is_outlier) track.pattern_mm = Vec2(unit(random) * size.width_mm, unit(random) * size.height_mm);
     scene.tracks.push_back(track);
     scene.is_true.push_back(is_outlier ? 0 : 1);

@@ -31,21 +31,21 @@ DishModel model_of(double width_mm, double depth_mm, double edge_mm) {
 class Placement : public ::testing::Test {
  protected:
   Status place(const std::vector<DishModel>& candidates) {
-    return place_dish({rays_[0], rays_[1]}, cameras_, {test::kOutlineFocalPx, test::kOutlineFocalPx},
-                      candidates, {}, *workspace_, placed_);
+    return fit_dish_pose({rays_[0], rays_[1]}, cameras_, {test::kOutlineFocalPx, test::kOutlineFocalPx},
+                         candidates, {}, *workspace_, placed_);
   }
-  void show(const DishPlace& place) {
+  void show(const DishPose& place) {
     for (std::size_t view = 0; view < 2; ++view) rays_[view] = outline_of(place, cameras_[view]);
   }
 
   TableCameras cameras_ = two_cameras();
   std::array<std::vector<Vec2>, 2> rays_;
-  Allocated<DishPlacementWorkspace> workspace_{std::size_t{1024}};
+  Allocated<DishPoseWorkspace> workspace_{std::size_t{1024}};
   PlacedDish placed_;
 };
 
 TEST_F(Placement, FindsAnOvalDishWhereItStands) {
-  const DishPlace truth{{12.0, -20.0}, 0.6, 23.4, {300.0, 210.0}, 1.8};
+  const DishPose truth{{12.0, -20.0}, 0.6, 23.4, {300.0, 210.0}, 1.8};
   show(truth);
   ASSERT_TRUE(place({model_of(300.0, 210.0, 23.4)}).ok());
   EXPECT_LT((placed_.place.centre_mm - truth.centre_mm).norm(), 0.02);
@@ -56,7 +56,7 @@ TEST_F(Placement, FindsAnOvalDishWhereItStands) {
 }
 
 TEST_F(Placement, TheOrderOfTheAxesDoesNotMatter) {
-  const DishPlace truth{{12.0, -20.0}, 0.6, 23.4, {300.0, 210.0}, 1.0};
+  const DishPose truth{{12.0, -20.0}, 0.6, 23.4, {300.0, 210.0}, 1.0};
   show(truth);
   ASSERT_TRUE(place({model_of(210.0, 300.0, 23.4)}).ok());
   EXPECT_NEAR(std::remainder(placed_.place.azimuth_rad - truth.azimuth_rad - 0.5 * std::numbers::pi,
@@ -86,14 +86,14 @@ TEST_F(Placement, SaysWhatAnUnknownDishMeasures) {
 }
 
 TEST_F(Placement, RefusesTheOutlineOfAnotherPicture) {
-  const DishPlace truth{{12.0, -20.0}, 0.0, 21.4, {260.0, 260.0}, 1.0};
+  const DishPose truth{{12.0, -20.0}, 0.0, 21.4, {260.0, 260.0}, 1.0};
   show(truth);
   rays_[1] = outline_of(truth, camera_at(15.0, 170.0));
   EXPECT_EQ(place({model_of(260.0, 260.0, 21.4)}).code(), StatusCode::labels_inconsistent);
 }
 
 TEST_F(Placement, WithstandsAHiddenStretch) {
-  const DishPlace truth{{12.0, -20.0}, 0.0, 21.4, {260.0, 260.0}, 1.0};
+  const DishPose truth{{12.0, -20.0}, 0.0, 21.4, {260.0, 260.0}, 1.0};
   show(truth);
   for (std::size_t i = 0; i < 75; ++i) {  // a quarter of the outline is that of a napkin 30 px further out
     rays_[0][i] *= 1.0 + 30.0 / 350.0;
@@ -108,9 +108,9 @@ TEST_F(Placement, WithstandsAHiddenStretch) {
 // far side lies something else.
 TEST_F(Placement, KnowsABowlsWallBelowItsEdge) {
   cameras_ = {camera_at(20.0, 20.0), camera_at(38.0, 50.0)};
-  const DishPlace truth{{12.0, -20.0}, 0.0, 60.0, {150.0, 150.0}, 1.0};
-  const DishPlace foot{truth.centre_mm, 0.0, 25.0, {140.0, 140.0}, 0.0};
-  const DishPlace napkin{truth.centre_mm, 0.0, 60.0, {166.0, 166.0}, 0.0};
+  const DishPose truth{{12.0, -20.0}, 0.0, 60.0, {150.0, 150.0}, 1.0};
+  const DishPose foot{truth.centre_mm, 0.0, 25.0, {140.0, 140.0}, 0.0};
+  const DishPose napkin{truth.centre_mm, 0.0, 60.0, {166.0, 166.0}, 0.0};
   for (const bool is_near : {true, false}) {
     show(truth);
     int moved = 0;
@@ -131,9 +131,9 @@ TEST_F(Placement, KnowsABowlsWallBelowItsEdge) {
     EXPECT_LT((placed_.place.centre_mm - truth.centre_mm).norm(), 0.3);
     EXPECT_LT(placed_.fit.inliers, 0.95 * placed_.fit.points);
     if (is_near) {
-      EXPECT_GT(placed_.fit.explained_share(), 0.99);
+      EXPECT_GT(placed_.fit.explained_fraction(), 0.99);
     } else {
-      EXPECT_LT(placed_.fit.explained_share(), 0.95);
+      EXPECT_LT(placed_.fit.explained_fraction(), 0.95);
     }
   }
 }
@@ -148,10 +148,10 @@ TEST_F(Placement, NeedsPoints) {
 }
 
 TEST(RimProjection, DerivativesAreTheNumericOnes) {
-  const DishPlace place{{12.0, -20.0}, 0.6, 23.4, {300.0, 210.0}, 1.3};
+  const DishPose place{{12.0, -20.0}, 0.6, 23.4, {300.0, 210.0}, 1.3};
   const Pose camera = camera_at(24.0, 50.0);
   // Off the outline by a third of a pixel: the residual is exact to first order only.
-  DishPlace shown = place;
+  DishPose shown = place;
   shown.size_mm = {300.2, 210.2};
   for (const Vec2& ray : outline_of(shown, camera, 60)) {
     double residual = 0.0;
@@ -159,7 +159,7 @@ TEST(RimProjection, DerivativesAreTheNumericOnes) {
     PlaceVector by_place;
     const RimProjection at(place, camera, test::kOutlineFocalPx);
     ASSERT_TRUE(at.linearise(ray, residual, by_camera, by_place));
-    const auto difference = [&](const DishPlace& place_up, const Pose& camera_up, const DishPlace& place_down,
+    const auto difference = [&](const DishPose& place_up, const Pose& camera_up, const DishPose& place_down,
                                 const Pose& camera_down, double h) {
       double up = 0.0;
       double down = 0.0;

@@ -28,14 +28,14 @@ DishModel dish_of(double length_mm, double width_mm, double height_mm) {
   return dish;
 }
 
-DishPlace place_of(const DishModel& dish, const Vec2& centre_mm, double azimuth_rad) {
+DishPose place_of(const DishModel& dish, const Vec2& centre_mm, double azimuth_rad) {
   return {centre_mm, azimuth_rad, dish.rim_height_mm, dish.outer_size_mm, 0.0};
 }
 
 // A grained table under two cameras, with dishes on it.
 class Table {
  public:
-  explicit Table(const std::vector<DishPlace>& dishes, std::uint32_t seed = 1) {
+  explicit Table(const std::vector<DishPose>& dishes, std::uint32_t seed = 1) {
     const LensModel lens{kWidth, kHeight, {700.0, 700.0, 405.0, 297.0}, -0.05, 0.01, 0.0, 0.0, 0.0};
     for (std::size_t v = 0; v < 2; ++v) {
       DishSearchView& view = views_[v];
@@ -49,7 +49,7 @@ class Table {
           Vec2 ray;
           EXPECT_TRUE(lens.undistort_pixel({static_cast<double>(x), static_cast<double>(y)}, ray));
           int gray = 90 + grain(random);
-          for (const DishPlace& dish : dishes) gray = draw(view.camera_from_table, dish, ray, gray);
+          for (const DishPose& dish : dishes) gray = draw(view.camera_from_table, dish, ray, gray);
           pixels_[v][static_cast<std::size_t>(y * kWidth + x)] = static_cast<std::uint8_t>(gray);
         }
       }
@@ -64,7 +64,7 @@ class Table {
 
  private:
   // White, with a dark band 6 to 9 mm inside the edge.
-  static int draw(const Pose& camera_from_table, const DishPlace& dish, const Vec2& ray, int behind) {
+  static int draw(const Pose& camera_from_table, const DishPose& dish, const Vec2& ray, int behind) {
     const Pose table_from_camera = camera_from_table.inverse();
     const Vec3 direction = table_from_camera.rotation * ray.homogeneous();
     const double depth = (dish.edge_height_mm - table_from_camera.translation.z()) / direction.z();

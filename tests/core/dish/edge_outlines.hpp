@@ -24,7 +24,7 @@ inline TableCameras two_cameras() {
 }
 
 // The edge, `drop` lower where it is seen from outside.
-inline std::vector<Vec2> outline_of(const DishPlace& place, const Pose& camera, int points = 300) {
+inline std::vector<Vec2> outline_of(const DishPose& place, const Pose& camera, int points = 300) {
   std::vector<Vec2> rays;
   const Vec3 centre = camera_centre_mm(camera);
   for (int i = 0; i < points; ++i) {

@@ -22,14 +22,14 @@ class UnknownDish : public ::testing::Test {
     return measure_dish_edge({rays_[0], rays_[1]}, cameras_, {test::kOutlineFocalPx, test::kOutlineFocalPx},
                              {}, {}, *workspace_, place_);
   }
-  void show(const DishPlace& place, int points = 300) {
+  void show(const DishPose& place, int points = 300) {
     for (std::size_t view = 0; view < 2; ++view) rays_[view] = outline_of(place, cameras_[view], points);
   }
 
   TableCameras cameras_ = test::two_cameras();
   std::array<std::vector<Vec2>, 2> rays_;
-  test::Allocated<DishPlacementWorkspace> workspace_{std::size_t{1024}};
-  DishPlace place_;
+  test::Allocated<DishPoseWorkspace> workspace_{std::size_t{1024}};
+  DishPose place_;
 };
 
 TEST_F(UnknownDish, SizeAndHeightFollowFromBothOutlines) {
@@ -39,11 +39,11 @@ TEST_F(UnknownDish, SizeAndHeightFollowFromBothOutlines) {
   };
   for (int i = 0; i < 50; ++i) {
     const double size = draw(90.0, 320.0);
-    const DishPlace truth{{draw(-30.0, 30.0), draw(-30.0, 30.0)},
-                          draw(-1.5, 1.5),
-                          draw(8.0, 110.0),
-                          {size, i % 2 == 0 ? size : size * draw(0.6, 0.95)},
-                          draw(0.0, 3.0)};
+    const DishPose truth{{draw(-30.0, 30.0), draw(-30.0, 30.0)},
+                         draw(-1.5, 1.5),
+                         draw(8.0, 110.0),
+                         {size, i % 2 == 0 ? size : size * draw(0.6, 0.95)},
+                         draw(0.0, 3.0)};
     show(truth);
     ASSERT_TRUE(measure().ok()) << i;
     EXPECT_LT((place_.centre_mm - truth.centre_mm).norm(), 0.3) << i;

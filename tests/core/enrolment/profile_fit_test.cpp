@@ -106,7 +106,7 @@ TEST_P(ProfileThroughRings, BridgesRingsThatAreNotKnown) {
 TEST_P(ProfileThroughRings, ARefusalSaysHowLittleIsKnown) {
   for (std::size_t i = 0; i < rings_.size(); ++i) rings_[i].is_known = i % 3 == 0;
   EXPECT_EQ(fit().code(), StatusCode::too_little_depth);
-  EXPECT_NEAR(fitted_.known_share, 1.0 / 3.0, 0.02);
+  EXPECT_NEAR(fitted_.known_fraction, 1.0 / 3.0, 0.02);
 
   rings_ = rings_of(profile_);
   for (std::size_t i = 20; i < 40; ++i) rings_[i].is_known = false;  // the wall
@@ -117,7 +117,7 @@ TEST_P(ProfileThroughRings, ARefusalSaysHowLittleIsKnown) {
   for (std::size_t i = 68 * rings_.size() / 100; i < rings_.size(); ++i)
     rings_[i].is_known = false;  // the bottom
   EXPECT_EQ(fit().code(), StatusCode::too_little_depth);
-  EXPECT_NEAR(fitted_.known_share, 0.68, 0.02);
+  EXPECT_NEAR(fitted_.known_fraction, 0.68, 0.02);
 
   rings_ = rings_of(profile_);
   for (std::size_t i = 0; i < rings_.size(); ++i) rings_[i].height_mm += i % 2 == 0 ? 1.5 : -1.5;

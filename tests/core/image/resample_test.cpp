@@ -118,7 +118,7 @@ cv::Mat smooth_colours(int width, int height) {
   return picture;
 }
 
-cv::Mat remap_through_lens(const cv::Mat& frame, const LensModel& lens, const Cutout& cutout, int mode) {
+cv::Mat remap_through_lens(const cv::Mat& frame, const LensModel& lens, const Roi& cutout, int mode) {
   cv::Mat map_x, map_y, result;
   cv::initUndistortRectifyMap(test::camera_matrix(lens.pinhole), test::distortion_of(lens), cv::noArray(),
                               test::camera_matrix(cutout.camera), {cutout.width, cutout.height}, CV_32FC1,
@@ -128,8 +128,8 @@ cv::Mat remap_through_lens(const cv::Mat& frame, const LensModel& lens, const Cu
 }
 
 // A cut-out that lies wholly inside the frame, `reduction` times smaller.
-Cutout inner_cutout(const LensModel& lens, double reduction) {
-  Cutout cutout;
+Roi inner_cutout(const LensModel& lens, double reduction) {
+  Roi cutout;
   cutout.width = static_cast<int>(0.8 * lens.width / reduction);
   cutout.height = static_cast<int>(0.8 * lens.height / reduction);
   cutout.camera = {lens.pinhole.fx_px / reduction, lens.pinhole.fy_px / reduction, 0.5 * cutout.width,
@@ -140,7 +140,7 @@ Cutout inner_cutout(const LensModel& lens, double reduction) {
 TEST(ResampleUndistorted, EqualsRemapWithoutReduction) {
   const cv::Mat frame = smooth_colours(640, 480);
   const LensModel lens = lens_of(frame);
-  const Cutout cutout = inner_cutout(lens, 1.0);
+  const Roi cutout = inner_cutout(lens, 1.0);
   cv::Mat gray(cutout.height, cutout.width, CV_8U);
   resample_undistorted(frame_of(frame), lens, cutout, view_of(gray));
   cv::Mat expected = remap_through_lens(frame, lens, cutout, cv::INTER_LINEAR);
@@ -154,11 +154,11 @@ TEST(ResampleUndistorted, AveragesWhatATargetPixelCovers) {
   const cv::Mat frame = random_picture(800, 600, CV_8UC3, rng);  // white noise: the worst case for aliasing
   const LensModel lens = lens_of(frame);
   for (const int reduction : {2, 3, 4}) {
-    const Cutout cutout = inner_cutout(lens, reduction);
+    const Roi cutout = inner_cutout(lens, reduction);
     cv::Mat gray(cutout.height, cutout.width, CV_8U);
     resample_undistorted(frame_of(frame), lens, cutout, view_of(gray));
     // Reference: the same cut-out sampled 8 times finer, then averaged.
-    Cutout fine = cutout;
+    Roi fine = cutout;
     constexpr int kFiner = 8;
     fine.width *= kFiner;
     fine.height *= kFiner;
@@ -180,7 +180,7 @@ TEST(ResampleUndistorted, GrayFramesAndColourFramesAgree) {
   cv::Mat gray_frame;
   cv::cvtColor(frame, gray_frame, cv::COLOR_BGR2GRAY);
   const LensModel lens = lens_of(frame);
-  const Cutout cutout = inner_cutout(lens, 1.7);
+  const Roi cutout = inner_cutout(lens, 1.7);
   cv::Mat from_colour(cutout.height, cutout.width, CV_8U);
   cv::Mat from_gray(cutout.height, cutout.width, CV_8U);
   resample_undistorted(frame_of(frame), lens, cutout, view_of(from_colour));
@@ -192,7 +192,7 @@ TEST(ResampleUndistorted, OutsideTheFrameIsBlackAndTheBorderIsNot) {
   const cv::Mat frame(60, 80, CV_8UC3, cv::Scalar(200, 200, 200));
   LensModel lens = lens_of(frame);
   lens.k1 = lens.k2 = lens.p1 = lens.p2 = lens.k3 = 0.0;
-  Cutout cutout{lens.pinhole, 100, 90};
+  Roi cutout{lens.pinhole, 100, 90};
   cutout.camera.cx_px += 10.0;  // the frame then fills columns 10 … 89 and rows 15 … 74
   cutout.camera.cy_px += 15.0;
   cv::Mat gray(cutout.height, cutout.width, CV_8U, cv::Scalar(77));
@@ -210,7 +210,7 @@ TEST(ResampleLabels, TakesTheNearestLabelAndInventsNone) {
     cv::circle(labels, centre, rng.uniform(5, 90), cv::Scalar(i % 2 == 0 ? 7 : 201), cv::FILLED);
   }
   const LensModel lens = lens_of(labels);
-  Cutout cutout = inner_cutout(lens, 0.8);  // reaches beyond the frame
+  Roi cutout = inner_cutout(lens, 0.8);  // reaches beyond the frame
   cv::Mat target(cutout.height, cutout.width, CV_8U, cv::Scalar(99));
   resample_labels_undistorted(view_of(labels), lens, cutout, view_of(target));
   const cv::Mat expected = remap_through_lens(labels, lens, cutout, cv::INTER_NEAREST);

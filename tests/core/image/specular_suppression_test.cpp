@@ -9,10 +9,10 @@
 namespace traygauge {
 namespace {
 
-cv::Mat matte_of(const FrameView& frame, double gloss_share) {
-  cv::Mat matte(frame.height, frame.width, CV_8U);
-  convert_to_matte(frame, {gloss_share}, {matte.data, matte.cols, matte.rows});
-  return matte;
+cv::Mat diffuse_of(const FrameView& frame, double specular_fraction) {
+  cv::Mat specular(frame.height, frame.width, CV_8U);
+  suppress_specular(frame, {specular_fraction}, {specular.data, specular.cols, specular.rows});
+  return specular;
 }
 
 FrameView frame_of(const cv::Mat& picture, PixelFormat format) {
@@ -34,7 +34,7 @@ TEST(Matte, ReflectionsAreTakenAwayByTheirShare) {
                           cv::Scalar(stored(red + reflected), stored(green + reflected), stored(reflected)));
     for (const double share : {0.0, 0.3, 1.0}) {
       const double expected = std::sqrt(kRed * red + kGreen * green + (1.0 - share) * reflected);
-      EXPECT_NEAR(matte_of(frame_of(picture, PixelFormat::rgb8), share).at<std::uint8_t>(0), expected, 1.0)
+      EXPECT_NEAR(diffuse_of(frame_of(picture, PixelFormat::rgb8), share).at<std::uint8_t>(0), expected, 1.0)
           << reflected << ", " << share;
     }
   }
@@ -52,16 +52,16 @@ TEST(Matte, OrderOfColoursAndRowsOfAnyLength) {
       bgr.at<cv::Vec3b>(y, x) = {pixel[2], pixel[1], pixel[0]};
     }
   }
-  const cv::Mat first = matte_of(frame_of(rgb, PixelFormat::rgb8), 0.3);
-  const cv::Mat second = matte_of(frame_of(bgr, PixelFormat::bgr8), 0.3);
+  const cv::Mat first = diffuse_of(frame_of(rgb, PixelFormat::rgb8), 0.3);
+  const cv::Mat second = diffuse_of(frame_of(bgr, PixelFormat::bgr8), 0.3);
   EXPECT_LE(cv::norm(first, second, cv::NORM_INF), 1.0);
-  EXPECT_GT(cv::norm(first, matte_of(frame_of(rgb, PixelFormat::rgb8), 0.0), cv::NORM_INF), 10.0);
+  EXPECT_GT(cv::norm(first, diffuse_of(frame_of(rgb, PixelFormat::rgb8), 0.0), cv::NORM_INF), 10.0);
 }
 
 TEST(Matte, GreyFramesStayAsTheyAre) {
   cv::Mat picture(20, 30, CV_8U);
   cv::RNG(9).fill(picture, cv::RNG::UNIFORM, 0, 256);
-  EXPECT_EQ(cv::norm(matte_of(frame_of(picture, PixelFormat::gray8), 0.3), picture, cv::NORM_INF), 0.0);
+  EXPECT_EQ(cv::norm(diffuse_of(frame_of(picture, PixelFormat::gray8), 0.3), picture, cv::NORM_INF), 0.0);
 }
 
 }  // namespace

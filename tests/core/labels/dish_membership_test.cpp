@@ -81,7 +81,7 @@ TEST(DishMembership, AShortBorderWithADishInFrontDoesNotCount) {
   labels(cv::Rect(40, 40, 20, 38)).setTo(3);
   labels(cv::Rect(55, 75, 45, 25)).setTo(201);
   EXPECT_EQ(find_dishes({labels})[3], 1);
-  EXPECT_EQ(find_dishes({labels}, {.min_dish_border_share = 0.0})[3], 201);
+  EXPECT_EQ(find_dishes({labels}, {.min_dish_border_fraction = 0.0})[3], 201);
 }
 
 TEST(DishMembership, AShortBorderCountsWhereNothingElseDoes) {

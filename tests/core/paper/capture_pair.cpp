@@ -2,7 +2,7 @@
 
 #include <opencv2/imgproc.hpp>
 
-namespace traygauge {
+namespace traygauge::paper {
 namespace {
 
 constexpr int kBorder_px = 16;  // around the dish
@@ -35,4 +35,4 @@ WorkingView load_view(const test::CaptureTruth& capture, int index, double dish_
   return result;
 }
 
-}  // namespace traygauge
+}  // namespace traygauge::paper

@@ -7,7 +7,7 @@
 #include "core/image_view/image_view.hpp"
 #include "tests/support/capture_truth.hpp"
 
-namespace traygauge {
+namespace traygauge::paper {
 
 struct WorkingView {
   PinholeCamera camera;
@@ -22,4 +22,4 @@ struct WorkingView {
 WorkingView load_view(const test::CaptureTruth& capture, int index,
                       double dish_pixels = test::kWorkingDishPixels);
 
-}  // namespace traygauge
+}  // namespace traygauge::paper

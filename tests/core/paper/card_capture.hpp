@@ -16,7 +16,7 @@
 #include "tests/support/allocated.hpp"
 #include "tests/support/capture_truth.hpp"
 
-namespace traygauge {
+namespace traygauge::paper {
 
 inline constexpr int kMaxCaptureFeatures = 6000;  // fewer all go to the table's texture
 
@@ -119,4 +119,4 @@ inline CardScene load_card_scene(const CardCapture& capture, std::size_t first, 
   return scene;
 }
 
-}  // namespace traygauge
+}  // namespace traygauge::paper

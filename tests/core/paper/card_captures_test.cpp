@@ -10,7 +10,7 @@
 #include "core/paper/card/scale_estimation.hpp"
 #include "tests/core/paper/card_capture.hpp"
 
-namespace traygauge {
+namespace traygauge::paper {
 namespace {
 
 struct Pair {
@@ -84,4 +84,4 @@ TEST(CardCapturesWithoutCard, AnotherPatternIsNotFound) {
 }
 
 }  // namespace
-}  // namespace traygauge
+}  // namespace traygauge::paper

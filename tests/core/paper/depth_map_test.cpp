@@ -7,7 +7,7 @@
 #include "tests/core/stereo/capture_scene.hpp"
 #include "tests/core/stereo/synthetic_scene.hpp"
 
-namespace traygauge {
+namespace traygauge::paper {
 namespace {
 
 TEST(DepthMap, ExactMatchesGiveTheExactDepthOfDishPixelsOnly) {
@@ -85,4 +85,4 @@ TEST(DisparityLookup, InterpolatesOnOneSurfaceOnly) {
 }
 
 }  // namespace
-}  // namespace traygauge
+}  // namespace traygauge::paper

@@ -14,7 +14,7 @@
 #include "tests/core/paper/surf_on_picture.hpp"
 #include "tests/support/pictures.hpp"
 
-namespace traygauge {
+namespace traygauge::paper {
 namespace {
 
 using test::PictureFeatures;
@@ -166,4 +166,4 @@ TEST(DescriptorBlock, CountsTheBitsThatDiffer) {
 }
 
 }  // namespace
-}  // namespace traygauge
+}  // namespace traygauge::paper

@@ -7,7 +7,7 @@
 #include "tests/core/paper/surf_on_picture.hpp"
 #include "tests/support/pictures.hpp"
 
-namespace traygauge {
+namespace traygauge::paper {
 namespace {
 
 using test::PictureFeatures;
@@ -247,4 +247,4 @@ TEST(SurfParamsValidation, RefusesWhatCannotRun) {
 }
 
 }  // namespace
-}  // namespace traygauge
+}  // namespace traygauge::paper

@@ -8,7 +8,7 @@
 #include "core/dish/rim_ellipse.hpp"
 #include "tests/support/allocated.hpp"
 
-namespace traygauge {
+namespace traygauge::paper {
 namespace {
 
 class DishTest : public ::testing::Test {
@@ -114,4 +114,4 @@ TEST(ChooseDish, TakesTheNearestWithinTolerance) {
 }
 
 }  // namespace
-}  // namespace traygauge
+}  // namespace traygauge::paper

@@ -7,7 +7,7 @@
 #include <random>
 #include <vector>
 
-namespace traygauge {
+namespace traygauge::paper {
 namespace {
 
 TEST(DisparityRange, KeepsTheCentralNinetyPercentAndEnlargesIt) {
@@ -64,4 +64,4 @@ TEST(DisparityRange, TheCapIsACountOfDisparities) {
 }
 
 }  // namespace
-}  // namespace traygauge
+}  // namespace traygauge::paper

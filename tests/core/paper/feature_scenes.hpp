@@ -9,7 +9,7 @@
 
 #include "core/paper/features/keypoint.hpp"
 
-namespace traygauge {
+namespace traygauge::paper {
 
 struct Features {
   std::vector<Keypoint> keypoints;
@@ -73,4 +73,4 @@ inline void make_pair(std::mt19937& random, std::size_t first_count, std::size_t
   }
 }
 
-}  // namespace traygauge
+}  // namespace traygauge::paper

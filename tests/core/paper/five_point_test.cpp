@@ -7,7 +7,7 @@
 #include "core/paper/pose/polynomial_roots.hpp"
 #include "tests/core/paper/motion_scenes.hpp"
 
-namespace traygauge {
+namespace traygauge::paper {
 namespace {
 
 using test::uniform;
@@ -175,4 +175,4 @@ TEST(PolynomialRoots, FindsTheRootsThatThePolynomialWasMadeFrom) {
 }
 
 }  // namespace
-}  // namespace traygauge
+}  // namespace traygauge::paper

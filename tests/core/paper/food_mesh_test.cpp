@@ -8,7 +8,7 @@
 #include "tests/core/stereo/capture_scene.hpp"
 #include "tests/support/allocated.hpp"
 
-namespace traygauge {
+namespace traygauge::paper {
 namespace {
 
 const PinholeCamera kCamera{700.0, 710.0, 320.0, 240.0};
@@ -156,4 +156,4 @@ TEST_F(FoodMeshTest, SaysWhatIsMissing) {
 }
 
 }  // namespace
-}  // namespace traygauge
+}  // namespace traygauge::paper

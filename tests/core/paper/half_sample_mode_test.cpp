@@ -7,7 +7,7 @@
 #include <random>
 #include <vector>
 
-namespace traygauge {
+namespace traygauge::paper {
 namespace {
 
 constexpr ModeParams kSharpestPeak{.halvings = 32, .reach = 1.0};
@@ -89,4 +89,4 @@ TEST(HalfSampleMode, FindsThePeakOfKnownDistributions) {
 }
 
 }  // namespace
-}  // namespace traygauge
+}  // namespace traygauge::paper

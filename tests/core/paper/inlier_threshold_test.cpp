@@ -7,7 +7,7 @@
 
 #include "core/base/random.hpp"
 
-namespace traygauge {
+namespace traygauge::paper {
 namespace {
 
 struct Distances {
@@ -129,4 +129,4 @@ TEST(AContrario, LogFactorialsAreThoseOfTheLibrary) {
 }
 
 }  // namespace
-}  // namespace traygauge
+}  // namespace traygauge::paper

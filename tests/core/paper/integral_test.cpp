@@ -7,7 +7,7 @@
 
 #include "tests/support/pictures.hpp"
 
-namespace traygauge {
+namespace traygauge::paper {
 namespace {
 
 using test::random_picture;
@@ -41,4 +41,4 @@ TEST(Integral, BoxSumsEqualDirectSums) {
 }
 
 }  // namespace
-}  // namespace traygauge
+}  // namespace traygauge::paper

@@ -101,7 +101,7 @@ TEST_F(LateRefusal, ACardThatTurnedContradictsTheScene) {
 // Points that lie too near each other for the distances that count.
 TEST_F(LateRefusal, NoDistancesOnTheCardGiveNoScale) {
   Configuration configuration = configuration_of(tray_);
-  configuration.card_search.scale.min_distance_share = 0.7;
+  configuration.card_search.scale.min_distance_fraction = 0.7;
   EXPECT_EQ(status_of(configuration, card_points(60, 45.0), tray_.view(0), tray_.view(1)),
             StatusCode::scale_not_found);
 }

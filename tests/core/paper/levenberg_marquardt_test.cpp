@@ -6,7 +6,7 @@
 #include "core/paper/pose/pose_refinement.hpp"
 #include "tests/core/paper/motion_scenes.hpp"
 
-namespace traygauge {
+namespace traygauge::paper {
 namespace {
 
 // Rosenbrock's valley as two residuals: 10 (y − x²) and 1 − x.
@@ -150,4 +150,4 @@ TEST_F(EpipolarProblemTest, NormalMatrixIsTheNumericOne) {
 }
 
 }  // namespace
-}  // namespace traygauge
+}  // namespace traygauge::paper

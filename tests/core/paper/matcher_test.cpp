@@ -10,7 +10,7 @@
 #include "tests/core/paper/feature_scenes.hpp"
 #include "tests/support/allocated.hpp"
 
-namespace traygauge {
+namespace traygauge::paper {
 namespace {
 
 using Search = MatcherParams::Search;
@@ -252,4 +252,4 @@ TEST(Matcher, TimeAndMemory) {
 }
 
 }  // namespace
-}  // namespace traygauge
+}  // namespace traygauge::paper

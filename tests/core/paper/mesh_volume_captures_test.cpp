@@ -8,7 +8,7 @@
 #include "tests/core/stereo/capture_scene.hpp"
 #include "tests/support/allocated.hpp"
 
-namespace traygauge {
+namespace traygauge::paper {
 namespace {
 
 using test::Allocated;
@@ -139,4 +139,4 @@ TEST_F(CaptureVolume, SignedAreaKeepsDepthNoiseOutOfTheVolume) {
 }
 
 }  // namespace
-}  // namespace traygauge
+}  // namespace traygauge::paper

@@ -9,7 +9,7 @@
 #include "tests/core/stereo/synthetic_scene.hpp"
 #include "tests/support/allocated.hpp"
 
-namespace traygauge {
+namespace traygauge::paper {
 namespace {
 
 using test::Allocated;
@@ -145,4 +145,4 @@ TEST(Volume, RefusesAnEmptyMeshAndOneThatIsTooLarge) {
 }
 
 }  // namespace
-}  // namespace traygauge
+}  // namespace traygauge::paper

@@ -11,7 +11,7 @@
 
 #include "tests/core/paper/stereo_scene.hpp"
 
-namespace traygauge {
+namespace traygauge::paper {
 namespace {
 
 using test::match;
@@ -103,4 +103,4 @@ TEST(Middlebury, FewPixelsAreBad) {
 }
 
 }  // namespace
-}  // namespace traygauge
+}  // namespace traygauge::paper

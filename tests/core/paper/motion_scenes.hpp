@@ -55,7 +55,7 @@ struct TrayOptions {
   int matches = 600;
   double angle_deg = 15.0;  // between the views, seen from the tray
   double noise_px = 0.0;
-  double outlier_share = 0.0;
+  double outlier_fraction = 0.0;
   double max_height_mm = 35.0;  // of the food; 0: all on the table
 };
 
@@ -72,7 +72,7 @@ inline Scene tray_scene(std::uint64_t seed, const TrayOptions& options) {
   scene.second_from_first.rotation = second.rotation * first.rotation.transpose();
   scene.second_from_first.translation =
       second.translation - scene.second_from_first.rotation * first.translation;
-  const int outliers = static_cast<int>(options.outlier_share * options.matches);
+  const int outliers = static_cast<int>(options.outlier_fraction * options.matches);
   const double scale = options.max_height_mm / 35.0;
   for (int i = 0; i < options.matches - outliers; ++i) {
     Vec3 world(uniform(random, -190, 190), uniform(random, -140, 140), 0.0);
@@ -113,17 +113,17 @@ class Estimation {
   Status run(const std::vector<RayMatch>& matches, std::uint64_t seed, double focal_px = kFocalPx) {
     Random random(seed);
     inliers.assign(matches.size(), 7);
-    return estimate_relative_pose(matches, focal_px, params, random, workspace, pose, inliers);
+    return paper::estimate_relative_pose(matches, focal_px, params, random, workspace, pose, inliers);
   }
   Status refine(const std::vector<RayMatch>& matches, const Pose& start, double focal_px = kFocalPx) {
     Random random(1);
     inliers.assign(matches.size(), 7);
-    return refine_relative_pose(matches, focal_px, params, start, random, workspace, pose, inliers);
+    return paper::refine_relative_pose(matches, focal_px, params, start, random, workspace, pose, inliers);
   }
 
-  RelativePoseParams params;
-  RelativePoseWorkspace workspace;
-  RelativePose pose;
+  paper::RelativePoseParams params;
+  paper::RelativePoseWorkspace workspace;
+  paper::RelativePose pose;
   std::vector<std::uint8_t> inliers;
 
  private:

@@ -8,7 +8,7 @@
 #include "core/paper/rectification/polar_rectification.hpp"
 #include "tests/core/paper/rectification_fixture.hpp"
 
-namespace traygauge {
+namespace traygauge::paper {
 
 struct RowAgreement {
   std::array<double, 3> difference{};  // mean |grey difference| one row above, at the row, one below
@@ -67,4 +67,4 @@ inline std::array<Picture, 2> rectify_both(const PolarRectification& rectificati
   return pictures;
 }
 
-}  // namespace traygauge
+}  // namespace traygauge::paper

@@ -5,7 +5,7 @@
 #include <random>
 #include <vector>
 
-namespace traygauge {
+namespace traygauge::paper {
 namespace {
 
 Plane random_plane(std::mt19937& generator) {
@@ -90,4 +90,4 @@ TEST(PlaneFit, RefusesLinesAndTooFewPoints) {
 }
 
 }  // namespace
-}  // namespace traygauge
+}  // namespace traygauge::paper

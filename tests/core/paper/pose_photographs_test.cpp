@@ -6,7 +6,7 @@
 
 #include "tests/core/paper/motion_scenes.hpp"
 
-namespace traygauge {
+namespace traygauge::paper {
 namespace {
 
 class Photographs : public ::testing::Test {
@@ -86,4 +86,4 @@ TEST_F(Photographs, FruitOnABoardIsNotMistakenForItsTwin) {
 }
 
 }  // namespace
-}  // namespace traygauge
+}  // namespace traygauge::paper

@@ -13,7 +13,7 @@
 #include "tests/core/paper/sift_features.hpp"
 #include "tests/support/allocated.hpp"
 
-namespace traygauge {
+namespace traygauge::paper {
 namespace {
 
 constexpr int kCap = 2500;
@@ -43,7 +43,7 @@ Photograph load(const std::filesystem::path& folder, std::size_t index) {
 }
 
 // Share of matches within two pixels of the true epipolar line.
-double true_share(const Photograph& first, const Photograph& second, const std::vector<Match>& matches) {
+double true_fraction(const Photograph& first, const Photograph& second, const std::vector<Match>& matches) {
   const Mat3 rotation = second.camera_from_world.rotation * first.camera_from_world.rotation.transpose();
   const Pose motion{rotation,
                     second.camera_from_world.translation - rotation * first.camera_from_world.translation};
@@ -84,7 +84,7 @@ TEST(RealPhotographs, FountainMatchesObeyTheTruePoses) {
       EXPECT_EQ(matches[i].distance, found[i].distance);
     }
     counts.push_back(found.size());
-    shares.push_back(true_share(first, second, found));
+    shares.push_back(true_fraction(first, second, found));
     std::cout << "k " << params.top_ranking << ", ratio " << params.distinctiveness_ratio << ", cutoff "
               << params.distance_cutoff << ": " << counts.back() << " matches, " << 100.0 * shares.back()
               << " % true\n";
@@ -98,4 +98,4 @@ TEST(RealPhotographs, FountainMatchesObeyTheTruePoses) {
 }
 
 }  // namespace
-}  // namespace traygauge
+}  // namespace traygauge::paper

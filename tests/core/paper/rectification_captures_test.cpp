@@ -12,7 +12,7 @@
 #include "tests/core/paper/capture_pair.hpp"
 #include "tests/core/paper/photometric.hpp"
 
-namespace traygauge {
+namespace traygauge::paper {
 namespace {
 
 // Bilinear; 0 where a neighbour is unknown.
@@ -170,4 +170,4 @@ INSTANTIATE_TEST_SUITE_P(Photographs, Fountain,
                                            std::pair(7, 8)));
 
 }  // namespace
-}  // namespace traygauge
+}  // namespace traygauge::paper

@@ -8,7 +8,7 @@
 #include "core/paper/rectification/polar_rectification.hpp"
 #include "tests/support/synthetic_scene.hpp"
 
-namespace traygauge {
+namespace traygauge::paper {
 
 struct OwnedWorkspace {
   explicit OwnedWorkspace(const RectificationParams& params) {
@@ -146,4 +146,4 @@ inline Pair random_pair(Random& random, EpipolePlace place) {
   return pair;
 }
 
-}  // namespace traygauge
+}  // namespace traygauge::paper

@@ -7,7 +7,7 @@
 #include "core/paper/rectification/polar_rectification.hpp"
 #include "tests/core/paper/rectification_fixture.hpp"
 
-namespace traygauge {
+namespace traygauge::paper {
 namespace {
 
 constexpr double kTight_px = 1e-6;
@@ -210,4 +210,4 @@ TEST(ColumnOrigin, FollowsASmoothArcOfEqualDistance) {
 }
 
 }  // namespace
-}  // namespace traygauge
+}  // namespace traygauge::paper

@@ -7,7 +7,7 @@
 #include "core/paper/rectification/polar_rectification.hpp"
 #include "tests/core/paper/rectification_fixture.hpp"
 
-namespace traygauge {
+namespace traygauge::paper {
 namespace {
 
 // Straight towards the dish: the epipole is in the middle of both pictures.
@@ -131,4 +131,4 @@ constexpr std::size_t planned_bytes(const RectificationParams& params) {
 static_assert(planned_bytes({.max_rows = 1024, .order_samples = 256}) == (72 * 1024 + 16 * 256));
 
 }  // namespace
-}  // namespace traygauge
+}  // namespace traygauge::paper

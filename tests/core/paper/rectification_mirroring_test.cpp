@@ -4,7 +4,7 @@
 #include "core/paper/rectification/polar_rectification.hpp"
 #include "tests/core/paper/rectification_fixture.hpp"
 
-namespace traygauge {
+namespace traygauge::paper {
 namespace {
 
 class Mirroring : public testing::Test {
@@ -119,4 +119,4 @@ TEST_F(Mirroring, MatchesOffTheDishDoNotVote) {
 }
 
 }  // namespace
-}  // namespace traygauge
+}  // namespace traygauge::paper

@@ -7,7 +7,7 @@
 #include "core/paper/rectification/line_sampling.hpp"
 #include "tests/core/paper/rectification_fixture.hpp"
 
-namespace traygauge {
+namespace traygauge::paper {
 namespace {
 
 constexpr int kWidth = 61;
@@ -126,4 +126,4 @@ TEST(SampleLine, LinesBesideThePictureAreBlack) {
 }
 
 }  // namespace
-}  // namespace traygauge
+}  // namespace traygauge::paper

@@ -5,7 +5,7 @@
 #include "tests/core/paper/photometric.hpp"
 #include "tests/core/paper/rectification_fixture.hpp"
 
-namespace traygauge {
+namespace traygauge::paper {
 namespace {
 
 struct Case {
@@ -85,4 +85,4 @@ TEST(SyntheticScene, VolumeDepthAndLabelsFollowFromTheHeight) {
 }
 
 }  // namespace
-}  // namespace traygauge
+}  // namespace traygauge::paper

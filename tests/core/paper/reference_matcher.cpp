@@ -22,7 +22,7 @@ bool is_set(const cv::Mat_<std::uint8_t>& mask, int x, int y) {
 
 struct Reference {
   const TestPair& pair;
-  const StereoParams& params;
+  const paper::StereoParams& params;
 
   int census_distance(int x, int partner, int y) const {
     const int radius = params.census_radius_px;
@@ -38,7 +38,7 @@ struct Reference {
   }
 
   int local_cost(int x, int y, int d) const {
-    const bool census = params.cost == MatchingCost::census;
+    const bool census = params.cost == paper::MatchingCost::census;
     const int radius = params.census_radius_px;
     if (!is_set(pair.first_mask, x, y)) return 0;
     if (!is_set(pair.second_mask, x + d, y)) return census ? 4 * radius * (radius + 1) : params.sad_limit;
@@ -70,7 +70,7 @@ struct Reference {
   }
 
   int window_cost(int x, int y, int d) const {
-    if (params.cost == MatchingCost::zncc) return correlation_cost(x, y, d);
+    if (params.cost == paper::MatchingCost::zncc) return correlation_cost(x, y, d);
     int sum = 0;
     const int radius = params.window_radius_px;
     for (int dy = -radius; dy <= radius; ++dy) {
@@ -113,7 +113,7 @@ int ceil_divide(int a, int b) {
 
 // Bands of the columns lo … hi of a block, from the coarser level (empty: the whole range).
 std::vector<Band> search_bands(const cv::Mat_<Disparity>& coarse, int top, int lo, int hi,
-                               DisparityRange range, const StereoParams& params) {
+                               DisparityRange range, const paper::StereoParams& params) {
   std::vector<Band> bands(static_cast<std::size_t>(hi + 1), Band{range.min_px, range.max_px});
   if (coarse.empty()) return bands;
   std::vector<bool> known(bands.size(), false);
@@ -216,7 +216,7 @@ cv::Mat_<Disparity> median(const cv::Mat_<Disparity>& picture, int radius) {
 }
 
 cv::Mat_<Disparity> match_level(const TestPair& pair, const cv::Mat_<Disparity>& coarse, DisparityRange range,
-                                const StereoParams& params) {
+                                const paper::StereoParams& params) {
   const Reference reference{pair, params};
   cv::Mat_<Disparity> disparity(pair.first.size(), kNoDisparity);
   for (int top = 0; top < pair.first.rows; top += kBlockRows) {
@@ -259,7 +259,7 @@ TestPair halve_pair(const TestPair& pair) {
 }  // namespace
 
 cv::Mat_<Disparity> match_by_definition(const TestPair& pair, DisparityRange range,
-                                        const StereoParams& params) {
+                                        const paper::StereoParams& params) {
   std::vector<TestPair> pyramid{pair};
   for (int level = 1; level < params.levels; ++level) pyramid.push_back(halve_pair(pyramid.back()));
   cv::Mat_<Disparity> disparity;

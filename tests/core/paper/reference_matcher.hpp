@@ -7,6 +7,6 @@
 namespace traygauge::test {
 
 cv::Mat_<Disparity> match_by_definition(const TestPair& pair, DisparityRange range,
-                                        const StereoParams& params);
+                                        const paper::StereoParams& params);
 
 }  // namespace traygauge::test

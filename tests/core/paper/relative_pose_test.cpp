@@ -9,7 +9,7 @@
 #include "core/paper/pose/planar_twin.hpp"
 #include "tests/core/paper/motion_scenes.hpp"
 
-namespace traygauge {
+namespace traygauge::paper {
 namespace {
 
 using test::Estimation;
@@ -64,7 +64,7 @@ TEST_P(EachThreshold, NoiseAndOutliersLeaveASmallError) {
   estimation.params.threshold = GetParam();
   for (const double outliers : {0.0, 0.3, 0.6}) {
     for (const double angle : {10.0, 17.0, 25.0}) {
-      const TrayOptions options{.angle_deg = angle, .noise_px = 0.5, .outlier_share = outliers};
+      const TrayOptions options{.angle_deg = angle, .noise_px = 0.5, .outlier_fraction = outliers};
       const Errors errors = measure_errors(estimation, options, 12);
       EXPECT_LT(quantile(errors.rotation_deg, 0.5), 0.3) << outliers << " outliers, " << angle << " degrees";
       EXPECT_LT(quantile(errors.direction_deg, 0.5), 0.6) << outliers << " outliers, " << angle << " degrees";
@@ -78,7 +78,7 @@ TEST_P(EachThreshold, OutliersAreNotInliers) {
   Estimation estimation;
   estimation.params.threshold = GetParam();
   estimation.params.fixed_threshold_px = 2.0;
-  const Scene scene = test::tray_scene(4, {.matches = 1000, .noise_px = 0.5, .outlier_share = 0.5});
+  const Scene scene = test::tray_scene(4, {.matches = 1000, .noise_px = 0.5, .outlier_fraction = 0.5});
   ASSERT_TRUE(estimation.run(scene.matches, 1).ok());
   const auto good = scene.points_in_first.size();
   const auto accepted = [&](std::size_t from, std::size_t to) {
@@ -95,7 +95,7 @@ INSTANTIATE_TEST_SUITE_P(Thresholds, EachThreshold,
                                            InlierThreshold::false_discovery));
 
 TEST(RelativePose, LocalOptimisationAndRefinementEachReduceTheError) {
-  const TrayOptions options{.noise_px = 0.5, .outlier_share = 0.4};
+  const TrayOptions options{.noise_px = 0.5, .outlier_fraction = 0.4};
   Estimation plain;
   plain.params.local_optimisation = false;
   plain.params.refine = false;
@@ -110,7 +110,7 @@ TEST(RelativePose, LocalOptimisationAndRefinementEachReduceTheError) {
 }
 
 TEST(RelativePose, TheSameSeedGivesTheSameBitsAndAnotherDrawsOtherSamples) {
-  const Scene scene = test::tray_scene(9, {.noise_px = 0.5, .outlier_share = 0.5});
+  const Scene scene = test::tray_scene(9, {.noise_px = 0.5, .outlier_fraction = 0.5});
   Estimation one;
   one.params.refine = false;  // refinement would lead different samples to the same optimum
   ASSERT_TRUE(one.run(scene.matches, 5).ok());
@@ -130,7 +130,7 @@ TEST(RelativePose, TheSameSeedGivesTheSameBitsAndAnotherDrawsOtherSamples) {
 }
 
 TEST(RelativePose, RepeatedMatchesDoNotMatter) {
-  const Scene scene = test::tray_scene(11, {.noise_px = 0.5, .outlier_share = 0.3});
+  const Scene scene = test::tray_scene(11, {.noise_px = 0.5, .outlier_fraction = 0.3});
   Estimation estimation;
   ASSERT_TRUE(estimation.run(scene.matches, 2).ok());
   const RelativePose once = estimation.pose;
@@ -159,7 +159,7 @@ TEST(RelativePose, SaysWhatIsWrong) {
   }
   EXPECT_EQ(estimation.run(still, 1).code(), StatusCode::views_identical);
 
-  estimation.params.max_noise_share = 2.0;
+  estimation.params.max_noise_fraction = 2.0;
   EXPECT_EQ(estimation.run(scene.matches, 1).code(), StatusCode::invalid_configuration);
 }
 
@@ -180,7 +180,7 @@ TEST(RelativePose, ARotatedCameraIsTooClose) {
 TEST(RelativePose, FindsNoPoseInRandomMatches) {
   Estimation estimation;
   for (std::uint64_t seed = 0; seed < 5; ++seed) {
-    const Scene scene = test::tray_scene(seed, {.matches = 300, .outlier_share = 1.0});
+    const Scene scene = test::tray_scene(seed, {.matches = 300, .outlier_fraction = 1.0});
     EXPECT_EQ(estimation.run(scene.matches, seed).code(), StatusCode::pose_not_found) << "seed " << seed;
   }
 }
@@ -189,7 +189,7 @@ TEST(RelativePose, TheIterationBoundFollowsTheInlierRate) {
   Estimation estimation;
   int last = 0;
   for (const double outliers : {0.0, 0.5, 0.65}) {
-    const Scene scene = test::tray_scene(6, {.noise_px = 0.3, .outlier_share = outliers});
+    const Scene scene = test::tray_scene(6, {.noise_px = 0.3, .outlier_fraction = outliers});
     ASSERT_TRUE(estimation.run(scene.matches, 1).ok());
     EXPECT_GT(estimation.pose.iterations, last);
     last = estimation.pose.iterations;
@@ -201,7 +201,7 @@ TEST(RelativePose, RefinesARoughStart) {
   Estimation estimation;
   std::vector<double> disagreement_deg;
   for (std::uint64_t seed = 0; seed < 30; ++seed) {
-    const Scene scene = test::tray_scene(seed, {.noise_px = 0.3, .outlier_share = 0.3});
+    const Scene scene = test::tray_scene(seed, {.noise_px = 0.3, .outlier_fraction = 0.3});
     Random random(seed);
     Pose start = scene.second_from_first;
     start.rotation = test::random_motion(random, 0.004).rotation * start.rotation;
@@ -246,7 +246,7 @@ TEST(PlanarTwin, FitsAFlatSceneExactly) {
 TEST(PlanarTwin, LosesToTheTrueMotionWhereADishStandsUp) {
   Estimation estimation;
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
-    const Scene scene = test::tray_scene(seed, {.angle_deg = 20.0, .noise_px = 0.5, .outlier_share = 0.2});
+    const Scene scene = test::tray_scene(seed, {.angle_deg = 20.0, .noise_px = 0.5, .outlier_fraction = 0.2});
     ASSERT_TRUE(estimation.refine(scene.matches, scene.second_from_first).ok()) << "seed " << seed;
     const double true_fitness = estimation.pose.fitness;
     std::vector<std::uint32_t> indices(scene.points_in_first.size());
@@ -265,4 +265,4 @@ TEST(PlanarTwin, LosesToTheTrueMotionWhereADishStandsUp) {
 }
 
 }  // namespace
-}  // namespace traygauge
+}  // namespace traygauge::paper

@@ -13,7 +13,7 @@
 #include "tests/core/paper/surf_on_picture.hpp"
 #include "tests/support/capture_truth.hpp"
 
-namespace traygauge {
+namespace traygauge::paper {
 namespace {
 
 using test::PictureFeatures;
@@ -113,13 +113,13 @@ TEST_F(OnCaptures, KeypointsAreFoundAgainAndMatched) {
         const Keypoint& to = after.keypoints[static_cast<std::size_t>(match.trainIdx)];
         correct += (to.pixel - mapped(from)).norm() < 3.0;
       }
-      const double repeated_share = static_cast<double>(repeated) / visible;
-      const double correct_share = static_cast<double>(correct) / static_cast<double>(matches.size());
+      const double repeated_fraction = static_cast<double>(repeated) / visible;
+      const double correct_fraction = static_cast<double>(correct) / static_cast<double>(matches.size());
       std::printf("%s %s: repeated %.3f of %d, correct %.3f of %zu\n", path.c_str(), change.what,
-                  repeated_share, visible, correct_share, matches.size());
+                  repeated_fraction, visible, correct_fraction, matches.size());
       ASSERT_GT(visible, 100) << change.what;
-      EXPECT_GT(repeated_share, change.min_repeated) << path << " " << change.what;
-      EXPECT_GT(correct_share, change.min_correct) << path << " " << change.what;
+      EXPECT_GT(repeated_fraction, change.min_repeated) << path << " " << change.what;
+      EXPECT_GT(correct_fraction, change.min_correct) << path << " " << change.what;
     }
   }
 }
@@ -154,4 +154,4 @@ TEST_F(OnCaptures, ViewsOfAMealShareEnoughCorrectMatches) {
 }
 
 }  // namespace
-}  // namespace traygauge
+}  // namespace traygauge::paper

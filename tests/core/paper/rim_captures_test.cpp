@@ -11,7 +11,7 @@
 #include "tests/core/stereo/capture_scene.hpp"
 #include "tests/support/allocated.hpp"
 
-namespace traygauge {
+namespace traygauge::paper {
 namespace {
 
 using test::Allocated;
@@ -266,4 +266,4 @@ TEST_F(CaptureRim, RoughLabelsCostPrecisionNotTheRim) {
 }
 
 }  // namespace
-}  // namespace traygauge
+}  // namespace traygauge::paper

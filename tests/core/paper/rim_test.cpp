@@ -10,7 +10,7 @@
 #include "tests/core/stereo/synthetic_scene.hpp"
 #include "tests/support/allocated.hpp"
 
-namespace traygauge {
+namespace traygauge::paper {
 namespace {
 
 using test::Allocated;
@@ -142,4 +142,4 @@ TEST(Rim, TheDenseSourceReadsTheDepthInsideTheBorder) {
 }
 
 }  // namespace
-}  // namespace traygauge
+}  // namespace traygauge::paper

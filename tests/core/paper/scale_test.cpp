@@ -13,7 +13,7 @@
 #include "tests/core/card/synthetic_card.hpp"
 #include "tests/support/allocated.hpp"
 
-namespace traygauge {
+namespace traygauge::paper {
 namespace {
 
 constexpr ScaleMethod kMethods[] = {ScaleMethod::half_sample_mode, ScaleMethod::median,
@@ -81,7 +81,8 @@ TEST_F(Scale, NoiseAndOutliers) {
     for (unsigned seed = 1; seed <= 100; ++seed) {
       SCOPED_TRACE(testing::Message() << "seed " << seed);
       std::mt19937 random(seed);
-      const CardScene scene = make_card_scene(random, {.count = 160, .noise_px = 0.3, .outlier_share = 0.5});
+      const CardScene scene =
+          make_card_scene(random, {.count = 160, .noise_px = 0.3, .outlier_fraction = 0.5});
       CardScaleParams params;
       params.scale.method = method;
       ASSERT_TRUE(estimate(scene, params, seed).ok());
@@ -102,7 +103,8 @@ TEST_F(Scale, PlaneUnderNoiseAndOutliers) {
     for (unsigned seed = 1; seed <= 100; ++seed) {
       SCOPED_TRACE(testing::Message() << "seed " << seed);
       std::mt19937 random(seed);
-      const CardScene scene = make_card_scene(random, {.count = 160, .noise_px = 0.3, .outlier_share = 0.5});
+      const CardScene scene =
+          make_card_scene(random, {.count = 160, .noise_px = 0.3, .outlier_fraction = 0.5});
       CardScaleParams params;
       params.plane.source = source;
       ASSERT_TRUE(estimate(scene, params, seed).ok());
@@ -137,7 +139,7 @@ TEST_F(Scale, RefusesFewPairsAndScatteredRatios) {
   std::mt19937 random(1);
   CardScene scene = make_card_scene(random, {.count = 30});
   CardScaleParams params;
-  params.scale.min_distance_share = 1.1;  // only pairs along the diagonal
+  params.scale.min_distance_fraction = 1.1;  // only pairs along the diagonal
   EXPECT_EQ(estimate(scene, params).code(), StatusCode::scale_not_found);
   std::vector<std::uint8_t> none(30, 0);
   Random draw(1);
@@ -194,4 +196,4 @@ TEST(CardTracks, TrianglesCloseAndLoneEndsAreOptional) {
 }
 
 }  // namespace
-}  // namespace traygauge
+}  // namespace traygauge::paper

@@ -7,7 +7,7 @@
 
 #include "tests/core/paper/feature_scenes.hpp"
 
-namespace traygauge {
+namespace traygauge::paper {
 
 // The `count` strongest. Neighbouring orientation bins are added up: 4 × 4 cells of four orientations.
 inline Features sift_features(const cv::Mat& gray, int count) {
@@ -30,4 +30,4 @@ inline Features sift_features(const cv::Mat& gray, int count) {
   return features;
 }
 
-}  // namespace traygauge
+}  // namespace traygauge::paper

@@ -12,7 +12,7 @@
 
 #include "tests/core/paper/rectified_capture.hpp"
 
-namespace traygauge {
+namespace traygauge::paper {
 namespace {
 
 using test::Matcher;
@@ -155,4 +155,4 @@ TEST_F(Captures, EachCostServes) {
 }
 
 }  // namespace
-}  // namespace traygauge
+}  // namespace traygauge::paper

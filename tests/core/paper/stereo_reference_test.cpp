@@ -2,7 +2,7 @@
 
 #include "tests/core/paper/reference_matcher.hpp"
 
-namespace traygauge {
+namespace traygauge::paper {
 namespace {
 
 using test::match;
@@ -81,4 +81,4 @@ TEST(Reference, BlocksAndLanesEqualTheDefinitionBitForBit) {
 }
 
 }  // namespace
-}  // namespace traygauge
+}  // namespace traygauge::paper

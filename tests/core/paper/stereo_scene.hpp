@@ -26,9 +26,9 @@ struct TestPair {
 // Memory for one workspace, by its own plan.
 class Matcher {
  public:
-  Matcher(int columns, int rows, int disparities, const StereoParams& params) : params_(params) {
+  Matcher(int columns, int rows, int disparities, const paper::StereoParams& params) : params_(params) {
     ArenaPlan plan;
-    StereoWorkspace planned;
+    paper::StereoWorkspace planned;
     planned.allocate(plan, columns, rows, disparities, params);
     bytes_ = plan.high_water_bytes();
     block_.reset(static_cast<std::byte*>(::operator new (bytes_, std::align_val_t{kArenaAlignmentBytes})));
@@ -39,8 +39,8 @@ class Matcher {
 
   Status match(const TestPair& pair, DisparityRange range, cv::Mat_<Disparity>& disparity) {
     disparity.create(pair.first.size());
-    return match_dense(view_of(pair.first), view_of(pair.first_mask), view_of(pair.second),
-                       view_of(pair.second_mask), range, params_, workspace_, view_of(disparity));
+    return paper::match_dense(view_of(pair.first), view_of(pair.first_mask), view_of(pair.second),
+                              view_of(pair.second_mask), range, params_, workspace_, view_of(disparity));
   }
   std::size_t bytes() const { return bytes_; }
 
@@ -50,15 +50,15 @@ class Matcher {
       ::operator delete (block, std::align_val_t{kArenaAlignmentBytes});
     }
   };
-  StereoParams params_;
-  StereoWorkspace workspace_;
+  paper::StereoParams params_;
+  paper::StereoWorkspace workspace_;
   std::unique_ptr<std::byte, Free> block_;
   std::size_t bytes_ = 0;
 };
 
 // Matches with a workspace of just the size.
 inline cv::Mat_<Disparity> match(const TestPair& pair, DisparityRange range,
-                                 const StereoParams& params = {}) {
+                                 const paper::StereoParams& params = {}) {
   Matcher matcher(std::max(pair.first.cols, pair.second.cols), pair.first.rows, range.count(), params);
   cv::Mat_<Disparity> disparity;
   EXPECT_TRUE(matcher.match(pair, range, disparity).ok());

@@ -7,7 +7,7 @@
 
 #include "tests/core/paper/stereo_scene.hpp"
 
-namespace traygauge {
+namespace traygauge::paper {
 namespace {
 
 using test::match;
@@ -246,4 +246,4 @@ TEST(Synthetic, TheWorkspaceKeepsToItsBudget) {
 }
 
 }  // namespace
-}  // namespace traygauge
+}  // namespace traygauge::paper

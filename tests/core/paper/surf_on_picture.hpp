@@ -14,16 +14,16 @@
 
 namespace traygauge::test {
 
-constexpr std::size_t planned_bytes(int width, int height, const SurfParams& params) {
+constexpr std::size_t planned_bytes(int width, int height, const paper::SurfParams& params) {
   ArenaPlan plan;
-  SurfWorkspace workspace;
+  paper::SurfWorkspace workspace;
   workspace.allocate(plan, width, height, params);
   return plan.high_water_bytes();
 }
 
 struct PictureFeatures {
-  std::vector<Keypoint> keypoints;
-  std::vector<Descriptor> descriptors;
+  std::vector<paper::Keypoint> keypoints;
+  std::vector<paper::Descriptor> descriptors;
   std::size_t dropped = 0;
 };
 
@@ -32,7 +32,8 @@ class Integral {
   explicit Integral(const cv::Mat& gray)
       : sums_(static_cast<std::size_t>(gray.cols + 1) * static_cast<std::size_t>(gray.rows + 1)),
         view_(sums_.data(), gray.cols + 1, gray.rows + 1) {
-    build_integral({gray.data, gray.cols, gray.rows, static_cast<std::ptrdiff_t>(gray.step[0])}, view_);
+    paper::build_integral({gray.data, gray.cols, gray.rows, static_cast<std::ptrdiff_t>(gray.step[0])},
+                          view_);
   }
   ImageView<const std::uint32_t> view() const { return view_; }
 
@@ -41,26 +42,27 @@ class Integral {
   ImageView<std::uint32_t> view_;
 };
 
-inline PictureFeatures run_surf(const cv::Mat& gray, const SurfParams& params = {}, std::size_t cap = 20000) {
+inline PictureFeatures run_surf(const cv::Mat& gray, const paper::SurfParams& params = {},
+                                std::size_t cap = 20000) {
   struct alignas(kArenaAlignmentBytes) Line {
     std::byte bytes[kArenaAlignmentBytes];
   };
   const std::size_t bytes = planned_bytes(gray.cols, gray.rows, params);
   std::vector<Line> block(bytes / sizeof(Line));
   Arena arena({block.front().bytes, bytes});
-  SurfWorkspace workspace;
+  paper::SurfWorkspace workspace;
   workspace.allocate(arena, gray.cols, gray.rows, params);
   CV_Assert(!arena.exhausted());
 
   const Integral integral(gray);
   PictureFeatures features;
   features.keypoints.resize(cap);
-  BoundedList<Keypoint> list{std::span<Keypoint>(features.keypoints)};
-  detect_surf(integral.view(), params, workspace, list);
+  BoundedList<paper::Keypoint> list{std::span<paper::Keypoint>(features.keypoints)};
+  paper::detect_surf(integral.view(), params, workspace, list);
   features.dropped = list.dropped();
   features.keypoints.resize(list.size());
   features.descriptors.resize(list.size());
-  describe_surf(integral.view(), params, features.keypoints, features.descriptors);
+  paper::describe_surf(integral.view(), params, features.keypoints, features.descriptors);
   return features;
 }
 

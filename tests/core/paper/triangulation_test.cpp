@@ -1,4 +1,4 @@
-#include "core/paper/pose/triangulation.hpp"
+#include "core/geometry/triangulation.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include "core/paper/pose/essential_decomposition.hpp"
 #include "tests/core/paper/motion_scenes.hpp"
 
-namespace traygauge {
+namespace traygauge::paper {
 namespace {
 
 TEST(Triangulation, ReturnsExactPoints) {
@@ -125,7 +125,7 @@ TEST(Epipolar, DistanceIsThatOfThePointsToTheirLines) {
 TEST(MatchTable, ScoresAsTheFormulasSay) {
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
     const test::Scene scene = test::tray_scene(
-        seed, {.matches = 131 + static_cast<int>(seed), .noise_px = 1.0, .outlier_share = 0.3});
+        seed, {.matches = 131 + static_cast<int>(seed), .noise_px = 1.0, .outlier_fraction = 0.3});
     test::Estimation estimation;
     for (const RayMatch& match : scene.matches) estimation.workspace.matches.push_back(match);
     const Mat3 e = essential_matrix(scene.second_from_first);
@@ -145,4 +145,4 @@ TEST(MatchTable, ScoresAsTheFormulasSay) {
 }
 
 }  // namespace
-}  // namespace traygauge
+}  // namespace traygauge::paper

@@ -68,7 +68,7 @@ inline std::vector<double> numbers_of(const Measurement& measurement) {
                                  static_cast<double>(measurement.report.pose_iterations),
                                  measurement.report.mm_per_baseline,
                                  measurement.report.rim_height_mm,
-                                 measurement.report.matched_share,
+                                 measurement.report.matched_fraction,
                                  measurement.report.label_agreement};
   const Pose& pose = measurement.second_from_first;
   numbers.insert(numbers.end(), pose.rotation.data(), pose.rotation.data() + 9);

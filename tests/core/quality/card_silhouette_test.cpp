@@ -53,7 +53,7 @@ class CardSilhouetteTest : public ::testing::Test {
     const ImageView<const std::uint8_t> view{labels.data, labels.cols, labels.rows};
     return measure_card_silhouette(view, measure_regions(view).card, test::phone_lens(), *memory_);
   }
-  double visible_share(const cv::Mat& labels) { return measure(labels).visible_share(kAspectRatio); }
+  double visible_fraction(const cv::Mat& labels) { return measure(labels).visible_fraction(kAspectRatio); }
 
   test::Allocated<CardSilhouetteWorkspace> memory_{kHeight};
 };
@@ -65,9 +65,9 @@ TEST_F(CardSilhouetteTest, AWholeCardIsWhole) {
     ASSERT_TRUE(outline.is_found) << "seed " << seed;
     EXPECT_NEAR(outline.aspect_ratio / kAspectRatio, 1.0, 0.05) << "seed " << seed;
     EXPECT_NEAR(outline.skew, 0.0, 0.06) << "seed " << seed;
-    EXPECT_GT(outline.filled_share, 0.97) << "seed " << seed;
-    EXPECT_GT(outline.visible_share(kAspectRatio), 0.90) << "seed " << seed;
-    EXPECT_GT(outline.visible_share(1.0 / kAspectRatio), 0.90) << "upright cards, too; seed " << seed;
+    EXPECT_GT(outline.filled_fraction, 0.97) << "seed " << seed;
+    EXPECT_GT(outline.visible_fraction(kAspectRatio), 0.90) << "seed " << seed;
+    EXPECT_GT(outline.visible_fraction(1.0 / kAspectRatio), 0.90) << "upright cards, too; seed " << seed;
   }
 }
 
@@ -75,8 +75,8 @@ TEST_F(CardSilhouetteTest, ACardCoveredFromOneSideIsNot) {
   for (int seed = 1; seed <= 60; ++seed) {
     for (const double share : {0.5, 0.65, 0.75}) {
       cv::RNG rng(static_cast<std::uint64_t>(seed));
-      EXPECT_LT(visible_share(draw_card(rng, share, 1.0, 0.5)), 0.87) << share << " seed " << seed;
-      EXPECT_LT(visible_share(draw_card(rng, 1.0, share, 0.5)), 0.82) << share << " seed " << seed;
+      EXPECT_LT(visible_fraction(draw_card(rng, share, 1.0, 0.5)), 0.87) << share << " seed " << seed;
+      EXPECT_LT(visible_fraction(draw_card(rng, 1.0, share, 0.5)), 0.82) << share << " seed " << seed;
     }
   }
 }
@@ -93,23 +93,23 @@ TEST_F(CardSilhouetteTest, WhatLiesOnTheCardIsMissed) {
   const int radius = cvRound(std::sqrt(0.3 * area / CV_PI));
   cv::Mat hole = whole.clone();
   cv::circle(hole, middle, radius, cv::Scalar(0), cv::FILLED);
-  EXPECT_NEAR(visible_share(hole), 0.7, 0.05);
+  EXPECT_NEAR(visible_fraction(hole), 0.7, 0.05);
   cv::Mat strip = whole.clone();
   cv::line(strip, {box.x, middle.y}, {box.x + box.width, middle.y}, cv::Scalar(0), 30);
-  EXPECT_NEAR(visible_share(strip), cv::countNonZero(strip) / area, 0.05);
+  EXPECT_NEAR(visible_fraction(strip), cv::countNonZero(strip) / area, 0.05);
 }
 
 TEST_F(CardSilhouetteTest, LabelsWithoutACardOrShapeAreNotFound) {
   EXPECT_FALSE(measure(cv::Mat::zeros(kHeight, kWidth, CV_8U)).is_found);
   cv::Mat speck = cv::Mat::zeros(kHeight, kWidth, CV_8U);
   speck.at<std::uint8_t>(600, 800) = kCardLabel;
-  EXPECT_GE(visible_share(speck), 0.0);  // a square of one pixel
+  EXPECT_GE(visible_fraction(speck), 0.0);  // a square of one pixel
   cv::Mat line = cv::Mat::zeros(kHeight, kWidth, CV_8U);
   line(cv::Rect(100, 100, 600, 1)) = kCardLabel;
-  EXPECT_LT(visible_share(line), 0.2);
-  EXPECT_EQ(CardSilhouette{}.visible_share(kAspectRatio), 0.0);
+  EXPECT_LT(visible_fraction(line), 0.2);
+  EXPECT_EQ(CardSilhouette{}.visible_fraction(kAspectRatio), 0.0);
   const cv::Mat everything(kHeight, kWidth, CV_8U, cv::Scalar(kCardLabel));
-  EXPECT_LT(visible_share(everything), 0.9);
+  EXPECT_LT(visible_fraction(everything), 0.9);
 }
 
 TEST_F(CardSilhouetteTest, NoiseNeverHarms) {
@@ -119,7 +119,7 @@ TEST_F(CardSilhouetteTest, NoiseNeverHarms) {
     for (int i = 0; i < 1 + seed; ++i) {
       labels.at<std::uint8_t>(rng.uniform(0, kHeight), rng.uniform(0, kWidth)) = kCardLabel;
     }
-    const double share = visible_share(labels);
+    const double share = visible_fraction(labels);
     EXPECT_TRUE(share >= 0.0 && share <= 1.0) << "seed " << seed << ": " << share;
   }
 }

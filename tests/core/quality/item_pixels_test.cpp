@@ -65,18 +65,18 @@ TEST(ItemPixels, TextureIsToldFromNoiseShadeAndNothing) {
     for (int x = 0; x < kPictureSide; ++x)
       shade.at<std::uint8_t>(y, x) = static_cast<std::uint8_t>(40 + (x + y) / 4);
   }
-  EXPECT_EQ(measure(plain(120), labels).textured_share(), 0.0);
-  EXPECT_EQ(measure(shade, labels).textured_share(), 0.0);
+  EXPECT_EQ(measure(plain(120), labels).textured_fraction(), 0.0);
+  EXPECT_EQ(measure(shade, labels).textured_fraction(), 0.0);
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
     for (const double sigma : {2.0, 5.0, 15.0, 30.0}) {
-      EXPECT_LT(measure(with(plain(120), noise(seed, sigma, 0.0)), labels).textured_share(), 0.05)
+      EXPECT_LT(measure(with(plain(120), noise(seed, sigma, 0.0)), labels).textured_fraction(), 0.05)
           << "noise of " << sigma << ", seed " << seed;
     }
     const cv::Mat texture = with(plain(120), noise(seed, 6.0, 3.0));
-    EXPECT_GT(measure(texture, labels).textured_share(), 0.95) << "seed " << seed;
-    EXPECT_GT(measure(with(texture, noise(seed + 50, 3.0, 0.0)), labels).textured_share(), 0.9)
+    EXPECT_GT(measure(texture, labels).textured_fraction(), 0.95) << "seed " << seed;
+    EXPECT_GT(measure(with(texture, noise(seed + 50, 3.0, 0.0)), labels).textured_fraction(), 0.9)
         << "seed " << seed;
-    EXPECT_LT(measure(with(texture, noise(seed + 50, 40.0, 0.0)), labels).textured_share(), 0.5)
+    EXPECT_LT(measure(with(texture, noise(seed + 50, 40.0, 0.0)), labels).textured_fraction(), 0.5)
         << "seed " << seed;
   }
 }
@@ -85,17 +85,17 @@ TEST(ItemPixels, HalfOfAnItemIsHalf) {
   const cv::Mat labels = disc_labels();
   cv::Mat half = with(plain(120), noise(1, 8.0, 3.0));
   half(cv::Rect(0, 0, kPictureSide / 2, kPictureSide)) = 120;
-  EXPECT_NEAR(measure(half, labels).textured_share(), 0.5, 0.07);
+  EXPECT_NEAR(measure(half, labels).textured_fraction(), 0.5, 0.07);
 }
 
 TEST(ItemPixels, SmallAndAbsentItemsAreNotJudged) {
   cv::Mat labels = cv::Mat::zeros(kPictureSide, kPictureSide, CV_8U);
-  EXPECT_EQ(measure(plain(120), labels).textured_share(), 1.0);
-  EXPECT_EQ(measure(plain(120), labels).clipped_share(), 0.0);
+  EXPECT_EQ(measure(plain(120), labels).textured_fraction(), 1.0);
+  EXPECT_EQ(measure(plain(120), labels).clipped_fraction(), 0.0);
   labels(cv::Rect(101, 101, 15, 15)) = kItem;
   const ItemPixels item = measure(plain(255), labels);
   EXPECT_EQ(item.blocks, 0U);
-  EXPECT_EQ(item.clipped_share(), 1.0);
+  EXPECT_EQ(item.clipped_fraction(), 1.0);
 }
 
 }  // namespace

@@ -78,14 +78,14 @@ class Plate {
     mark_zone(raster, rim, DishZone::inside);
     labels.assign(static_cast<std::size_t>(raster.width() * raster.height()), 0);
     const ImageView<std::uint8_t> cells{labels.data(), raster.width(), raster.height()};
-    lay_relief(raster);
-    const ImageView<const ReliefSample> relief{relief_.data(), raster.width(), raster.height()};
+    lay_height_evidence(raster);
+    const ImageView<const HeightSample> relief{relief_.data(), raster.width(), raster.height()};
     EXPECT_TRUE(outline_food(raster, relief, params_, *memory_, cells));
     return label_items(raster, relief, params_, *memory_, kFirstItemLabel, 100, cells).items;
   }
 
   // Share of the cells whose being food or not is right.
-  double right_share(const std::vector<std::uint8_t>& labels, const DishRaster& raster) const {
+  double right_fraction(const std::vector<std::uint8_t>& labels, const DishRaster& raster) const {
     int right = 0;
     for (int y = 0; y < raster.height(); ++y) {
       for (int x = 0; x < raster.width(); ++x) {
@@ -99,7 +99,7 @@ class Plate {
   }
 
   // Share of the cells of either food that are those of the item at its middle.
-  double item_share(const std::vector<std::uint8_t>& labels, const DishRaster& raster) const {
+  double item_fraction(const std::vector<std::uint8_t>& labels, const DishRaster& raster) const {
     int right = 0;
     int all = 0;
     for (int y = 0; y < raster.height(); ++y) {
@@ -126,7 +126,7 @@ class Plate {
  private:
   // What two views would say: food of some height differs where it is compared on the glaze. Noise as of
   // census windows; without relief nothing is known.
-  void lay_relief(const DishRaster& raster) {
+  void lay_height_evidence(const DishRaster& raster) {
     relief_.assign(static_cast<std::size_t>(raster.width() * raster.height()), {});
     if (!has_relief_) return;
     std::mt19937 random(11);
@@ -144,10 +144,10 @@ class Plate {
           if (part < 1.0) is_agreed = disc.is_agreed;
           if (part < 1.0) height_mm = std::max(height_mm, disc.height_mm * std::min(1.0, 6.0 * (1.0 - part)));
         }
-        ReliefSample& sample = relief_[static_cast<std::size_t>(y * raster.width() + x)];
+        HeightSample& sample = relief_[static_cast<std::size_t>(y * raster.width() + x)];
         sample.is_known = true;
         sample.is_confirmed = is_agreed;
-        sample.height = static_cast<std::int8_t>(std::lround(height_mm / kReliefUnitMm));
+        sample.height = static_cast<std::int8_t>(std::lround(height_mm / kHeightUnitMm));
         sample.food_cost = doubled(9.0);
         sample.glaze_cost = height_mm > 0.0 ? doubled(14.0) : sample.food_cost;
       }
@@ -170,7 +170,7 @@ class Plate {
   std::vector<Disc> food_;
   bool has_relief_;
   double depth_mm_ = 18.0;
-  std::vector<ReliefSample> relief_;
+  std::vector<HeightSample> relief_;
   std::vector<std::uint8_t> pixels_;
   FoodOutlineParams params_;
   test::Allocated<FoodOutlineWorkspace> memory_{FoodOutlineParams{}};

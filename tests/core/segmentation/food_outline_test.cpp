@@ -29,7 +29,7 @@ TEST(FoodOutline, EmptyPlateHasNoFood) {
   std::vector<std::uint8_t> labels;
   DishRaster raster;
   EXPECT_EQ(plate.outline(labels, raster), 0);
-  EXPECT_EQ(plate.right_share(labels, raster), 1.0);
+  EXPECT_EQ(plate.right_fraction(labels, raster), 1.0);
 }
 
 TEST(FoodOutline, PilesApartAreItemsOfTheirOwn) {
@@ -37,7 +37,7 @@ TEST(FoodOutline, PilesApartAreItemsOfTheirOwn) {
   std::vector<std::uint8_t> labels;
   DishRaster raster;
   EXPECT_EQ(plate.outline(labels, raster), 2);
-  EXPECT_GT(plate.right_share(labels, raster), 0.995);
+  EXPECT_GT(plate.right_fraction(labels, raster), 0.995);
 }
 
 TEST(FoodOutline, ColourSplitsPilesThatTouch) {
@@ -52,7 +52,7 @@ TEST(FoodOutline, ColourSplitsPilesThatTouch) {
   EXPECT_NE(label_at(240, 300), label_at(380, 300));
   EXPECT_EQ(label_at(200, 280), label_at(285, 300));
   EXPECT_EQ(label_at(320, 300), label_at(400, 340));
-  EXPECT_GT(plate.item_share(labels, raster), 0.99);
+  EXPECT_GT(plate.item_fraction(labels, raster), 0.99);
 }
 
 TEST(FoodOutline, CrumbsAndLinesOfDecorationAreNoFood) {
@@ -70,7 +70,7 @@ TEST(FoodOutline, FoodOfTheGlazesColourIsToldByItsHeight) {
   DishRaster raster;
   Plate plate({mash});
   EXPECT_EQ(plate.outline(labels, raster), 1);
-  EXPECT_GT(plate.right_share(labels, raster), 0.98);
+  EXPECT_GT(plate.right_fraction(labels, raster), 0.98);
   Plate blind({mash}, 0.1, false);
   EXPECT_EQ(blind.outline(labels, raster), 0);
 }
@@ -81,7 +81,7 @@ TEST(FoodOutline, LowFoodOfTheGlazesColourIsToldByItsTexture) {
   DishRaster raster;
   Plate rice({{260, 310, 80, kWhite, 1.0, 60}});
   EXPECT_EQ(rice.outline(labels, raster), 1);
-  EXPECT_GT(rice.right_share(labels, raster), 0.97);
+  EXPECT_GT(rice.right_fraction(labels, raster), 0.97);
   Plate smooth({{260, 310, 80, kWhite, 1.0, 6}});
   EXPECT_EQ(smooth.outline(labels, raster), 0);
 }
@@ -116,7 +116,7 @@ TEST(FoodOutline, WhiteFillingOfABowlIsToldByStandingHighAllOver) {
   Plate bowl({filling});
   bowl.set_depth_mm(30.0);
   EXPECT_EQ(bowl.outline(labels, raster), 1);
-  EXPECT_GT(bowl.right_share(labels, raster), 0.9);
+  EXPECT_GT(bowl.right_fraction(labels, raster), 0.9);
   // As high as the edge: an empty bowl's edge, continued.
   bowl.set_depth_mm(21.0);
   EXPECT_EQ(bowl.outline(labels, raster), 0);
@@ -176,7 +176,7 @@ TEST(FoodOutline, NoFlangeNoAnswer) {
   DishRaster raster;
   ASSERT_TRUE(load_dish_raster(frame, box, kPxPerMm, params, memory->raster, raster));
   std::vector<std::uint8_t> labels(static_cast<std::size_t>(raster.width() * raster.height()));
-  const std::vector<ReliefSample> relief(labels.size());
+  const std::vector<HeightSample> relief(labels.size());
   EXPECT_FALSE(outline_food(raster, {relief.data(), raster.width(), raster.height()}, {}, *memory,
                             {labels.data(), raster.width(), raster.height()}));
 }
@@ -189,9 +189,9 @@ TEST(FoodField, OutlineCostDecidesHowFarCellsAgree) {
     std::mt19937 random(seed);
     std::vector<CellColour> colours(kWide * kWide, {200, 170, 170});
     std::vector<DishZone> zones(colours.size(), DishZone::inside);
-    std::vector<ReliefSample> relief(colours.size());
+    std::vector<HeightSample> relief(colours.size());
     int lifted = 0;
-    for (ReliefSample& sample : relief) {
+    for (HeightSample& sample : relief) {
       const bool is_lifted = random() % 3 == 0;
       sample = {40, 10, static_cast<std::uint8_t>(is_lifted ? 60 : 10), true, true};
       lifted += is_lifted ? 1 : 0;
@@ -199,14 +199,15 @@ TEST(FoodField, OutlineCostDecidesHowFarCellsAgree) {
     DishRaster raster;
     raster.colours = {colours.data(), kWide, kWide};
     raster.zones = {zones.data(), kWide, kWide};
-    FoodFieldParams params;
+    TvSegmentationParams params;
     params.fold = 1;
     params.sweeps = 400;
     const GlazeColour glaze{colours.front(), 4.0, 1.0};
-    test::Allocated<FoodFieldWorkspace> memory{kWide * kWide};
+    test::Allocated<TvSegmentationWorkspace> memory{kWide * kWide};
     std::vector<std::uint8_t> cells(colours.size());
     const auto count_food = [&] {
-      find_food(raster, {relief.data(), kWide, kWide}, glaze, params, *memory, {cells.data(), kWide, kWide});
+      segment_food(raster, {relief.data(), kWide, kWide}, glaze, params, *memory,
+                   {cells.data(), kWide, kWide});
       return static_cast<int>(std::count(cells.begin(), cells.end(), kFoodSeed));
     };
     params.outline = 0.0;

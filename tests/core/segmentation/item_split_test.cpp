@@ -38,7 +38,7 @@ class Food {
         const auto at = static_cast<std::size_t>(y * kWide + x);
         colours_[at] = colour;
         owners_[at] = kFood;
-        relief_[at].height = static_cast<std::int8_t>(height_mm(x - kSide_mm * left) / kReliefUnitMm);
+        relief_[at].height = static_cast<std::int8_t>(height_mm(x - kSide_mm * left) / kHeightUnitMm);
         relief_[at].is_known = relief_[at].is_confirmed = true;
       }
     }
@@ -73,7 +73,7 @@ class Food {
   static constexpr std::uint8_t kGlaze = 251;
   std::vector<CellColour> colours_;
   std::vector<DishZone> zones_;
-  std::vector<ReliefSample> relief_;
+  std::vector<HeightSample> relief_;
   std::vector<std::uint8_t> owners_;
   ItemSplitParams params_;
   test::Allocated<ItemSplitWorkspace> memory_{ItemSplitParams{}};

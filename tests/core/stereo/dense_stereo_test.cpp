@@ -21,7 +21,7 @@ using test::CaptureTruth;
 using test::TrueView;
 
 struct Stage {
-  explicit Stage(const TwoViewSurfaceParams& p = {}) : params(p) {
+  explicit Stage(const DenseStereoParams& p = {}) : params(p) {
     ArenaPlan plan;
     workspace.allocate(plan, params);
     bytes = plan.high_water_bytes();
@@ -32,12 +32,12 @@ struct Stage {
     workspace.allocate(arena, params);
     EXPECT_FALSE(arena.exhausted());
   }
-  TwoViewSurfaceParams params;
+  DenseStereoParams params;
   std::size_t bytes = 0;
   std::vector<std::byte> block;
-  TwoViewSurfaceWorkspace workspace;
+  DenseStereoWorkspace workspace;
   std::array<SurfaceGrid, 2> grids;
-  TwoViewSurfaceReport report;
+  DenseStereoReport report;
 };
 
 // A pair of views of a capture with one dish; the world of its truth is a table frame.
@@ -71,8 +71,8 @@ struct CapturePair {
     }
   }
   Status run(Stage& stage) const {
-    return reconstruct_surface(views, labels_on_dish(labels_of_single_dish()), bottom_mm, top_mm + 8.0,
-                               stage.params, stage.workspace, stage.grids, stage.report);
+    return run_dense_stereo(views, labels_on_dish(labels_of_single_dish()), bottom_mm, top_mm + 8.0,
+                            stage.params, stage.workspace, stage.grids, stage.report);
   }
 };
 
@@ -81,7 +81,7 @@ struct ItemError {
   double percentile95_mm = 0.0;
   double bias_mm = 0.0;
   double volume_percent = 0.0;
-  double confirmed_share = 0.0;
+  double confirmed_fraction = 0.0;
 };
 
 // True points under the samples of the grid of view 0.
@@ -119,7 +119,7 @@ class Truth {
         const double error = measured(x, y).z() - at(x, y).z();
         errors.push_back(std::abs(error));
         item.bias_mm += error;
-        item.confirmed_share += grid_.evidence.at(x, y) == SurfaceEvidence::both ? 1.0 : 0.0;
+        item.confirmed_fraction += grid_.evidence.at(x, y) == SurfaceEvidence::both ? 1.0 : 0.0;
         add_cell(label, x, y, volume, true_volume);
       }
     }
@@ -129,7 +129,7 @@ class Truth {
     item.median_mm = errors[errors.size() / 2];
     item.percentile95_mm = errors[errors.size() * 95 / 100];
     item.bias_mm /= count;
-    item.confirmed_share /= count;
+    item.confirmed_fraction /= count;
     item.volume_percent = 100.0 * (volume / true_volume - 1.0);
     return item;
   }
@@ -175,9 +175,9 @@ class CapturedSurface : public ::testing::Test {
   }
 };
 
-class TwoViewSurface : public CapturedSurface, public ::testing::WithParamInterface<bool> {};
+class DenseStereo : public CapturedSurface, public ::testing::WithParamInterface<bool> {};
 
-TEST_P(TwoViewSurface, HeightsAndVolumesAreRight) {
+TEST_P(DenseStereo, HeightsAndVolumesAreRight) {
   const bool true_view_second = GetParam();
   Stage stage;
   EXPECT_LT(stage.bytes, std::size_t{12} << 20);
@@ -197,7 +197,7 @@ TEST_P(TwoViewSurface, HeightsAndVolumesAreRight) {
       const ItemError error = truth.compare(item.at("label").get<std::uint8_t>());
       std::printf("%-18s %-10s median %.2f mm, 95 %% %5.2f mm, bias %+.2f mm, volume %+5.2f %%, both %.2f\n",
                   source.folder, item.at("name").get<std::string>().c_str(), error.median_mm,
-                  error.percentile95_mm, error.bias_mm, error.volume_percent, error.confirmed_share);
+                  error.percentile95_mm, error.bias_mm, error.volume_percent, error.confirmed_fraction);
       magnitude += std::abs(error.volume_percent);
       signed_sum += error.volume_percent;
       median_mm += error.median_mm;
@@ -213,7 +213,7 @@ TEST_P(TwoViewSurface, HeightsAndVolumesAreRight) {
   EXPECT_LT(std::abs(bias_mm / count), 0.2);
 }
 
-INSTANTIATE_TEST_SUITE_P(Captures, TwoViewSurface, ::testing::Bool());
+INSTANTIATE_TEST_SUITE_P(Captures, DenseStereo, ::testing::Bool());
 
 TEST_F(CapturedSurface, SameBitsWhateverWasMeasuredBefore) {
   const CapturePair pair("plates/c1_soup", 0, 1);
@@ -239,7 +239,7 @@ TEST_F(CapturedSurface, AGridTooFineForTheHeightsIsMadeCoarser) {
   const CapturePair pair("angles/a01", 0, 7);
   Stage fine;
   ASSERT_TRUE(pair.run(fine).ok());
-  TwoViewSurfaceParams params;
+  DenseStereoParams params;
   params.levels = 1;
   Stage coarse(params);
   ASSERT_TRUE(pair.run(coarse).ok());

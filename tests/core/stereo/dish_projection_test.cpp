@@ -170,7 +170,7 @@ class SettledSamples : public ::testing::Test {
     noisy_ = test::cast_grid(scene_, camera_, noise, 8192);
     std::fill(noisy_.evidence.begin(), noisy_.evidence.end(), SurfaceEvidence::single);
     settled_ = noisy_;
-    settle_dish_samples(scene_.dish, noisy_.view(), settled_.points, settled_.evidence);
+    project_onto_dish(scene_.dish, noisy_.view(), settled_.points, settled_.evidence);
   }
 
   static Vec3 at(const test::TrueGrid& grid, std::size_t k) {
@@ -223,7 +223,7 @@ TEST_F(SettledSamples, LevelWithTheCameraStayAsTheyAre) {
   const auto k = static_cast<std::size_t>(dish - settled_.labels.begin());
   noisy_.points[k].z_mm = static_cast<float>(noisy_.camera_mm.z() + 1.0);
   settled_ = noisy_;
-  settle_dish_samples(scene_.dish, noisy_.view(), settled_.points, settled_.evidence);
+  project_onto_dish(scene_.dish, noisy_.view(), settled_.points, settled_.evidence);
   EXPECT_EQ(at(settled_, k), at(noisy_, k));
 }
 
@@ -236,7 +236,7 @@ TEST(MatchedShare, CountsTheSamplesOfAllViews) {
   for (SurfaceGrid& view : views) view.labels = {labels.data(), 6, 1};
   views[0].evidence = {first.data(), 6, 1};
   views[1].evidence = {second.data(), 6, 1};
-  const std::array<double, 256> shares = matched_shares(views);
+  const std::array<double, 256> shares = matched_fractions(views);
   EXPECT_DOUBLE_EQ(shares[2], 0.75);
   EXPECT_DOUBLE_EQ(shares[3], 0.0);
   EXPECT_DOUBLE_EQ(shares[4], 1.0) << "a label without samples";

@@ -51,12 +51,12 @@ class Fountain : public ::testing::Test {
     const Pose camera_from_world = photographs_[kMiddle].view.camera_from_world;
     std::vector<Vec3> in_camera_mm;
     for (const test::ScenePoint& point : points_) in_camera_mm.push_back(camera_from_world * point.point_mm);
-    PlaneFitParams params;
+    paper::PlaneFitParams params;
     params.threshold_mm = 1.0;
     params.min_iterations = 200;
     Random random(1);
-    PlaneFit wall;
-    ASSERT_TRUE(fit_plane(in_camera_mm, params, random, wall));
+    paper::PlaneFit wall;
+    ASSERT_TRUE(paper::fit_plane(in_camera_mm, params, random, wall));
     const Vec3 z = wall.plane.normal;
     const Vec3 x = Vec3::UnitY().cross(z).normalized();
     Pose camera_from_table;
@@ -92,13 +92,13 @@ class Fountain : public ::testing::Test {
       pair[v].view.camera_from_world = cameras[v];
       pair[v].labels = cv::Mat1b(pair[v].gray.size(), kFirstItemLabel);
     }
-    const TwoViewSurfaceParams params;
-    test::Allocated<TwoViewSurfaceWorkspace> workspace(params);
+    const DenseStereoParams params;
+    test::Allocated<DenseStereoWorkspace> workspace(params);
     std::array<SurfaceGrid, 2> grids;
-    TwoViewSurfaceReport report;
+    DenseStereoReport report;
     const Status status =
-        reconstruct_surface({pair[0].stored(), pair[1].stored()}, labels_on_dish(labels_of_single_dish()),
-                            kGroundMm, kTopMm, params, *workspace, grids, report);
+        run_dense_stereo({pair[0].stored(), pair[1].stored()}, labels_on_dish(labels_of_single_dish()),
+                         kGroundMm, kTopMm, params, *workspace, grids, report);
     EXPECT_TRUE(status.ok()) << name(status.code());
     if (!status.ok()) return {};
     const cv::Mat1f depth_mm = test::depth_map(grids[0], pair[0], 2);
@@ -129,7 +129,7 @@ TEST_F(Fountain, TracksCorrectAPoseThatIsOff) {
       SCOPED_TRACE(::testing::Message() << "view " << kFirstView + other << ", seed " << seed);
       const Status status = stages.run({first, second}, disturbed(given, seed), Vec3::Zero(), seed);
       ASSERT_TRUE(status.ok()) << name(status.code());
-      const TableCameras& found = stages.joint().camera_from_table;
+      const TableCameras& found = stages.bundle().camera_from_table;
       const PoseDeviation deviation = test::compare_motion(found, given);
       const double found_px = test::median_epipolar_px(sift, found, focal_px);
       std::printf(
@@ -162,7 +162,7 @@ TEST_F(Fountain, DenseSurfaceMeetsThePointsOfManyViews) {
     ASSERT_TRUE(
         stages.run({photographs_[kMiddle], photographs_[other]}, disturbed(given, 1), Vec3::Zero(), 1).ok());
     // Without a card the length of the motion is unknown.
-    Pose motion = second_from_first(stages.joint().camera_from_table);
+    Pose motion = second_from_first(stages.bundle().camera_from_table);
     motion.translation *= second_from_first(given).translation.norm() / motion.translation.norm();
     const SurfaceDeviation with_own = reconstruct(other, {given[0], motion * given[0]});
     print("own", other, with_own);

@@ -18,7 +18,7 @@ using test::px;
 using GapRow = test::DisparityRow;
 using Labels = std::vector<std::uint8_t>;
 
-class StraightOutline final : public OutlineLean {
+class StraightOutline final : public ViewSlope {
  public:
   explicit StraightOutline(double lean) : lean_(lean) {}
   double at(int, int) const override { return lean_; }
@@ -36,9 +36,9 @@ struct Sight {
   double outline_lean = 0.0;
 };
 
-GapRow fill(const Labels& labels, GapRow row, const GapParams& params = {}, const Sight& sight = {}) {
-  fill_gaps({labels, sight.other_labels, sight.sign, sight.camera, sight.other_camera},
-            StraightOutline(sight.outline_lean), params, row);
+GapRow fill(const Labels& labels, GapRow row, const OcclusionParams& params = {}, const Sight& sight = {}) {
+  fill_occlusions({labels, sight.other_labels, sight.sign, sight.camera, sight.other_camera},
+                  StraightOutline(sight.outline_lean), params, row);
   return row;
 }
 
@@ -72,8 +72,8 @@ TEST(FillGaps, AnItemsOneSurfaceGoesStraightOn) {
 TEST(FillGaps, AStepThatNothingHidesLiesBelowTheLine) {
   const Labels labels(6, 2);
   for (const double share : {0.0, 0.25, 0.5, 1.0}) {
-    GapParams params;
-    params.step_share = share;
+    OcclusionParams params;
+    params.step_fraction = share;
     const GapRow up = fill(labels, {px(20), kNone, kNone, kNone, kNone, px(40)}, params);
     Sight second;
     second.sign = -1;
@@ -126,8 +126,8 @@ TEST(FillGaps, WhatBothViewsSeeOfAGapAndDidNotMatchIsPartlySlope) {
   sight.other_camera = {-300.0, 1000.0};
   for (const double share : {0.0, 0.25, 0.5, 1.0}) {
     for (const int gap : {8, 10, 11, 14, 30}) {
-      GapParams params;
-      params.unmatched_fall_share = share;
+      OcclusionParams params;
+      params.unmatched_fall_fraction = share;
       GapRow row(45, px(10));
       std::fill_n(row.begin(), kEdge + 1, px(20));
       std::fill_n(row.begin() + kEdge + 1, gap, kNone);
@@ -144,7 +144,7 @@ TEST(FillGaps, WhatBothViewsSeeOfAGapAndDidNotMatchIsPartlySlope) {
 
 TEST(FillGaps, OneSurfaceOrTwoIsDecidedByTheirDifference) {
   const Labels labels{2, 2, 2};
-  GapParams params;
+  OcclusionParams params;
   params.same_surface_px = 4.0;
   EXPECT_EQ(fill(labels, {px(10), kNone, px(14)}, params)[1], px(12));
   EXPECT_EQ(fill(labels, {px(10), kNone, px(14.125)}, params)[1], px(11));
@@ -155,8 +155,8 @@ TEST(FillGaps, OneSurfaceOrTwoIsDecidedByTheirDifference) {
 
 // Known up to column 0 or 5, the outline at column 5 or 0.
 TEST(FillGaps, HiddenFlanksFallTowardsTheOutline) {
-  GapParams params;
-  params.contact_share = params.limb_share = 0.5;
+  OcclusionParams params;
+  params.contact_fraction = params.limb_fraction = 0.5;
   const GapRow right{px(20), px(18), px(16), px(14), px(12), px(3)};
   EXPECT_EQ(fill({2, 2, 2, 2, 2, 1}, {px(20), kNone, kNone, kNone, kNone, px(3)}, params), right);
   EXPECT_EQ(fill({1, 2, 2, 2, 2, 2}, {px(3), kNone, kNone, kNone, kNone, px(20)}, params),
@@ -173,9 +173,9 @@ TEST(FillGaps, HiddenFlanksFallTowardsTheOutline) {
 // A camera 100 columns up. Flanks have a run of 0.2 ± 0.1: it sees their foot while it stands less than 10
 // columns on the other side of the outline, and a limb from 30 on; in between, something of both.
 TEST(FillGaps, FlanksEndOnTheDishWhereTheViewSeesTheirFoot) {
-  GapParams params;
-  params.contact_share = 0.0;
-  params.limb_share = 1.0;
+  OcclusionParams params;
+  params.contact_fraction = 0.0;
+  params.limb_fraction = 1.0;
   params.flank_run = 0.2;
   params.flank_run_spread = 0.1;
   const auto last_of = [&](double foot_column, bool on_right) {
@@ -212,7 +212,7 @@ TEST(FillGaps, NothingKnownLeavesNothing) {
 
 // An item on columns 10 to 19 of the first view, 20 px high up to column 13, and on columns to `other_end` of
 // the second: at column 19 it is at most other_end − 19 high.
-GapRow fill_within_hull(int sign, int other_end, double outline_lean, const GapParams& params = {}) {
+GapRow fill_within_hull(int sign, int other_end, double outline_lean, const OcclusionParams& params = {}) {
   constexpr int kWidth = 60;
   Labels labels(kWidth, 1);
   Labels other_labels(kWidth, 1);
@@ -237,8 +237,8 @@ GapRow fill_within_hull(int sign, int other_end, double outline_lean, const GapP
 }
 
 TEST(FillGaps, AnOutlineIsNoHigherThanTheOtherViewsOutlineAllows) {
-  GapParams params;
-  params.limb_hull_share = 1.0;
+  OcclusionParams params;
+  params.limb_hull_fraction = 1.0;
   for (const int sign : {1, -1}) {
     for (int other_end = 33; other_end <= 42; ++other_end) {
       const GapRow filled = fill_within_hull(sign, other_end, 1.0, params);
@@ -253,15 +253,15 @@ TEST(FillGaps, AnOutlineIsNoHigherThanTheOtherViewsOutlineAllows) {
 }
 
 TEST(FillGaps, AWallSeenFromOutsideReachesFurtherDown) {
-  const GapParams params;
+  const OcclusionParams params;
   int above = px(20) + 1;
   for (int percent = 20; percent >= -30; --percent) {
     const GapRow filled = fill_within_hull(1, 35, 0.01 * percent);
     EXPECT_LE(filled[19], above) << percent;
     above = filled[19];
   }
-  EXPECT_EQ(fill_within_hull(1, 35, 1.0)[19], static_cast<int>(16.0 * params.limb_hull_share * 16.0));
-  EXPECT_EQ(fill_within_hull(1, 35, -1.0)[19], static_cast<int>(16.0 * params.seen_wall_share * 16.0));
+  EXPECT_EQ(fill_within_hull(1, 35, 1.0)[19], static_cast<int>(16.0 * params.limb_hull_fraction * 16.0));
+  EXPECT_EQ(fill_within_hull(1, 35, -1.0)[19], static_cast<int>(16.0 * params.seen_wall_fraction * 16.0));
   EXPECT_EQ(fill_within_hull(1, 20, -1.0), fill_within_hull(1, 20, 1.0))
       << "where the known sample's partner is not on the item the outline says nothing";
 }
@@ -269,8 +269,8 @@ TEST(FillGaps, AWallSeenFromOutsideReachesFurtherDown) {
 // In the other view the item goes on for three columns beside the last known sample's partner: it is level as
 // far as both see it, and falls beyond.
 TEST(FillGaps, WhatBothViewsSeeBesideAnEdgeStaysUp) {
-  GapParams params;
-  params.other_outline_share = 1.0;
+  OcclusionParams params;
+  params.other_outline_fraction = 1.0;
   const GapRow filled = fill_within_hull(1, 36, -1.0, params);
   for (const std::size_t x : {14U, 15U, 16U}) EXPECT_EQ(filled[x], px(20)) << x;
   for (const std::size_t x : {17U, 18U, 19U}) EXPECT_LT(filled[x], filled[x - 1]) << x;

@@ -25,16 +25,16 @@ using test::view_of;
 
 // Matches `first` against `second` with bands of `lanes` that start at `start`.
 cv::Mat_<Disparity> match(cv::Mat1b first, cv::Mat1b second, cv::Mat_<std::int16_t> start, int lanes,
-                          const SemiGlobalParams& params = {}) {
+                          const SgmParams& params = {}) {
   const int states = first.rows * first.cols * lanes;
   ArenaPlan plan;
-  SemiGlobalWorkspace planned;
+  SgmWorkspace planned;
   planned.allocate(plan, first.cols, states);
   cv::Mat1b block(1, static_cast<int>(plan.high_water_bytes()) + 64);
   auto address = reinterpret_cast<std::uintptr_t>(block.data);
   address = (address + kArenaAlignmentBytes - 1) / kArenaAlignmentBytes * kArenaAlignmentBytes;
   Arena arena({reinterpret_cast<std::byte*>(address), plan.high_water_bytes()});
-  SemiGlobalWorkspace workspace;
+  SgmWorkspace workspace;
   workspace.allocate(arena, first.cols, states);
   EXPECT_FALSE(arena.exhausted());
   cv::Mat1b labels(first.size(), std::uint8_t{1});
@@ -53,7 +53,7 @@ cv::Mat_<Disparity> match(cv::Mat1b first, cv::Mat1b second, cv::Mat_<std::int16
                         {words(codes[0]), words(codes[1])},
                         words(mask)};
   cv::Mat_<Disparity> disparity(first.size());
-  match_semi_global(pair, view_of(start), lanes, params, workspace, view_of(disparity));
+  match_sgm(pair, view_of(start), lanes, params, workspace, view_of(disparity));
   return disparity;
 }
 
@@ -89,7 +89,7 @@ struct Stereogram {
   int truth(int x, int y) const { return is_front(x, y) ? front_px : behind_px; }
 
   // Share of the samples away from edges whose disparity is not the true one.
-  double wrong_share(const cv::Mat_<Disparity>& disparity) const {
+  double wrong_fraction(const cv::Mat_<Disparity>& disparity) const {
     int wrong = 0;
     int all = 0;
     for (int y = 8; y < first.rows - 8; ++y) {
@@ -104,16 +104,16 @@ struct Stereogram {
   }
 };
 
-TEST(SemiGlobal, FindsBothSurfaces) {
+TEST(Sgm, FindsBothSurfaces) {
   const unsigned seed = test::random_seed();
   const Stereogram scene(3, 21, seed);
   for (const int lanes : {32, 48, 64}) {
     const cv::Mat_<std::int16_t> start(scene.first.size(), std::int16_t{-5});
-    EXPECT_LT(scene.wrong_share(match(scene.first, scene.second, start, lanes)), 0.002);
+    EXPECT_LT(scene.wrong_fraction(match(scene.first, scene.second, start, lanes)), 0.002);
   }
 }
 
-TEST(SemiGlobal, BandsMayDifferFromPixelToPixel) {
+TEST(Sgm, BandsMayDifferFromPixelToPixel) {
   const unsigned seed = test::random_seed();
   const Stereogram scene(-9, 26, seed);
   std::mt19937 random(seed);
@@ -123,10 +123,10 @@ TEST(SemiGlobal, BandsMayDifferFromPixelToPixel) {
       start(y, x) = static_cast<std::int16_t>(scene.truth(x, y) - 2 - static_cast<int>(random() % 12));
     }
   }
-  EXPECT_LT(scene.wrong_share(match(scene.first, scene.second, start, 16)), 0.002);
+  EXPECT_LT(scene.wrong_fraction(match(scene.first, scene.second, start, 16)), 0.002);
 }
 
-TEST(SemiGlobal, BandsOutsideThePictureMatchNothing) {
+TEST(Sgm, BandsOutsideThePictureMatchNothing) {
   const Stereogram scene(0, 5, 1);
   const cv::Mat_<std::int16_t> far(scene.first.size(), std::int16_t{1500});
   const cv::Mat_<Disparity> disparity = match(scene.first, scene.second, far, 16);
@@ -135,7 +135,7 @@ TEST(SemiGlobal, BandsOutsideThePictureMatchNothing) {
 
 // Share of the unoccluded pixels of the right-hand picture that are off by more than a pixel. Disparities
 // grow from right to left there, as ours do from the first to the second view.
-double bad_share(const cv::Mat_<Disparity>& disparity, const cv::Mat1b& truth, const cv::Mat1b& other) {
+double bad_fraction(const cv::Mat_<Disparity>& disparity, const cv::Mat1b& truth, const cv::Mat1b& other) {
   int bad = 0;
   int all = 0;
   for (int y = 0; y < truth.rows; ++y) {
@@ -150,7 +150,7 @@ double bad_share(const cv::Mat_<Disparity>& disparity, const cv::Mat1b& truth, c
   return static_cast<double>(bad) / all;
 }
 
-TEST(SemiGlobal, FewPixelsOfPhotographsAreBad) {
+TEST(Sgm, FewPixelsOfPhotographsAreBad) {
   const auto folder = test::captures_folder();
   if (folder.empty()) GTEST_SKIP() << "TRAYGAUGE_CAPTURES is not set";
   for (const std::string name : {"cones", "teddy"}) {
@@ -162,7 +162,7 @@ TEST(SemiGlobal, FewPixelsOfPhotographsAreBad) {
     const cv::Mat1b right = read("-im6.png");
     ASSERT_FALSE(left.empty());
     const cv::Mat_<std::int16_t> start(right.size(), std::int16_t{0});
-    const double ours = bad_share(match(right, left, start, 64), read("-disp6.pgm"), read("-disp2.pgm"));
+    const double ours = bad_fraction(match(right, left, start, 64), read("-disp6.pgm"), read("-disp2.pgm"));
     cv::Mat1b left_mirrored;
     cv::Mat1b right_mirrored;
     cv::flip(left, left_mirrored, 1);
@@ -173,7 +173,7 @@ TEST(SemiGlobal, FewPixelsOfPhotographsAreBad) {
     matcher->compute(right_mirrored, left_mirrored, mirrored);
     cv::Mat_<Disparity> disparity;
     cv::flip(mirrored, disparity, 1);
-    const double theirs = bad_share(disparity, read("-disp6.pgm"), read("-disp2.pgm"));
+    const double theirs = bad_fraction(disparity, read("-disp6.pgm"), read("-disp2.pgm"));
     std::printf("%s: bad pixels %.1f %%, OpenCV's SGBM %.1f %%\n", name.c_str(), 100.0 * ours,
                 100.0 * theirs);
     EXPECT_LT(ours, 0.10);

@@ -48,9 +48,9 @@ struct Pair {
   static ImageView<T> view(std::vector<T>& pixels) {
     return {pixels.data(), kWidth, kHeight};
   }
-  void refine(const SurfaceRefinementParams& params = {}) {
+  void refine(const SubpixelRefinementParams& params = {}) {
     ArenaPlan plan;
-    SurfaceRefinementWorkspace workspace;
+    SubpixelRefinementWorkspace workspace;
     workspace.allocate(plan, kWidth, kWidth * kHeight);
     std::vector<std::byte> block(plan.high_water_bytes() + kArenaAlignmentBytes);
     const auto raw = reinterpret_cast<std::uintptr_t>(block.data());
@@ -105,7 +105,7 @@ TEST(SurfaceRefinement, SamplesWithoutPartnersFollowTheirNeighbours) {
       pair.surface[i] += 0.9F;
     }
   }
-  SurfaceRefinementParams params;
+  SubpixelRefinementParams params;
   params.relaxations = 60;
   pair.refine(params);
   EXPECT_NEAR(pair.surface[35 * kWidth + 85], 4.0 + 0.05 * 85, 0.25);

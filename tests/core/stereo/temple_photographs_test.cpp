@@ -46,7 +46,7 @@ cv::Mat1b label_object(const cv::Mat1b& gray) {
 struct Surface {
   SurfaceDeviation against_points;
   cv::Mat1f depth_mm;  // of the middle view
-  double in_box_share = 0.0;
+  double in_box_fraction = 0.0;
 };
 
 class Temple : public ::testing::TestWithParam<std::size_t> {
@@ -72,21 +72,21 @@ class Temple : public ::testing::TestWithParam<std::size_t> {
   }
 
   Surface reconstruct(std::size_t other) {
-    TwoViewSurfaceParams params;
+    DenseStereoParams params;
     params.highest_mm = 2.0 * half_depth_mm_;
-    test::Allocated<TwoViewSurfaceWorkspace> workspace(params);
+    test::Allocated<DenseStereoWorkspace> workspace(params);
     std::array<SurfaceGrid, 2> grids;
-    TwoViewSurfaceReport report;
+    DenseStereoReport report;
     const Photograph& middle = photographs_[kTempleMiddle];
-    const Status status = reconstruct_surface({middle.stored(), photographs_[other].stored()},
-                                              labels_on_dish(labels_of_single_dish()), 0.0, params.highest_mm,
-                                              params, *workspace, grids, report);
+    const Status status = run_dense_stereo({middle.stored(), photographs_[other].stored()},
+                                           labels_on_dish(labels_of_single_dish()), 0.0, params.highest_mm,
+                                           params, *workspace, grids, report);
     EXPECT_TRUE(status.ok()) << name(status.code());
     Surface surface;
     if (!status.ok()) return surface;
     surface.depth_mm = test::depth_map(grids[0], middle, 1);
     surface.against_points = test::compare_depth(surface.depth_mm, middle, photographs_[other], points_);
-    surface.in_box_share = share_in_box(grids[0]);
+    surface.in_box_fraction = share_in_box(grids[0]);
     return surface;
   }
   double share_in_box(const SurfaceGrid& grid) const {
@@ -130,7 +130,7 @@ TEST_P(Temple, NeighbouringViewsFindItsSurface) {
     EXPECT_LT(deviation.median_px, 0.13);
     EXPECT_LT(deviation.percentile90_px, 0.5);
     EXPECT_LT(std::abs(deviation.bias_mm), 0.2);
-    EXPECT_GT(surface->in_box_share, 0.98);
+    EXPECT_GT(surface->in_box_fraction, 0.98);
   }
   const SurfaceDeviation across = test::compare_depth(
       before.depth_mm, after.depth_mm, photographs_[kTempleMiddle], photographs_[kTempleMiddle + 1]);
@@ -149,7 +149,7 @@ TEST_P(Temple, FifteenDegreesFindTheSameSurface) {
     EXPECT_LT(surface.against_points.median_px, 0.25);
     EXPECT_LT(surface.against_points.percentile90_px, 1.0);
     EXPECT_LT(std::abs(surface.against_points.bias_mm), 0.2);
-    EXPECT_GT(surface.in_box_share, 0.95);
+    EXPECT_GT(surface.in_box_fraction, 0.95);
   }
 }
 

@@ -30,7 +30,7 @@ TEST(CaptureHeightVolume, TrueDepthOfOneViewGivesTheTrueVolumes) {
         const double error = measured.volume_ml / item.volume_ml - 1.0;
         const double column = measured.column_volume_ml / item.column_ml - 1.0;
         std::printf("%-16s %-12s column %+6.2f%%  closed %+6.2f%%  hidden %4.1f%%\n", dish.name.c_str(),
-                    item.name.c_str(), 100 * column, 100 * error, 100 * measured.hidden_share);
+                    item.name.c_str(), 100 * column, 100 * error, 100 * measured.hidden_fraction);
         EXPECT_EQ(item.is_liquid, measurement.liquid.label == item.label) << item.name;
         if (item.is_liquid) {
           EXPECT_LT(std::abs(error), 0.01) << item.name;  // the outline is right to half a sample

@@ -36,7 +36,7 @@ class TwoViews {
     for (std::size_t v = 0; v < 2; ++v, ++noise.seed) {
       grids_[v] = test::cast_grid(scene, cameras[v], noise, 0.5 * test::kWorkingDishPixels);
       const TrueGrid cast = grids_[v];
-      settle_dish_samples(scene.dish, cast.view(), grids_[v].points, grids_[v].evidence);
+      project_onto_dish(scene.dish, cast.view(), grids_[v].points, grids_[v].evidence);
     }
   }
 
@@ -122,7 +122,7 @@ TEST(ContactLevel, OfALiquidSeenAslantIsTheFarWalls) {
   EXPECT_NEAR(above.level_mm, kLevelMm, 0.1);
   EXPECT_NEAR(aslant.level_mm, kLevelMm, 0.1);
   EXPECT_LT(aslant.share, above.share - 0.1);
-  EXPECT_GE(aslant.share, LevelLiquidParams{}.min_contact_share);
+  EXPECT_GE(aslant.share, LevelLiquidParams{}.min_contact_fraction);
 }
 
 TEST(ContactLevel, NeedsNoMatchedHeights) {

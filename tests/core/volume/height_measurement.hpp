@@ -21,7 +21,7 @@ struct HeightMeasurement {
   HeightMap map;
   LevelLiquid liquid;
   // True depth shows all of an undercut.
-  OverhangParams overhang{.wall_undercut_share = 0.2, .fruit_undercut_share = 0.2};
+  OverhangParams overhang{.wall_undercut_fraction = 0.2, .fruit_undercut_fraction = 0.2};
 
   LabelSet round;  // as round bodies
 

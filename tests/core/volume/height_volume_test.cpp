@@ -98,7 +98,7 @@ TEST(HeightVolume, OfHeightFieldsFromTwoPerfectViews) {
     for (const Solid& solid : scene.solids) {
       const double error = measured.column_error(solid.label);
       std::printf("%-5s %+.2f%%  hidden %.1f%%\n", solid.name.c_str(), 100 * error,
-                  100 * measured.item(solid.label).hidden_share);
+                  100 * measured.item(solid.label).hidden_fraction);
       EXPECT_LT(std::abs(error), 0.02) << solid.name;
       EXPECT_NEAR(measured.item(solid.label).volume_ml, measured.item(solid.label).column_volume_ml,
                   0.005 * measured.item(solid.label).column_volume_ml)
@@ -234,8 +234,8 @@ TEST(HeightVolume, ASecondViewSeesWhatTheFirstCannot) {
   const SceneCamera from_right{500, 33, 0};
   SceneMeasurement same(scene, {from_left, from_left});
   SceneMeasurement both(scene, {from_left, from_right});
-  EXPECT_GT(same.item(2).hidden_share, 0.05);
-  EXPECT_LT(both.item(2).hidden_share, 0.02);
+  EXPECT_GT(same.item(2).hidden_fraction, 0.05);
+  EXPECT_LT(both.item(2).hidden_fraction, 0.02);
   EXPECT_LT(std::abs(both.column_error(2)), 0.005);
 }
 

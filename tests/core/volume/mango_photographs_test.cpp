@@ -73,7 +73,7 @@ struct PagePair {
 struct MangoVolume {
   Status status;
   HeightVolume volume;
-  double matched_share = 0.0;
+  double matched_fraction = 0.0;
   bool is_round = false;
 };
 
@@ -124,22 +124,22 @@ class Mango : public ::testing::Test {
 
   MangoVolume measure(const std::array<Photograph, 2>& photographs) {
     std::array<SurfaceGrid, 2> grids;
-    TwoViewSurfaceReport report;
+    DenseStereoReport report;
     MangoVolume result;
-    result.status = reconstruct_surface({photographs[0].stored(), photographs[1].stored()},
-                                        labels_on_dish(labels_of_single_dish()), 0.0, kTopMm, surface_params_,
-                                        *surface_space_, grids, report);
+    result.status = run_dense_stereo({photographs[0].stored(), photographs[1].stored()},
+                                     labels_on_dish(labels_of_single_dish()), 0.0, kTopMm, surface_params_,
+                                     *surface_space_, grids, report);
     if (!result.status.ok()) return result;
     measurement_.round = shape_round_bodies(
         {grids, {surface_space_->views[0].points, surface_space_->views[1].points}}, page_, {}, *body_space_);
     result.is_round = measurement_.round.contains(kMango);
     result.status = measurement_.run(grids, page_);
     result.volume = measurement_.item(kMango);
-    result.matched_share = matched_share(grids[0]);
+    result.matched_fraction = matched_fraction(grids[0]);
     return result;
   }
   // Of the fruit's samples.
-  static double matched_share(const SurfaceGrid& grid) {
+  static double matched_fraction(const SurfaceGrid& grid) {
     int matched = 0;
     int all = 0;
     for (int y = 0; y < grid.labels.height; ++y) {
@@ -157,7 +157,7 @@ class Mango : public ::testing::Test {
         "matched %.2f%s\n",
         pair.first.c_str(), pair.second.c_str(), pair.angle_deg, mango.volume.column_volume_ml,
         100.0 * (mango.volume.column_volume_ml / kHullColumnMl - 1.0), mango.volume.volume_ml,
-        mango.volume.max_height_mm, mango.volume.area_mm2, mango.matched_share,
+        mango.volume.max_height_mm, mango.volume.area_mm2, mango.matched_fraction,
         mango.is_round ? ", round" : "");
   }
   static double mean(const std::vector<double>& values) {
@@ -182,8 +182,8 @@ class Mango : public ::testing::Test {
   std::vector<test::TrueView> views_;
   std::vector<PagePair> pairs_;
   InnerSurface page_;
-  TwoViewSurfaceParams surface_params_;
-  Allocated<TwoViewSurfaceWorkspace> surface_space_{surface_params_};
+  DenseStereoParams surface_params_;
+  Allocated<DenseStereoWorkspace> surface_space_{surface_params_};
   Allocated<RoundBodyWorkspace> body_space_{surface_params_.rectification.max_rows,
                                             surface_params_.max_columns};
   test::HeightMeasurement measurement_;
@@ -233,7 +233,7 @@ TEST_F(Mango, ColumnVolumeWithPosesFromMarkersAndTracks) {
       ++refused;
       continue;
     }
-    const TableCameras& found = stages.joint().camera_from_table;
+    const TableCameras& found = stages.bundle().camera_from_table;
     for (std::size_t v = 0; v < 2; ++v) photographs[v].view.camera_from_world = found[v];
     const test::PoseDeviation off = test::compare_motion(found, given);
     const Vec3 under_mm = given[0].inverse() * (found[0] * (kDishOnPage - kCardOnPage));

@@ -56,8 +56,8 @@ TEST(Overhang, TakesAwayMoreTheMoreIsSeenBelow) {
   for (int undercut = 0; undercut <= 400; undercut += 10) {
     const HeightVolume item = closed(undercut, params);
     const double taken = (kColumnMl - item.volume_ml) / air_ml;
-    const double share = std::clamp((undercut / 400.0 - params.wall_undercut_share) /
-                                        (params.fruit_undercut_share - params.wall_undercut_share),
+    const double share = std::clamp((undercut / 400.0 - params.wall_undercut_fraction) /
+                                        (params.fruit_undercut_fraction - params.wall_undercut_fraction),
                                     0.0, 1.0);
     EXPECT_NEAR(taken, share, 1e-9) << undercut;
     EXPECT_LE(item.volume_ml, before_ml);
@@ -78,8 +78,8 @@ TEST(Overhang, OfRoundBodiesIsSure) {
 
 TEST(Overhang, IsNotMadeByAFewSamples) {
   OverhangParams params;
-  params.wall_undercut_share = 0.0;
-  params.fruit_undercut_share = 0.01;
+  params.wall_undercut_fraction = 0.0;
+  params.fruit_undercut_fraction = 0.01;
   EXPECT_EQ(closed(static_cast<int>(params.min_undercut_mm2), params).volume_ml, kColumnMl);
   EXPECT_LT(closed(static_cast<int>(params.min_undercut_mm2) + 1, params).volume_ml, kColumnMl);
 }

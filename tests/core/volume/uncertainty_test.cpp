@@ -31,7 +31,7 @@ class Disc {
 
   UncertaintyInput& input() { return input_; }
   double variance_ml2(const UncertaintyParams& params) const {
-    const double sigma_ml = estimate_sigma_ml(input_, cameras_, JointMatrix::Zero(), params);
+    const double sigma_ml = estimate_sigma_ml(input_, cameras_, BundleMatrix::Zero(), params);
     return sigma_ml * sigma_ml;
   }
 

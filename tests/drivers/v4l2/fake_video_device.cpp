@@ -319,7 +319,7 @@ void FakeVideoDevice::fill(int number, Instant begun_at) {
     length = std::min(picture.size(), buffer.size());
     std::copy_n(picture.begin(), length, buffer.begin());
   }
-  length = static_cast<std::size_t>(static_cast<double>(length) * frame.length_share);
+  length = static_cast<std::size_t>(static_cast<double>(length) * frame.length_fraction);
   const bool is_start = (camera_.stamp_flags & V4L2_BUF_FLAG_TSTAMP_SRC_SOE) != 0;
   filled_.push_back({index, length, static_cast<std::uint32_t>(number), frame.flags | camera_.stamp_flags,
                      (is_start ? begun_at : begun_at + kTransferTime) + camera_.stamp_offset});

@@ -40,7 +40,7 @@ struct FakeControl {
 // What is special about the frames from one on, by their number since the camera was made.
 struct FakeFrame {
   std::uint32_t flags = 0;
-  double length_share = 1.0;
+  double length_fraction = 1.0;
   bool is_lost = false;
 };
 

@@ -191,7 +191,7 @@ TEST_F(V4l2, NeverDeliversDamagedFramesAndCountsThem) {
   params_.burst = 1;
   params_.settle_frames = 0;
   for (int i = 0; i < 30; i += 2) kernel_.frames[i].flags = V4L2_BUF_FLAG_ERROR;
-  for (int i = 31; i < 60; i += 2) kernel_.frames[i].length_share = 0.5;
+  for (int i = 31; i < 60; i += 2) kernel_.frames[i].length_fraction = 0.5;
   ASSERT_EQ(start(), DeviceCode::ok);
   for (int i = 0; i < 25; ++i) {
     ASSERT_EQ(capture(), DeviceCode::ok);
@@ -203,7 +203,7 @@ TEST_F(V4l2, NeverDeliversDamagedFramesAndCountsThem) {
 }
 
 TEST_F(V4l2, SaysTornWhenNothingButDamageCame) {
-  for (int i = 0; i < 1000; ++i) kernel_.frames[i].length_share = 0.9;
+  for (int i = 0; i < 1000; ++i) kernel_.frames[i].length_fraction = 0.9;
   ASSERT_EQ(start(), DeviceCode::ok);
   EXPECT_EQ(capture(), DeviceCode::torn_frame);
   EXPECT_EQ(camera().detail(), "a picture with rows missing");

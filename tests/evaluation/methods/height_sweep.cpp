@@ -122,7 +122,7 @@ cv::Mat known_in(const cv::Mat& heights) {
 }
 
 // The mean of the known heights in the smallest window that holds enough of them.
-cv::Mat fill_gaps(const cv::Mat& heights, const cv::Mat& mask) {
+cv::Mat fill_occlusions(const cv::Mat& heights, const cv::Mat& mask) {
   constexpr int kMaxWindow = 129;
   constexpr double kEnough = 0.2;  // of the window
   cv::Mat filled;
@@ -194,7 +194,7 @@ cv::Mat filter_heights(const cv::Mat& heights, const SweepView& reference, const
   // The median wants numbers everywhere: gaps take the mean of what lies around them.
   cv::Mat smooth;
   const cv::Mat everywhere(heights.size(), CV_8UC1, cv::Scalar(255));
-  cv::medianBlur(fill_gaps(agreed, everywhere), smooth, params.median_px);
+  cv::medianBlur(fill_occlusions(agreed, everywhere), smooth, params.median_px);
   const cv::Mat outliers = cv::abs(agreed - smooth) > params.max_deviation_mm;
   cv::Mat filtered = smooth.clone();
   filtered.setTo(kUnknown, outliers | ~known_in(agreed));
@@ -204,7 +204,7 @@ cv::Mat filter_heights(const cv::Mat& heights, const SweepView& reference, const
 double volume_under_ml(const cv::Mat& heights, const cv::Mat& mask, const SweepView& view) {
   const int known = cv::countNonZero(known_in(heights) & mask);
   if (2 * known < cv::countNonZero(mask) || known == 0) return std::numeric_limits<double>::quiet_NaN();
-  const cv::Mat filled = fill_gaps(heights, mask);
+  const cv::Mat filled = fill_occlusions(heights, mask);
   const Pose dish_from_camera = view.camera_from_dish.inverse();
   double sum_ml = 0.0;
   for (int y = 0; y + 1 < mask.rows; ++y) {

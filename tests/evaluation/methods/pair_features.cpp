@@ -168,7 +168,7 @@ std::vector<IndexPair> match_points(const PointFeatures& first, const PointFeatu
 }
 
 PairMatches match_pair(const CaptureSession& session, Detector detector) {
-  const double ratio = static_cast<double>(MatcherParams{}.distinctiveness_ratio);
+  const double ratio = static_cast<double>(paper::MatcherParams{}.distinctiveness_ratio);
   const PointFeatures pattern = find_on_pattern(session, detector);
   const Stopwatch watch;
   const std::array<PointFeatures, 2> views = {find_in_view(session, 0, detector),

@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "core/base/ransac.hpp"
+#include "core/geometry/triangulation.hpp"
 #include "core/paper/pose/epipolar.hpp"
 #include "core/paper/pose/essential_decomposition.hpp"
 #include "core/paper/pose/five_point.hpp"
-#include "core/paper/pose/triangulation.hpp"
 
 namespace traygauge::tables {
 namespace {
@@ -25,13 +25,13 @@ struct Hypothesis {
 std::vector<Hypothesis> draw_hypotheses(std::span<const RayMatch> matches, std::size_t wanted,
                                         Random& random) {
   std::vector<Hypothesis> hypotheses;
-  std::array<Mat3, kMaxEssentials> models;
+  std::array<Mat3, paper::kMaxEssentials> models;
   // Samples in special position give no model; not all can be such.
   for (std::size_t draws = 0; hypotheses.size() < wanted && draws < 2 * wanted; ++draws) {
     std::array<RayMatch, kSample> sample;
     const auto drawn = sample_distinct<kSample>(random, matches.size());
     for (std::size_t k = 0; k < kSample; ++k) sample[k] = matches[drawn[k]];
-    const int count = solve_five_point(sample, models);
+    const int count = paper::solve_five_point(sample, models);
     for (int m = 0; m < count && hypotheses.size() < wanted; ++m)
       hypotheses.push_back({models[static_cast<std::size_t>(m)]});
   }
@@ -50,10 +50,10 @@ std::vector<std::size_t> shuffled(std::size_t count, Random& random) {
 bool choose_motion(const Mat3& essential, std::span<const RayMatch> matches, double focal_px,
                    double threshold_px, Pose& motion) {
   std::size_t most = 0;
-  for (const Pose& candidate : decompose_essential(essential)) {
+  for (const Pose& candidate : paper::decompose_essential(essential)) {
     const auto in_front = [&](const RayMatch& match) {
       Vec3 point;
-      return symmetric_epipolar_distance_px(essential, match, focal_px) <= threshold_px &&
+      return paper::symmetric_epipolar_distance_px(essential, match, focal_px) <= threshold_px &&
              triangulate(match, candidate, point);
     };
     const auto count = static_cast<std::size_t>(std::count_if(matches.begin(), matches.end(), in_front));
@@ -82,7 +82,7 @@ bool Presac::find_motion(std::span<const RayMatch> matches, double focal_px, Ran
     for (Hypothesis& own : hypotheses) {
       // The logarithm of a Cauchy distribution, as Nistér scores.
       const double distance =
-          symmetric_epipolar_distance_px(own.essential, matches[i], focal_px) * inverse_scale;
+          paper::symmetric_epipolar_distance_px(own.essential, matches[i], focal_px) * inverse_scale;
       own.score -= std::log1p(distance * distance);
     }
     const auto kept =

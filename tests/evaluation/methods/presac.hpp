@@ -17,7 +17,7 @@ struct PresacParams {
 
 // Scores all hypotheses on one match after the other, in a random order, and keeps the best
 // f(i) = floor(M 2^-floor(i / B)) of them: breadth first.
-class Presac final : public MotionSearch {
+class Presac final : public paper::MotionSearch {
  public:
   explicit Presac(const PresacParams& params = {}) : params_(params) {}
   bool find_motion(std::span<const RayMatch> matches, double focal_px, Random& random,

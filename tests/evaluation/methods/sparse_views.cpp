@@ -6,7 +6,7 @@
 #include <limits>
 #include <vector>
 
-#include "core/paper/pose/triangulation.hpp"
+#include "core/geometry/triangulation.hpp"
 #include "firmware/evaluate/statistics.hpp"
 #include "tests/evaluation/methods/stopwatch.hpp"
 

@@ -4,10 +4,10 @@
 #include <array>
 #include <opencv2/calib3d.hpp>
 
+#include "core/geometry/triangulation.hpp"
 #include "core/labels/label_regions.hpp"
 #include "core/paper/base/plane_fit.hpp"
 #include "core/paper/pose/epipolar.hpp"
-#include "core/paper/pose/triangulation.hpp"
 #include "tests/evaluation/methods/given_measurement.hpp"
 
 namespace traygauge::tables {
@@ -32,8 +32,8 @@ std::optional<Plane> print_in_cloud(const CaptureSession& session, const PairMat
     if (rays && triangulate(*rays, motion, point)) points.push_back(point);
   }
   Random random(seed);
-  PlaneFit fit;
-  if (!fit_plane(points, {}, random, fit)) return {};
+  paper::PlaneFit fit;
+  if (!paper::fit_plane(points, {}, random, fit)) return {};
   return fit.plane;
 }
 
@@ -69,8 +69,8 @@ std::optional<CalibratedPair> calibrate_pair(CaptureSession& session, const Pair
   const Mat3 essential = essential_matrix(pair.second_from_first);
   for (const paper::GivenMatch& match : matches.matches) {
     const auto rays = rays_of(session, match.first, match.second);
-    if (rays &&
-        symmetric_epipolar_distance_px(essential, *rays, focal_px) <= measurement.report.inlier_threshold_px)
+    if (rays && paper::symmetric_epipolar_distance_px(essential, *rays, focal_px) <=
+                    measurement.report.inlier_threshold_px)
       pair.inliers.push_back(*rays);
   }
   refusal = StatusCode::ok;
@@ -79,7 +79,7 @@ std::optional<CalibratedPair> calibrate_pair(CaptureSession& session, const Pair
 
 std::optional<Plane> find_card_plane(const CaptureSession& session, int view, const PointFeatures& points,
                                      const PointFeatures& pattern) {
-  const double ratio = static_cast<double>(MatcherParams{}.distinctiveness_ratio);
+  const double ratio = static_cast<double>(paper::MatcherParams{}.distinctiveness_ratio);
   std::vector<cv::Point2d> rays;
   std::vector<cv::Point2d> printed;
   for (const IndexPair& pair : match_points(points, pattern, Detector::sift, ratio)) {

@@ -83,7 +83,7 @@ class Finder {
     for (const FoundDish& found : tray.dishes) mark_food(frame, view, found, tray.found);
   }
 
-  static std::vector<Vec2> outline(const DishSearchView& view, const DishPlace& place, double share) {
+  static std::vector<Vec2> outline(const DishSearchView& view, const DishPose& place, double share) {
     std::vector<Vec2> corners(kCorners);
     for (std::size_t i = 0; i < kCorners; ++i) {
       const double angle = 2.0 * std::numbers::pi * static_cast<double>(i) / kCorners;
@@ -113,15 +113,15 @@ class Finder {
     std::vector<Vec2> corners = outline(view, dish.place, 1.0);
     if (!load_dish_raster(frame, corners, kPxPerMm, params().food.raster, workspace.raster, raster)) return;
     mark_zone(raster, corners, DishZone::edge);
-    const double edge_share = 2.0 * params().flange_begin_mm / dish.place.size_mm[0];
-    corners = outline(view, dish.place, 1.0 - edge_share);
+    const double edge_fraction = 2.0 * params().flange_begin_mm / dish.place.size_mm[0];
+    corners = outline(view, dish.place, 1.0 - edge_fraction);
     mark_zone(raster, corners, DishZone::flange);
     corners = outline(view, dish.place, 1.0 - kFlangeShare);
     mark_zone(raster, corners, DishZone::inside);
     const ImageView<std::uint8_t> cells{memory_.food.cells.data(), raster.width(), raster.height()};
     // One picture alone tells no height.
-    const ImageView<ReliefSample> relief{workspace.relief.data(), raster.width(), raster.height()};
-    std::fill_n(relief.data, raster.width() * raster.height(), ReliefSample{});
+    const ImageView<HeightSample> relief{workspace.relief.data(), raster.width(), raster.height()};
+    std::fill_n(relief.data, raster.width() * raster.height(), HeightSample{});
     if (!outline_food(raster, relief, params().food, workspace, cells)) return;
     for (int y = 0; y < raster.height(); ++y) {
       for (int x = 0; x < raster.width(); ++x) {

@@ -35,7 +35,7 @@ struct OpenPair {
   }
 };
 
-void search_with(MotionSearch& search, CaptureSession& session) {
+void search_with(paper::MotionSearch& search, CaptureSession& session) {
   if (session.pictures() == nullptr || !session.paper_estimator().set_motion_search(&search).ok())
     throw UsageError("another search for the motion needs profile paper");
 }

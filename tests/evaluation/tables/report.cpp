@@ -54,7 +54,7 @@ void compose_errors(const std::vector<Evaluation>& profiles, std::ostream& text)
     text << "| profile " << own.profile;
     for (const std::string& value :
          {cell(f.mape, 2), signed_cell(f.bias, 2), cell(f.within_10, 1), cell(f.within_20, 1), cell(f.cv, 2),
-          cell(f.cv_below_10, 1), cell(f.refused_share, 1)})
+          cell(f.cv_below_10, 1), cell(f.refused_fraction, 1)})
       text << " | " << value;
     text << " |\n";
   }

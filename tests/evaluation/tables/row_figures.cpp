@@ -52,7 +52,7 @@ std::array<std::string, kCells> cells_of(const MeasuredRow& row) {
           cell(foods.mape, 2),
           signed_cell(foods.bias, 2),
           cell(row.figures.time_s, 3),
-          cell(foods.refused_share, 1),
+          cell(foods.refused_fraction, 1),
           cell(foods.mape_refusals_as_100, 2),
           std::to_string(foods.items_tried),
           std::to_string(row.figures.pairs)};

@@ -99,7 +99,7 @@ TEST_F(EnrolDish, WritesTheDishThatWasRendered) {
     EXPECT_EQ(document["dish"]["bottom_height_mm"], written.bottom_height_mm);
     EXPECT_EQ(document["dish"]["profile"].size(), written.profile.size());
     EXPECT_LT(document["residual_mm"], 0.15);
-    EXPECT_GT(document["known_share"], 0.9);
+    EXPECT_GT(document["known_fraction"], 0.9);
     EXPECT_LT(document["lean_deg"], 0.2);
     EXPECT_NEAR(document["relative_angle_deg"], 18.0, 1.0);
   }
@@ -156,7 +156,7 @@ TEST_F(EnrolDish, ThePlainGlazeIsRefusedButItsSizeIsSaid) {
   EXPECT_TRUE(document["file"].is_null());
   EXPECT_NEAR(document["edge"]["outer_size_mm"][0], 260.0, 0.5);
   EXPECT_NEAR(document["edge"]["height_mm"], 21.4, 0.5);
-  EXPECT_LT(document["known_share"], 0.5);
+  EXPECT_LT(document["known_fraction"], 0.5);
   expect_refused(enrol(plain.folder(), "white"), 1, "Draw a fine pattern");
 }
 

@@ -34,7 +34,7 @@ TEST(Accuracy, OverItems) {
   EXPECT_EQ(figures.items_tried, 3);
   EXPECT_EQ(figures.estimates, 5);
   EXPECT_EQ(figures.refused, 3);
-  EXPECT_NEAR(figures.refused_share, 37.5, 1e-12);
+  EXPECT_NEAR(figures.refused_fraction, 37.5, 1e-12);
   EXPECT_NEAR(figures.mape, 20.0 / 3.0, 1e-12);
   EXPECT_NEAR(figures.mape_refusals_as_100, (35.0 + 0.0 + 100.0) / 3.0, 1e-12);
   EXPECT_NEAR(figures.pmae, 10.0, 1e-12);  // 40 of 400 ml

@@ -121,7 +121,7 @@ TRAYGAUGE_FAKE Status Estimator::add_view_without_features(const ViewInput& view
 TRAYGAUGE_FAKE Status Estimator::set_matches(std::span<const GivenMatch>, std::span<const GivenCardMatch>) {
   return StatusCode::ok;
 }
-TRAYGAUGE_FAKE Status Estimator::set_motion_search(MotionSearch*) {
+TRAYGAUGE_FAKE Status Estimator::set_motion_search(paper::MotionSearch*) {
   return StatusCode::ok;
 }
 TRAYGAUGE_FAKE const Measurement& Estimator::estimate(std::uint64_t seed) {

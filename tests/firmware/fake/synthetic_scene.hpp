@@ -37,8 +37,8 @@ class SyntheticScene {
   std::vector<std::uint8_t> labels_;
   std::vector<float> depth_mm_;
   std::vector<Disparity> disparity_;
-  std::vector<MeshPoint> points_;
-  std::vector<MeshTriangle> triangles_;
+  std::vector<paper::MeshPoint> points_;
+  std::vector<paper::MeshTriangle> triangles_;
   std::vector<ItemResult> items_;
 };
 

@@ -25,8 +25,8 @@ TEST(Noise, TheNearestCellIsTheNearestOfTheCellsAround) {
       const Eigen::Vector3i place = point.array().floor().cast<int>().matrix() +
                                     Eigen::Vector3i(cell % 3 - 1, cell / 3 % 3 - 1, cell / 9 - 1);
       const std::uint32_t id = hash_cell(place.x(), place.y(), place.z(), seed);
-      const Eigen::Vector3f offset(hash_share(id), hash_share(id * 0x9E3779B9U),
-                                   hash_share(id * 0x85EBCA6BU));
+      const Eigen::Vector3f offset(hash_fraction(id), hash_fraction(id * 0x9E3779B9U),
+                                   hash_fraction(id * 0x85EBCA6BU));
       const float distance = (place.cast<float>() + offset - point).norm();
       least = std::min(least, distance);
       is_a_cell |= id == found.id && std::abs(distance - found.distance) < 1e-5F;

@@ -1,4 +1,4 @@
-#include "core/paper/pose/triangulation.hpp"
+#include "core/geometry/triangulation.hpp"
 
 #include <algorithm>
 #include <cmath>
