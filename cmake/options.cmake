@@ -20,6 +20,11 @@ target_compile_options(traygauge_options INTERFACE
   $<$<BOOL:${TRAYGAUGE_WERROR}>:-Werror>
   -ffp-contract=off)  # no fused multiply-add: the same bits on every processor
 target_include_directories(traygauge_options INTERFACE ${TRAYGAUGE_ROOT})
+if(NOT TRAYGAUGE_SANITIZERS)
+  # A program holds no function that it does not use, however sources are merged.
+  target_compile_options(traygauge_options INTERFACE -ffunction-sections -fdata-sections)
+  target_link_options(traygauge_options INTERFACE LINKER:--gc-sections)
+endif()
 
 if(TRAYGAUGE_SANITIZERS)
   target_compile_options(traygauge_options INTERFACE
