@@ -1,6 +1,7 @@
 # make build | demo | test | bench: each installs what config/packages.txt names and is missing, then does it.
 # make board-test: the drivers and the station on a real kernel in an emulated machine; BOARD=arm64 cross-builds for it.
 # make arm-test: cross-builds for 64-bit ARM, runs tests and compares volumes under user-mode emulation.
+# make test-debian13: builds and tests in a Debian 13, whatever this machine is.
 # make lint | format | sanitize: further checks; lint takes a quarter of an hour. CI=true adds to `make test` clang-tidy on what
 # the last commit changed, the sanitizers, ARM, and the drivers on a real kernel.
 
@@ -17,7 +18,7 @@ endif
 sources = git ls-files '*.cpp' '*.hpp'
 ctest = ctest --output-on-failure --no-tests=error -j $(JOBS) -LE '^bench$$'
 
-.PHONY: configure build build-all demo test test-programs golden bench board-test board-packages board-guest arm-sysroot board-programs board-drivers board-gpiod-2 board-station arm-test lint lint-changed format check-format check-captures sanitize asan-ubsan tsan packages clean
+.PHONY: configure build build-all demo test test-programs golden bench board-test board-packages board-guest arm-sysroot board-programs board-drivers board-gpiod-2 board-station arm-test test-debian13 lint lint-changed format check-format check-captures sanitize asan-ubsan tsan packages clean
 
 configure: packages
 	cmake --preset release $(options)
@@ -111,6 +112,11 @@ arm-test: build arm-sysroot
 	  env TRAYGAUGE_CAPTURES= sh -c '$(in_arm) "$$(find build-aarch64/tests -type f -name TEST)" --gtest_brief=1 --gtest_filter=-CardAlignment*'
 	RUN_B='$(in_arm)' LIMIT_ML=0.01 tests/captures/compare_builds.sh build build-aarch64 simulator/demo/*_and_*
 
+# Builds and tests in a Debian 13 beside this machine's, which stays in build-debian13: half an hour on two cores.
+test-debian13: packages
+	config/install_packages.sh tests/debian13/packages.txt
+	tests/debian13/test_debian13.sh build-debian13
+
 packages:
 	@config/install_packages.sh
 
@@ -156,4 +162,4 @@ tsan: packages
 	printf '%s\n' $(TSAN_TESTS) | xargs -P $(JOBS) -I TEST sh -c '"$$(find build-tsan -type f -name TEST)" --gtest_brief=1'
 
 clean:
-	rm -rf build build-debug build-lint build-asan-ubsan build-tsan build-aarch64 build-gpiod-2 build-board
+	rm -rf build build-debug build-lint build-asan-ubsan build-tsan build-aarch64 build-gpiod-2 build-board build-debian13
