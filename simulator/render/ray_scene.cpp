@@ -1,7 +1,5 @@
 #include "simulator/render/ray_scene.hpp"
 
-#include <embree3/rtcore.h>
-
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
@@ -9,6 +7,8 @@
 #include <cstring>
 #include <stdexcept>
 #include <string>
+
+#include "simulator/render/embree.hpp"
 
 namespace traygauge {
 namespace {
@@ -52,14 +52,6 @@ RTCGeometry make_geometry(RTCDevice device, const TriangleMesh& mesh) {
   }
   rtcCommitGeometry(geometry);
   return geometry;
-}
-
-RTCIntersectContext context_for(RayBundle bundle) {
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
-  context.flags = bundle == RayBundle::coherent ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT
-                                                : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
-  return context;
 }
 
 struct Corner {
@@ -187,7 +179,7 @@ SurfaceHit RayScene::hit_of(const Ray& ray, unsigned geometry, unsigned triangle
 }
 
 void RayScene::intersect(std::span<const Ray> rays, std::span<SurfaceHit> hits, RayBundle bundle) const {
-  RTCIntersectContext context = context_for(bundle);
+  embree::Query query(bundle == RayBundle::coherent);
   for (std::size_t first = 0; first < rays.size(); first += kHitPacket) {
     const std::size_t count = std::min(kHitPacket, rays.size() - first);
     alignas(32) std::array<int, kHitPacket> valid{};
@@ -198,7 +190,7 @@ void RayScene::intersect(std::span<const Ray> rays, std::span<SurfaceHit> hits, 
       packet.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
       packet.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
     }
-    rtcIntersect8(valid.data(), handles_->scene, &context, &packet);
+    query.intersect(valid.data(), handles_->scene, packet);
     for (std::size_t i = 0; i < count; ++i) {
       if (packet.hit.geomID[i] == RTC_INVALID_GEOMETRY_ID) {
         hits[first + i] = {};
@@ -212,11 +204,11 @@ void RayScene::intersect(std::span<const Ray> rays, std::span<SurfaceHit> hits, 
 
 void RayScene::occlude(std::span<const Ray> rays, std::span<std::uint8_t> is_occluded,
                        RayBundle bundle) const {
-  RTCIntersectContext context = context_for(bundle);
+  embree::Query query(bundle == RayBundle::coherent);
   while (rays.size() > kShadowPacket) {
     const std::size_t count = std::min(kWideShadowPacket, rays.size());
     const auto trace = [&](const int* valid, RTCRay16& packet) {
-      rtcOccluded16(valid, handles_->scene, &context, &packet);
+      query.occluded(valid, handles_->scene, packet);
     };
     occlude_packet<kWideShadowPacket, RTCRay16>(rays.first(count), is_occluded, trace);
     rays = rays.subspan(count);
@@ -224,7 +216,7 @@ void RayScene::occlude(std::span<const Ray> rays, std::span<std::uint8_t> is_occ
   }
   if (rays.empty()) return;
   const auto trace = [&](const int* valid, RTCRay8& packet) {
-    rtcOccluded8(valid, handles_->scene, &context, &packet);
+    query.occluded(valid, handles_->scene, packet);
   };
   occlude_packet<kShadowPacket, RTCRay8>(rays, is_occluded, trace);
 }

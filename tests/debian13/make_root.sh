@@ -27,7 +27,7 @@ echo "debian13: packages" >&2
 mmdebstrap --quiet --mode=root --variant=apt --format=directory --include="$wanted" --aptopt="$folder/apt.conf" \
   --dpkgopt=force-unsafe-io --dpkgopt='path-exclude=/usr/share/doc/*' --dpkgopt='path-exclude=/usr/share/man/*' \
   --dpkgopt='path-exclude=/usr/share/locale/*' \
-  --skip=essential/unlink,cleanup/apt/lists,download/empty \
+  --skip=essential/unlink,cleanup/apt/lists \
   --setup-hook='mkdir -p "$1/var/cache/apt/archives"' \
   --setup-hook="sync-in '$folder/debs' /var/cache/apt/archives" \
   --customize-hook="sync-out /var/cache/apt/archives '$folder/debs'" \

@@ -47,6 +47,15 @@ constexpr double kCardMm = kBlockSide * kPitchMm;
 const Vec3 kCardOnPage(kFirstMarker* kPitchMm - 0.5 * (kPitchMm - kMarkerMm), 0.5 * (kPitchMm - kMarkerMm),
                        0.0);
 
+// OpenCV renamed it in 4.7.
+void draw_marker(const auto& dictionary, int id, int side_px, cv::Mat& marker) {
+#if CV_VERSION_MAJOR > 4 || CV_VERSION_MINOR >= 7
+  cv::aruco::generateImageMarker(dictionary, id, side_px, marker);
+#else
+  cv::aruco::drawMarker(dictionary, id, side_px, marker);
+#endif
+}
+
 cv::Mat1b draw_card() {
   constexpr int kPxPerMm = 12;
   constexpr int kPitchPx = 40 * kPxPerMm;
@@ -57,7 +66,7 @@ cv::Mat1b draw_card() {
   for (int row = 0; row < kBlockSide; ++row) {
     for (int column = 0; column < kBlockSide; ++column) {
       cv::Mat marker;
-      cv::aruco::drawMarker(dictionary, kMarkersAcrossPage * row + kFirstMarker + column, kMarkerPx, marker);
+      draw_marker(dictionary, kMarkersAcrossPage * row + kFirstMarker + column, kMarkerPx, marker);
       marker.copyTo(print({column * kPitchPx + kGapPx, row * kPitchPx + kGapPx, kMarkerPx, kMarkerPx}));
     }
   }
