@@ -1,6 +1,7 @@
 // Every way in which a measurement can end, with the sentence that a person reads.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 
@@ -91,9 +92,10 @@ enum class StatusCode : std::uint8_t {
 #undef TRAYGAUGE_CODE
 };
 
-#define TRAYGAUGE_ONE(name, text) +1
-inline constexpr std::size_t kStatusCodeCount = 0 TRAYGAUGE_STATUS_CODES(TRAYGAUGE_ONE);
-#undef TRAYGAUGE_ONE
+#define TRAYGAUGE_NAME(name, text) #name,
+inline constexpr auto kStatusNames = std::to_array<const char*>({TRAYGAUGE_STATUS_CODES(TRAYGAUGE_NAME)});
+#undef TRAYGAUGE_NAME
+inline constexpr std::size_t kStatusCodeCount = kStatusNames.size();
 
 // The code as the JSON contract spells it, e.g. "card_not_found".
 const char* name(StatusCode code);

@@ -1,6 +1,7 @@
 // A choice of label values: what stands on one dish, say.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 
@@ -13,10 +14,7 @@ class LabelSet {
   constexpr void add(std::uint8_t label) { contains_[label] = true; }
   constexpr void remove(std::uint8_t label) { contains_[label] = false; }
   constexpr bool empty() const {
-    for (const bool contained : contains_) {
-      if (contained) return false;
-    }
-    return true;
+    return std::none_of(contains_.begin(), contains_.end(), [](bool contained) { return contained; });
   }
   constexpr bool contains(std::uint8_t label) const { return contains_[label]; }
 

@@ -36,7 +36,7 @@ class TrayEstimator {
   // Takes the first, then the second view. Where the first has no labels, those of both are found: the card
   // at once, dishes and food with the second view. What fails here is also what estimate() reports.
   // wrong_call, which changes nothing: a third view.
-  Status add_view(const ViewInput& view);
+  Status add_view(const ViewInput& input);
 
   // Measures the two views, as often as is liked; the same input and seed give the same bits. Shows its
   // stages to `observer`, which may be null.

@@ -19,7 +19,7 @@ Status measure_labels(const FrameView& frame, const Configuration& configuration
   if (const Status status = check_sizes(frame, view.labels, view.lens, configuration.limits); !status.ok()) {
     return status;
   }
-  view.regions() = measure_regions(view.labels);
+  view.region_storage.front() = measure_regions(view.labels);
   return StatusCode::ok;
 }
 

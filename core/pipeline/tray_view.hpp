@@ -33,7 +33,6 @@ struct TrayView {
   std::span<ViewQuality> quality_storage;  // one
   std::span<CardAlignment> card_storage;   // one
 
-  LabelRegions& regions() { return region_storage.front(); }
   const LabelRegions& regions() const { return region_storage.front(); }
   const ViewQuality& quality() const { return quality_storage.front(); }
   const CardAlignment& card() const { return card_storage.front(); }

@@ -3,23 +3,18 @@
 namespace traygauge {
 namespace {
 
-struct WarningText {
-  const char* name;
-  const char* sentence;
-};
-
-#define TRAYGAUGE_TEXT(code, text) {#code, text},
-constexpr std::array<WarningText, kWarningCount> kWarningTexts = {{TRAYGAUGE_WARNINGS(TRAYGAUGE_TEXT)}};
+#define TRAYGAUGE_TEXT(code, text) text,
+constexpr std::array<const char*, kWarningCount> kWarningTexts = {TRAYGAUGE_WARNINGS(TRAYGAUGE_TEXT)};
 #undef TRAYGAUGE_TEXT
 
 }  // namespace
 
 const char* name(Warning warning) {
-  return kWarningTexts[static_cast<std::size_t>(warning)].name;
+  return kWarningNames[static_cast<std::size_t>(warning)];
 }
 
 const char* sentence(Warning warning) {
-  return kWarningTexts[static_cast<std::size_t>(warning)].sentence;
+  return kWarningTexts[static_cast<std::size_t>(warning)];
 }
 
 }  // namespace traygauge

@@ -1,6 +1,7 @@
 // Doubts that do not stop a measurement, and about what they are.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -56,9 +57,10 @@ enum class Warning : std::uint8_t {
 #undef TRAYGAUGE_CODE
 };
 
-#define TRAYGAUGE_ONE(name, text) +1
-inline constexpr std::size_t kWarningCount = 0 TRAYGAUGE_WARNINGS(TRAYGAUGE_ONE);
-#undef TRAYGAUGE_ONE
+#define TRAYGAUGE_NAME(name, text) #name,
+inline constexpr auto kWarningNames = std::to_array<const char*>({TRAYGAUGE_WARNINGS(TRAYGAUGE_NAME)});
+#undef TRAYGAUGE_NAME
+inline constexpr std::size_t kWarningCount = kWarningNames.size();
 
 // As the JSON contract spells it.
 const char* name(Warning warning);
@@ -79,10 +81,7 @@ class WarningSet {
     return labels_[static_cast<std::size_t>(warning)].contains(label);
   }
   bool empty() const {
-    for (const LabelSet& labels : labels_) {
-      if (!labels.empty()) return false;
-    }
-    return true;
+    return std::all_of(labels_.begin(), labels_.end(), [](const LabelSet& labels) { return labels.empty(); });
   }
   // Calls action(warning, label) for each, in the order of the warnings, then of the labels.
   template <class Action>

@@ -12,10 +12,6 @@
 #include "core/pipeline/view_input.hpp"
 
 namespace traygauge::paper {
-class MotionSearch;
-}
-
-namespace traygauge::paper {
 
 class MotionSearch;
 struct EstimatorState;
@@ -53,9 +49,9 @@ class Estimator {
 
   // Takes the first, then the second view, and finds its features at once. What fails here is also what
   // estimate() reports. A third view is refused (wrong_call) and changes nothing.
-  Status add_view(const ViewInput& view);
+  Status add_view(const ViewInput& input);
   // The same without features, for set_matches().
-  Status add_view_without_features(const ViewInput& view);
+  Status add_view_without_features(const ViewInput& input);
   // Replaces matching; after both views. wrong_call before them, and without a match.
   Status set_matches(std::span<const GivenMatch> matches, std::span<const GivenCardMatch> card_matches);
   // `search` looks for the motion in the place of RANSAC, and what it finds is refined as usual; nullptr:
