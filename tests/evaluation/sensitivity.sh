@@ -1,7 +1,7 @@
 #!/bin/sh
-# What each open parameter does to the result: one change at a time over a set of captures with truth.
-# Usage: sensitivity.sh PROGRAM SET [SEEDS [NAME=VALUE…]]; without changes named, those of profile paper listed below.
-# Names that begin with "best." are measured with profile best. Prints a Markdown row for each.
+# What each parameter of profile paper does to the result: one change at a time over a set of captures with truth.
+# Usage: sensitivity.sh PROGRAM SET [SEEDS [NAME=VALUE…]]; without changes named, those listed below. Prints a Markdown row for
+# each.
 set -eu
 program=$1
 set_folder=$2
@@ -48,7 +48,5 @@ measure() {
     }' "$folder/captures.csv"
 }
 set -- ${*:-$changes}
-profile=paper
-case $1 in best.*) profile=best ;; esac
-measure "as it is" --profile $profile
-for change in "$@"; do measure "$change" --profile $profile --set "$change"; done
+measure "as it is" --profile paper
+for change in "$@"; do measure "$change" --profile paper --set "$change"; done
