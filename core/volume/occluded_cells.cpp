@@ -173,7 +173,7 @@ class HiddenFill {
     bool any = false;
     for_each_cell([&](int x, int y, const HeightCell& cell) {
       if (any || cell.kind != CellKind::unseen) return;
-      any = dish_.profile.inset_mm(dish_.to_dish(map_.centre_mm(x, y))) > 0.0;
+      any = dish_.profile.contains(dish_.to_dish(map_.centre_mm(x, y)));
     });
     return any;
   }
