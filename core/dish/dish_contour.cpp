@@ -68,22 +68,28 @@ class BorderWalk {
   DishContour& contour_;
 };
 
-struct RegionCentre {
-  double pixels = 0.0;
-  int row = 0;
+int count_in_row(ImageView<const std::uint8_t> labels, const LabelSet& on_dish, int y, int step) {
+  const std::uint8_t* row = labels.row(y);
+  int count = 0;
+  for (int x = 0; x < labels.width; x += step) count += on_dish.contains(row[x]) ? 1 : 0;
+  return count;
+}
+
+struct DishPixels {
+  double count = 0.0;
+  int median_row = 0;
 };
 
-RegionCentre measure_centre(ImageView<const std::uint8_t> labels, const LabelSet& on_dish, int step) {
-  double count = 0.0;
-  double row_sum = 0.0;
-  for (int y = 0; y < labels.height; y += step) {
-    const std::uint8_t* row = labels.row(y);
-    int in_row = 0;
-    for (int x = 0; x < labels.width; x += step) in_row += on_dish.contains(row[x]) ? 1 : 0;
-    count += in_row;
-    row_sum += static_cast<double>(in_row) * y;
+DishPixels measure_pixels(ImageView<const std::uint8_t> labels, const LabelSet& on_dish, int step) {
+  int sampled = 0;
+  for (int y = 0; y < labels.height; y += step) sampled += count_in_row(labels, on_dish, y, step);
+  int above = 0;
+  int y = 0;
+  for (; y < labels.height; y += step) {
+    above += count_in_row(labels, on_dish, y, step);
+    if (2 * above >= sampled) break;
   }
-  return {count * step * step, count > 0.0 ? static_cast<int>(row_sum / count) : 0};
+  return {static_cast<double>(sampled) * step * step, y};
 }
 
 }  // namespace
@@ -91,15 +97,15 @@ RegionCentre measure_centre(ImageView<const std::uint8_t> labels, const LabelSet
 Status trace_dish_contour(ImageView<const std::uint8_t> labels, const LabelSet& on_dish, int search_step,
                           DishContour& contour) {
   contour.sides.clear();
-  const RegionCentre centre = measure_centre(labels, on_dish, search_step);
-  if (centre.pixels == 0.0) return StatusCode::no_dish_label;
+  const DishPixels dish = measure_pixels(labels, on_dish, search_step);
+  if (dish.count == 0.0) return StatusCode::no_dish_label;
   BorderWalk walk(labels, on_dish, contour);
   bool is_list_full = false;
-  // Only a region that holds most of the pixels reaches over their mean row for certain.
+  // A connected region that holds most of the pixels has some on both sides of their median row.
   for (int x = 0; x < labels.width; ++x) {
-    if (!walk.is_dish(x, centre.row) || walk.is_dish(x - 1, centre.row)) continue;
-    const double area = walk.walk_around(x, centre.row);
-    if (area > 0.5 * centre.pixels) return StatusCode::ok;
+    if (!walk.is_dish(x, dish.median_row) || walk.is_dish(x - 1, dish.median_row)) continue;
+    const double area = walk.walk_around(x, dish.median_row);
+    if (area > 0.5 * dish.count) return StatusCode::ok;
     is_list_full = is_list_full || contour.sides.full();
   }
   contour.sides.clear();
