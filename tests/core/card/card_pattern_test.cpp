@@ -1,4 +1,6 @@
 // The blurred prints against OpenCV's Gaussian blur in linear light.
+#include "core/card/card_pattern.hpp"
+
 #include <gtest/gtest.h>
 
 #include <opencv2/imgproc.hpp>
