@@ -15,6 +15,8 @@ options := $(if $(shell command -v ccache),-DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
 ifeq ($(CI),true)
 options += -DTRAYGAUGE_WHOLE_TESTS=ON
 endif
+# What comes next, and when it began.
+say = @echo "== $$(date +%T) $(1)"
 sources = git ls-files '*.cpp' '*.hpp'
 ctest = ctest --output-on-failure --no-tests=error -j $(JOBS) -LE '^bench$$'
 
@@ -34,6 +36,7 @@ demo: build
 
 # On CI what the board and ARM need is fetched beside the build.
 test-programs:
+	$(call say,building: some ten minutes on two cores when all is new)
 ifeq ($(CI),true)
 	$(MAKE) -j 3 build-all board-guest arm-sysroot
 else
@@ -41,14 +44,20 @@ else
 endif
 
 test: check-captures test-programs
+	$(call say,tests: some eight minutes)
 	$(ctest) --test-dir build
 	$(MAKE) check-format
 ifeq ($(CI),true)
+	$(call say,clang-tidy on what changed)
 	$(MAKE) lint-changed
+	$(call say,sanitizers)
 	$(MAKE) sanitize
+	$(call say,64-bit ARM)
 	$(MAKE) arm-test
+	$(call say,drivers on a real kernel)
 	$(MAKE) board-drivers
 endif
+	$(call say,all passed)
 
 # Accepts what is measured now as golden numbers: review the diff.
 golden: check-captures build-all

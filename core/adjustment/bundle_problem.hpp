@@ -1,4 +1,4 @@
-// The least-squares problem of the joint refinement: both cameras over the table, how the card lies on it,
+// The least-squares problem of the bundle adjustment: both cameras over the table, how the card lies on it,
 // and the places of the dishes.
 //
 // The dishes' places are eliminated from the normal equations (Schur's complement), so that the problem's

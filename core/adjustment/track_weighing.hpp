@@ -1,4 +1,4 @@
-// How far the joint refinement believes each point track: its variance, the scale beyond which it counts as
+// How the bundle adjustment weights each point track: its variance, the scale beyond which it counts as
 // wrong, and whether it tells of the epipolar line alone or also of the table.
 #pragma once
 

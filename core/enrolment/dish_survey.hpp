@@ -24,7 +24,7 @@ struct DishSurveyParams {
   DishEdgeParams edge;
   InsetHeightParams heights;
   ProfileFitParams profile;
-  // How far the joint refinement may take the edge from what the outlines alone said.
+  // How far the bundle adjustment may take the edge from what the outlines alone said.
   double edge_height_sigma_mm = 10.0;
   double edge_size_sigma_mm = 10.0;
   double above_edge_mm = 6.0;         // of the edge that is searched: a rim's crest

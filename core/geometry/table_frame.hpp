@@ -1,4 +1,4 @@
-// The frame in which profile `best` measures: mm, origin on the table under the top left corner of the card's
+// The frame in which the product measures: mm, origin on the table under the top left corner of the card's
 // print, x along the print's upper edge, y against its rows, z up from the table. Heights are z.
 #pragma once
 

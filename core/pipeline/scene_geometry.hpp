@@ -1,4 +1,4 @@
-// Where cameras and dishes are: tracks, joint refinement, placement of every dish.
+// Where cameras and dishes are: tracks, bundle adjustment, the pose of every dish.
 #pragma once
 
 #include <array>
@@ -61,7 +61,7 @@ Status find_geometry(const ViewPair& views, const Configuration& configuration, 
                      SceneGeometryWorkspace& workspace, StageClock& clock, MeasurementReport& report,
                      SceneGeometry& geometry);
 
-// Its last step, the joint refinement, once more: with other candidates for the dishes, say.
+// Repeats the bundle adjustment alone, for example with other candidates for the dishes.
 Status refine_geometry(const ViewPair& views, const ReferenceCard& card, const BundleParams& params,
                        SceneGeometryWorkspace& workspace, SceneGeometry& geometry);
 

@@ -1,4 +1,4 @@
-// One height map over the dish from what both views see: profile `best` integrates over it.
+// One height map over the dish from what both views see: volumes are integrals over it.
 #pragma once
 
 #include <cmath>
@@ -103,10 +103,10 @@ struct HeightMapWorkspace {
 // upper surface there. Where both views see it, their mean by weight; where one, its own. A patch between
 // samples whose line of sight grazes it is no surface, but nothing lies above it (space carving, Kutulakos &
 // Seitz 2000): under it a cell is hidden. A cell hidden from all views continues the item that hides it
-// (hidden_cells.hpp), or else what is seen at the sheet's foot, level. `kind` stays hidden for filled cells.
-// Grids without points count as no view. out_of_memory when the dish has more cells or a grid wider rows than
-// the workspace; too_little_depth when nothing is seen; invalid_configuration for a cell size that is not
-// positive.
+// (occluded_cells.hpp), or else what is seen at the sheet's foot, level. `kind` stays hidden for filled
+// cells. Grids without points count as no view. out_of_memory when the dish has more cells or a grid wider
+// rows than the workspace; too_little_depth when nothing is seen; invalid_configuration for a cell size that
+// is not positive.
 Status build_height_map(std::span<const SurfaceGrid> views, const InnerSurface& dish,
                         const HeightMapParams& params, HeightMapWorkspace& workspace, HeightMap& map);
 

@@ -1,4 +1,4 @@
-// Tracks and joint refinement on two photographs, as profile `best` strings them together.
+// Tracks and bundle adjustment on two photographs, as the product strings them together.
 #pragma once
 
 #include <array>

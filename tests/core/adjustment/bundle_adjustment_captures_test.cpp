@@ -1,4 +1,4 @@
-// Card alignment, tracking and joint refinement in a row, on rendered captures with true poses.
+// Card alignment, tracking and bundle adjustment in a row, on rendered captures with true poses.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -16,7 +16,7 @@
 #include "tests/core/adjustment/bundle_scene.hpp"
 #include "tests/core/stereo/capture_scene.hpp"
 #include "tests/support/allocated.hpp"
-#include "tests/support/capture_joint.hpp"
+#include "tests/support/capture_bundle.hpp"
 
 namespace traygauge {
 namespace {

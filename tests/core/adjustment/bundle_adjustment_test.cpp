@@ -1,4 +1,4 @@
-// The joint refinement on closed-form trays: its errors are those that it states, and what is wrong in the
+// The bundle adjustment on closed-form trays: its errors are those that it states, and what is wrong in the
 // scene does no harm.
 #include "core/adjustment/bundle_adjustment.hpp"
 

@@ -1,4 +1,4 @@
-// A tray with card, dish and textured table in closed form, as the stages before the joint refinement would
+// A tray with card, dish and textured table in closed form, as the stages before the bundle adjustment would
 // deliver it, with errors as they state them.
 #pragma once
 

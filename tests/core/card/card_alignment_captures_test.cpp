@@ -5,7 +5,7 @@
 #include <iostream>
 
 #include "tests/core/card/card_render.hpp"
-#include "tests/support/capture_joint.hpp"
+#include "tests/support/capture_bundle.hpp"
 
 namespace traygauge {
 namespace {

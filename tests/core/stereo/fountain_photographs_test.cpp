@@ -1,4 +1,4 @@
-// Tracks, joint refinement and dense surface on photographs of a fountain, with poses from a laser scan
+// Tracks, bundle adjustment and dense surface on photographs of a fountain, with poses from a laser scan
 // (Strecha and others 2008). Lengths are scaled down to those of a tray: the fountain's wall is the table.
 #include <gtest/gtest.h>
 

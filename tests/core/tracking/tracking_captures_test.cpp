@@ -11,7 +11,7 @@
 #include "core/tracking/point_tracking.hpp"
 #include "tests/support/allocated.hpp"
 #include "tests/support/cameras.hpp"
-#include "tests/support/capture_joint.hpp"
+#include "tests/support/capture_bundle.hpp"
 #include "tests/support/pictures.hpp"
 
 namespace traygauge {

@@ -51,8 +51,8 @@ struct FillMap {
   }
 };
 
-// Every known cell has a height of its own, so that a filled one tells where it took it from. With and without
-// a profile the dish is level.
+// Every known cell has a height of its own, so that a filled one tells where it took it from. With and
+// without a profile the dish is level.
 TEST(OccludedCells, FillHolesFromTheNearestWithinReach) {
   std::mt19937 random(test::random_seed());
   std::uniform_int_distribution<int> place(0, kFillSide - 1);

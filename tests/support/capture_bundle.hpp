@@ -1,4 +1,4 @@
-// A rendered capture with its truth as the joint refinement sees it.
+// A rendered capture with its truth as the bundle adjustment sees it.
 #pragma once
 
 #include <array>
