@@ -87,7 +87,8 @@ TEST(CardPicture, SamplesThinOut) {
 }
 
 // Without a cutoff that bites the sums are those of least squares: what the tone's step changes of the slope
-// is the normal matrix times the step, exactly; the pose's, nearly.
+// is the normal matrix times the step, exactly; the pose's, to a third, because Gauss and Newton leave out
+// how the residuals bend.
 TEST(CardPicture, SlopesChangeAsTheNormalMatrixSays) {
   PicturedCard card;
   const CardCorrelation start = card.correlate(card.truth);
@@ -106,7 +107,7 @@ TEST(CardPicture, SlopesChangeAsTheNormalMatrixSays) {
     const NormalEquations<12>::Vector unit = hessian.diagonal().cwiseSqrt();
     const double of_own = hessian(i, i) * size / unit[i];
     for (int j = i < 6 ? 0 : 6; j < 12; ++j) {
-      EXPECT_NEAR(change[j] / unit[j], hessian(j, i) * size / unit[j], (i < 6 ? 0.25 : 0.005) * of_own)
+      EXPECT_NEAR(change[j] / unit[j], hessian(j, i) * size / unit[j], (i < 6 ? 0.4 : 0.005) * of_own)
           << i << j;
     }
   }
