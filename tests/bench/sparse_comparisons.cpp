@@ -19,7 +19,7 @@ Method surf_method(const StageData& data) {
   const cv::Mat& picture = data.features[0].picture;
   const paper::Configuration& configuration = data.session.configuration;
   const auto workspace =
-      std::make_shared<OwnedWorkspace<paper::SurfWorkspace>>(picture.cols, picture.rows, configuration.surf);
+      std::make_shared<OwnedWorkspace<paper::SurfWorkspace>>(picture.cols, configuration.surf);
   const auto cap = static_cast<std::size_t>(configuration.caps.max_keypoints);
   return {"ours", [&picture, &configuration, workspace, keypoints = std::vector<paper::Keypoint>(cap),
                    descriptors = std::vector<paper::Descriptor>(cap),
@@ -29,8 +29,7 @@ Method surf_method(const StageData& data) {
             paper::build_integral(view_of(picture), integral);
             BoundedList<paper::Keypoint> found(keypoints);
             paper::detect_surf(integral, configuration.surf, **workspace, found);
-            paper::describe_surf(integral, configuration.surf, found.items(),
-                                 std::span(descriptors).first(found.size()));
+            paper::describe_surf(integral, found.items(), std::span(descriptors).first(found.size()));
             return static_cast<double>(found.size());
           }};
 }
@@ -53,13 +52,11 @@ Comparison compare_features(const StageData& data) {
                            cv::ORB::create(data.session.configuration.caps.max_keypoints))}};
 }
 
-Method our_matching(const std::string& name, const StageData& data, paper::MatcherParams::Search search) {
-  paper::MatcherParams params = data.session.configuration.matcher;
-  params.search = search;
+Method our_matching(const StageData& data) {
   const auto workspace = std::make_shared<OwnedWorkspace<paper::MatcherWorkspace>>(
       data.session.configuration.caps.max_keypoints);
-  return {name, [&data, params, workspace,
-                 storage = std::vector<paper::Match>(data.features[0].keypoints.size())]() mutable {
+  return {"ours", [&data, params = data.session.configuration.matcher, workspace,
+                   storage = std::vector<paper::Match>(data.features[0].keypoints.size())]() mutable {
             BoundedList<paper::Match> matches(storage);
             paper::match_features(data.features[0].set(), data.features[1].set(), params, **workspace,
                                   matches);
@@ -82,12 +79,9 @@ Method opencv_matching(const std::string& name, const StageData& data, bool exha
 }
 
 Comparison compare_matching(const StageData& data) {
-  using Search = paper::MatcherParams::Search;
   return {"matching",
           "matches",
-          {our_matching("ours, exhaustive", data, Search::exhaustive),
-           our_matching("ours, k-d tree", data, Search::kd_tree),
-           opencv_matching("cv::BFMatcher, symmetric", data, true),
+          {our_matching(data), opencv_matching("cv::BFMatcher, symmetric", data, true),
            opencv_matching("cv::FlannBasedMatcher, sym.", data, false)}};
 }
 

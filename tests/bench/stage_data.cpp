@@ -34,13 +34,13 @@ void find_features(const paper::Configuration& configuration, ViewFeatures& feat
                                   static_cast<std::size_t>(picture.rows + 1));
   const ImageView<std::uint32_t> integral(sums.data(), picture.cols + 1, picture.rows + 1);
   paper::build_integral(view_of(picture), integral);
-  OwnedWorkspace<paper::SurfWorkspace> workspace(picture.cols, picture.rows, configuration.surf);
+  OwnedWorkspace<paper::SurfWorkspace> workspace(picture.cols, configuration.surf);
   features.keypoints.resize(static_cast<std::size_t>(configuration.caps.max_keypoints));
   BoundedList<paper::Keypoint> found(features.keypoints);
   paper::detect_surf(integral, configuration.surf, *workspace, found);
   features.keypoints.resize(found.size());
   features.descriptors.resize(found.size());
-  paper::describe_surf(integral, configuration.surf, features.keypoints, features.descriptors);
+  paper::describe_surf(integral, features.keypoints, features.descriptors);
 }
 
 std::vector<RayMatch> match_rays(const std::array<ViewFeatures, 2>& features, const LensModel& lens,

@@ -18,16 +18,13 @@ matcher.distance_cutoff=0.25 matcher.distance_cutoff=0.5
 pose.threshold=fixed pose.threshold=a_contrario pose.max_noise_fraction=0.01 pose.max_noise_fraction=0.1
 pose.noise_sample=250 pose.noise_sample=4000 pose.min_inliers=8 pose.min_inliers=32 pose.min_inlier_rate=0.05 pose.min_inlier_rate=0.3
 pose.local_optimisation=false pose.local_iterations=5 pose.local_iterations=50 pose.max_restarts=0 pose.refine=false
-pose.robust_scale=2 pose.robust_scale=100 pose.try_planar_twin=false
-card.model=absolute_pose card.scale=median card.scale=card_motion card.tracks=one_side card.plane=absolute_pose
-card.inlier_fraction=0.01 card.min_distance_fraction=0.1 card.min_distance_fraction=0.5
-geometry.reference_is_steeper=false
+pose.robust_scale=2 pose.robust_scale=100
+card.model=absolute_pose card.inlier_fraction=0.01 card.min_distance_fraction=0.1 card.min_distance_fraction=0.5
 disparity_range.enlargement_px=8 disparity_range.enlargement_px=32
 stereo.cost=sad stereo.cost=zncc stereo.census_radius_px=2 stereo.census_radius_px=4 stereo.window_radius_px=0 stereo.window_radius_px=2
 stereo.window_radius_px=3 stereo.levels=1 stereo.levels=3 stereo.band_px=2 stereo.band_px=5 stereo.smoothness=4 stereo.smoothness=16
-stereo.smoothness_deviation=2 stereo.smoothness_deviation=8 stereo.median_radius_px=0 stereo.median_radius_px=1 stereo.subpixel=false
-mesh.points=1024 mesh.points=2048 mesh.points=8192 mesh.points=16384 mesh.sampling=cell_mean
-rim.source=dense rim.source=both dish.surface=card_alone dish.height=rim_points_over_card_plane volume.folded=subtracted"
+stereo.smoothness_deviation=2 stereo.smoothness_deviation=8 stereo.median_radius_px=0 stereo.median_radius_px=1
+mesh.points=1024 mesh.points=2048 mesh.points=8192 mesh.points=16384 dish.surface=card_alone"
 
 echo "| change | MAPE % | bias % | CV % | MAPE over the dish % | rotation deg | direction deg | scale % | refused |"
 echo "| --- | --- | --- | --- | --- | --- | --- | --- | --- |"

@@ -91,7 +91,7 @@ TEST(Parameters, AreFew) {
   const auto groups = read_list({});
   EXPECT_EQ(groups.at("both profiles").size(), 11U);
   EXPECT_EQ(groups.at("profile best").size(), 2U);
-  EXPECT_EQ(groups.at("profile paper").size(), 64U);
+  EXPECT_EQ(groups.at("profile paper").size(), 51U);
 }
 
 // What a person types, and a part of the one line that answers.
@@ -116,7 +116,7 @@ TEST(Parameters, WhatCannotBeMeantIsRefusedInOneLine) {
   expect_refused({"--profile", "paper", "--set", "items.max_sigma_fraction=0.1"},
                  "profile paper does not read it");
   expect_refused({"--profile", "paper", "--set", "stereo.cost=ssd"}, "expected census or sad or zncc");
-  expect_refused({"--profile", "paper", "--set", "surf.upright=yes"}, "expected true or false");
+  expect_refused({"--profile", "paper", "--set", "pose.refine=yes"}, "expected true or false");
   const CommandResult both = run({"evaluate", "--parameters", "--set", "items.max_sigma_fraction=0.1",
                                   "--set", "geometry.max_angle_deg=4e1"});
   EXPECT_EQ(both.status, kExitMeasured) << both.error;

@@ -25,23 +25,16 @@ std::int32_t common_pattern_point(std::span<const Match> first, std::span<const 
   return -1;
 }
 
-// The pattern's point of the only end that matches any, or −1.
-std::int32_t lone_pattern_point(std::span<const Match> first, std::span<const Match> second) {
-  if (first.empty() == second.empty()) return -1;
-  return first.empty() ? second.front().second : first.front().second;
-}
-
 }  // namespace
 
-void build_card_tracks(const CardObservations& observations, TrackRule rule, BoundedList<CardTrack>& tracks) {
+void build_card_tracks(const CardObservations& observations, BoundedList<CardTrack>& tracks) {
   tracks.clear();
   for (std::size_t m = 0; m < observations.first_second.size(); ++m) {
     if (observations.in_cloud[m] == 0) continue;
     const Match& match = observations.first_second[m];
     const auto of_first = matches_of(match.first, observations.first_pattern);
     const auto of_second = matches_of(match.second, observations.second_pattern);
-    std::int32_t point = common_pattern_point(of_first, of_second);
-    if (point < 0 && rule == TrackRule::one_side) point = lone_pattern_point(of_first, of_second);
+    const std::int32_t point = common_pattern_point(of_first, of_second);
     if (point < 0) continue;
     tracks.push_back({observations.pattern_mm[static_cast<std::size_t>(point)],
                       observations.first_rays[static_cast<std::size_t>(match.first)],

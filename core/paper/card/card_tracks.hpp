@@ -5,7 +5,8 @@
 #include <span>
 
 #include "core/base/bounded_list.hpp"
-#include "core/paper/card/card_scale.hpp"
+#include "core/card/card.hpp"
+#include "core/geometry/geometry.hpp"
 #include "core/paper/matching/match.hpp"
 
 namespace traygauge::paper {
@@ -23,6 +24,6 @@ struct CardObservations {
 };
 
 // One track for each match of the views, of the sparse cloud, whose ends agree on a point of the pattern.
-void build_card_tracks(const CardObservations& observations, TrackRule rule, BoundedList<CardTrack>& tracks);
+void build_card_tracks(const CardObservations& observations, BoundedList<CardTrack>& tracks);
 
 }  // namespace traygauge::paper

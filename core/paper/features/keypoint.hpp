@@ -12,7 +12,7 @@ namespace traygauge::paper {
 struct Keypoint {
   Vec2 pixel = Vec2::Zero();  // in the picture that it was detected in
   float scale_px = 0.0F;      // sigma of the filter that answers strongest; about 0.72 of a Gaussian blob's
-  float angle_rad = 0.0F;     // orientation, 0 when upright
+  float angle_rad = 0.0F;     // orientation
   float response = 0.0F;      // determinant of the Hessian
   std::int8_t laplacian = 0;  // sign of the trace: bright blobs never match dark ones (Bay et al., 4.2)
 };

@@ -30,9 +30,6 @@ struct SurfParams {
   // loses a third of the correct matches. Lower adds noise, and costs time until the cap on keypoints is
   // met.
   float min_response = 5e-5F;
-  // Skip the orientation: 25% more correct matches while the views roll less than about 15 degrees ([14],
-  // section 4), fewer and fewer beyond.
-  bool upright = false;
   // Largest ratio of the two curvatures of a blob, from 1; not in [14], the value is SIFT's [13]. Points on
   // the rim of the dish slide along it and take places from the food: 10 drops 3% of the keypoints and adds
   // 6% to the matches that the true depth confirms. 6 adds 13%, but takes 15% where keypoints are few.
@@ -43,8 +40,8 @@ struct SurfParams {
 // elongation 1 or more.
 Status validate(const SurfParams& params);
 
-// Scratch of the detector for pictures up to max_width × max_height. The responses are needed three rows at a
-// time, so it holds 15 rows: 4 (4 · 3 / first_step_px + 3) bytes per column, whatever the height.
+// Scratch of the detector for pictures up to `max_width` wide. The responses are needed three rows at a time,
+// so it holds 15 rows: 4 (4 · 3 / first_step_px + 3) bytes per column, whatever the height.
 struct SurfWorkspace {
   // Responses of each layer, three rows in a ring; a row for each of the three second derivatives.
   std::array<std::array<std::span<float>, 3>, kLayersPerOctave> responses;
@@ -53,7 +50,7 @@ struct SurfWorkspace {
   std::span<std::int32_t> columns_xy;
 
   template <class Allocator>
-  constexpr void allocate(Allocator& allocator, int max_width, int /*max_height*/, const SurfParams& params) {
+  constexpr void allocate(Allocator& allocator, int max_width, const SurfParams& params) {
     const auto columns = static_cast<std::size_t>(max_width) + 1;
     const auto samples = static_cast<std::size_t>(max_width / params.first_step_px) + 1;
     for (auto& layer : responses) {
@@ -71,7 +68,7 @@ void detect_surf(ImageView<const std::uint32_t> integral, const SurfParams& para
                  BoundedList<Keypoint>& keypoints);
 
 // Sets the angle of each keypoint and its descriptor. Equal sizes. A keypoint on uniform ground gets zeros.
-void describe_surf(ImageView<const std::uint32_t> integral, const SurfParams& params,
-                   std::span<Keypoint> keypoints, std::span<Descriptor> descriptors);
+void describe_surf(ImageView<const std::uint32_t> integral, std::span<Keypoint> keypoints,
+                   std::span<Descriptor> descriptors);
 
 }  // namespace traygauge::paper

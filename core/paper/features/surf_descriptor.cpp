@@ -110,11 +110,11 @@ void describe(ImageView<const std::uint32_t> integral, const Keypoint& keypoint,
 
 }  // namespace
 
-void describe_surf(ImageView<const std::uint32_t> integral, const SurfParams& params,
-                   std::span<Keypoint> keypoints, std::span<Descriptor> descriptors) {
+void describe_surf(ImageView<const std::uint32_t> integral, std::span<Keypoint> keypoints,
+                   std::span<Descriptor> descriptors) {
   for (std::size_t i = 0; i < keypoints.size(); ++i) {
     Keypoint& keypoint = keypoints[i];
-    const Direction direction = params.upright ? Direction{} : find_orientation(integral, keypoint);
+    const Direction direction = find_orientation(integral, keypoint);
     keypoint.angle_rad = angle_of(direction.cosine, direction.sine);
     describe(integral, keypoint, direction, descriptors[i]);
   }

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/paper/matching/exhaustive_search.hpp"
-
 namespace traygauge::paper {
 
 namespace {
@@ -12,23 +10,6 @@ namespace {
 FeatureSet first_features(const FeatureSet& features, std::size_t cap) {
   const std::size_t count = std::min({features.keypoints.size(), features.descriptors.size(), cap});
   return {features.keypoints.first(count), features.descriptors.first(count)};
-}
-
-void find_neighbours(const FeatureSet& first, const FeatureSet& second, int count,
-                     MatcherParams::Search search, MatcherWorkspace& workspace) {
-  const auto of_first = workspace.of_first.first(first.descriptors.size());
-  const auto of_second = workspace.of_second.first(second.descriptors.size());
-  if (search == MatcherParams::Search::kd_tree) {
-    build_tree(second, workspace.packed, workspace.tree);
-    search_tree(first, workspace.packed, workspace.tree, count, of_first);
-    build_tree(first, workspace.packed, workspace.tree);
-    search_tree(second, workspace.packed, workspace.tree, count, of_second);
-    return;
-  }
-  assign_slots(second.keypoints, workspace.packed);
-  fill_blocks(second.descriptors, workspace.packed);
-  search_exhaustively(first, workspace.packed, count, workspace.rows, workspace.column_limits, of_first,
-                      of_second);
 }
 
 // The place of `index` among the `top` nearest, or `top`.
@@ -82,7 +63,8 @@ void match_features(const FeatureSet& first, const FeatureSet& second, const Mat
   const FeatureSet a = first_features(first, workspace.of_first.size());
   const FeatureSet b = first_features(second, workspace.of_second.size());
   const int top = std::clamp(params.top_ranking, 1, kMaxNeighbours - 1);
-  find_neighbours(a, b, top + 1, params.search, workspace);
+  find_nearest_neighbours(a, b, top + 1, workspace.search, workspace.of_first.first(a.descriptors.size()),
+                          workspace.of_second.first(b.descriptors.size()));
   const std::size_t found = collect_symmetric(a.descriptors.size(), params, top, workspace);
   const auto candidates = workspace.candidates.first(found);
 

@@ -8,10 +8,8 @@
 #include "core/base/bounded_list.hpp"
 #include "core/base/status.hpp"
 #include "core/paper/features/keypoint.hpp"
-#include "core/paper/matching/kd_tree_search.hpp"
 #include "core/paper/matching/match.hpp"
-#include "core/paper/matching/neighbours.hpp"
-#include "core/paper/matching/packed_descriptors.hpp"
+#include "core/paper/matching/nearest_neighbours.hpp"
 
 namespace traygauge::paper {
 
@@ -23,16 +21,11 @@ struct MatcherParams {
   float distinctiveness_ratio = 1.1F;
   // Share of the worst matches dropped by distance, 0 to 1 (Table I: dropping any makes volumes worse).
   float distance_cutoff = 0.0F;
-  // Both find the same matches. In 64 dimensions the tree visits most of its leaves, so exhaustive is faster.
-  enum class Search : std::uint8_t { exhaustive, kd_tree } search = Search::exhaustive;
 };
 
 // Scratch for two pictures of up to `max_features` features each; features beyond the cap are ignored.
 struct MatcherWorkspace {
-  PackedDescriptors packed;
-  KdTree tree;
-  std::span<std::int32_t> rows;
-  std::span<float> column_limits;  // by slot of `packed`
+  NeighbourWorkspace search;
   std::span<Neighbours> of_first;
   std::span<Neighbours> of_second;
   std::span<Match> candidates;
@@ -40,10 +33,7 @@ struct MatcherWorkspace {
   template <class Allocator>
   constexpr void allocate(Allocator& arena, int max_features) {
     const auto count = static_cast<std::size_t>(max_features);
-    packed.allocate(arena, max_features);
-    tree.allocate(arena, max_features);
-    rows = arena.template take<std::int32_t>(count);
-    column_limits = arena.template take<float>(PackedDescriptors::max_slots(max_features));
+    search.allocate(arena, max_features);
     of_first = arena.template take<Neighbours>(count);
     of_second = arena.template take<Neighbours>(count);
     candidates = arena.template take<Match>(2 * count);  // up to two pairs a feature

@@ -52,13 +52,6 @@ struct ViewParams {
   double min_matched_fraction = 0.5;              // of the dish with a depth; less: too_little_depth
 };
 
-// Which view leads, and what is warned of.
-struct PairParams {
-  // Depth and mesh belong to the view nearer to the vertical; else to the first.
-  bool reference_is_steeper = true;
-  int few_card_tracks = 20;  // fewer: warning
-};
-
 // When an item counts as measured.
 struct VolumeExtractionParams {
   int min_item_px = 64;               // of the working picture, about 25 mm²: some 2 mesh points
@@ -83,7 +76,6 @@ struct Configuration : TraySetup {
   MatcherParams matcher;
   RelativePoseParams pose;
   CardScaleParams card_search;
-  PairParams pair;
   RectificationParams rectification;
   DisparityRangeParams disparity_range;
   StereoParams stereo;

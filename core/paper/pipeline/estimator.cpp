@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/paper/image/integral.hpp"
 #include "core/paper/pipeline/estimator_state.hpp"
 #include "core/paper/pipeline/feature_preparation.hpp"
 
@@ -34,6 +35,29 @@ Status finish_view(EstimatorState& state, Status status) {
   return status;
 }
 
+// Finds the features of the card's print. Its picture is reduced to about the scale at which cameras see the
+// card, so that box filters meet like structures.
+void set_up_pattern(EstimatorState& state, ImageView<const std::uint8_t> picture) {
+  const Configuration& configuration = state.configuration;
+  PreparationWorkspace& scratch = state.memory.preparation;
+  PatternMemory& pattern = state.memory.pattern;
+  const double wanted_px = configuration.view.card_px_per_mm * configuration.card.width_mm;
+  const double scale = fit_search_scale(std::min(1.0, wanted_px / picture.width), picture.width,
+                                        picture.height, configuration);
+  const int width = std::max(1, static_cast<int>(picture.width * scale));
+  const int height = std::max(1, static_cast<int>(picture.height * scale));
+  const ImageView<std::uint8_t> reduced{scratch.feature_picture.data(), width, height};
+  reduce_area(picture, reduced);
+  const ImageView<std::uint32_t> integral{scratch.integral.data(), width + 1, height + 1};
+  build_integral(reduced, integral);
+  detect_surf(integral, configuration.surf, scratch.surf, pattern.keypoints);
+  const std::size_t count = pattern.keypoints.size();
+  describe_surf(integral, pattern.keypoints.items(), pattern.descriptors.first(count));
+  for (std::size_t i = 0; i < count; ++i) {
+    pattern.positions_mm[i] = pattern_mm(pattern.keypoints[i].pixel, width, configuration.card.size());
+  }
+}
+
 }  // namespace
 
 std::size_t estimator_state_bytes() {
@@ -42,13 +66,6 @@ std::size_t estimator_state_bytes() {
 
 std::size_t required_bytes(const Configuration& configuration) {
   return estimator_state_bytes() + planned_bytes(configuration);
-}
-
-void EstimatorState::place_pattern(int width_px) {
-  const ReferenceCard& card = configuration.card;
-  for (std::size_t i = 0; i < memory.pattern.keypoints.size(); ++i) {
-    memory.pattern.positions_mm[i] = pattern_mm(memory.pattern.keypoints[i].pixel, width_px, card.size());
-  }
 }
 
 Estimator::Estimator(std::span<std::byte> block, const Configuration& configuration) {
@@ -76,7 +93,7 @@ Estimator::Estimator(std::span<std::byte> block, const Configuration& configurat
   state.extrinsics.card_points = BoundedList<Vec3>(state.memory.extrinsics.card_points);
   state.reserved_bytes = block.size();
   state.used_bytes = arena.high_water_bytes();
-  state.set_up_pattern(configuration.card.pattern);
+  set_up_pattern(state, configuration.card.pattern);
   clock.stop();
   state.setup_ms = clock.total_ms();
   state_ = &state;

@@ -31,15 +31,10 @@ struct EstimatorState {
   // The stages take the view that shows more of the dish first, so that a pair measures the same bits in
   // either order.
   bool works_in_reverse() const {
-    return configuration.pair.reference_is_steeper &&
-           memory.views[1].regions.dish_pixels > memory.views[0].regions.dish_pixels;
+    return memory.views[1].regions.dish_pixels > memory.views[0].regions.dish_pixels;
   }
   int worked_index(int i) const { return works_in_reverse() ? 1 - i : i; }
   PreparedView& worked_view(int i) { return view(worked_index(i)); }
-
-  void set_up_pattern(ImageView<const std::uint8_t> picture);
-  // Where each feature of a picture of the pattern, `width_px` wide, lies on the card.
-  void place_pattern(int width_px);
 };
 
 // From both prepared views to the volumes (paper Fig. 2). Fills everything but the times.

@@ -8,9 +8,7 @@
 #include "core/card/homography.hpp"
 #include "core/geometry/triangulation.hpp"
 #include "core/labels/label_regions.hpp"
-#include "core/paper/card/card_plane.hpp"
 #include "core/paper/card/card_tracks.hpp"
-#include "core/paper/card/scale_estimation.hpp"
 #include "core/paper/pose/epipolar.hpp"
 #include "core/paper/pose/model_search.hpp"
 
@@ -73,7 +71,7 @@ void collect_given_tracks(const GivenCorrespondences& given, double focal_px, co
 
 // The card's points seen in both views, as part of the sparse cloud.
 void collect_tracks(const ExtrinsicInput& input, std::span<const RayMatch> rays, double focal_px,
-                    const RelativePose& found, TrackRule rule, ExtrinsicWorkspace& workspace) {
+                    const RelativePose& found, ExtrinsicWorkspace& workspace) {
   workspace.tracks.clear();
   if (has_given(input)) {
     collect_given_tracks(*input.given, focal_px, found, workspace.tracks);
@@ -87,7 +85,7 @@ void collect_tracks(const ExtrinsicInput& input, std::span<const RayMatch> rays,
       {workspace.view_matches.items(), workspace.triangulated.first(count), workspace.cloud.first(count),
        workspace.first_pattern_matches.items(), workspace.second_pattern_matches.items(), input.first->rays(),
        input.second->rays(), input.pattern_mm},
-      rule, workspace.tracks);
+      workspace.tracks);
 }
 
 // The camera's motion as the card alone shows it; false when its pose in a view is not to be had.
@@ -163,15 +161,15 @@ Status scale_by_card(const CardFit& fit, const Pose& pose, const Configuration& 
   const auto tracks = workspace.tracks.items();
   const double length_mm = configuration.card.size().length_mm();
   ScaleEstimate scale;
-  Status status = estimate_scale(tracks, fit.inliers, length_mm, configuration.card_search, random,
+  Status status = estimate_scale(tracks, fit.inliers, length_mm, configuration.card_search.scale, random,
                                  workspace.card, scale);
   if (!status.ok()) return status;
   report.mm_per_baseline = scale.mm_per_baseline;
   extrinsics.second_from_first = {pose.rotation, pose.translation * scale.mm_per_baseline};
 
   Plane print;
-  status = fit_card_plane(tracks, fit.inliers, length_mm, scale.mm_per_baseline, configuration.card_search,
-                          random, workspace.card, print);
+  status = fit_card_plane(tracks, fit.inliers, length_mm, scale.mm_per_baseline,
+                          configuration.card_search.plane, random, workspace.card, print);
   if (!status.ok()) return status;
   extrinsics.table = print.raised(-configuration.card.thickness_mm);
   extrinsics.card_points.clear();
@@ -205,7 +203,7 @@ Status calibrate_extrinsics(const ExtrinsicInput& input, const Configuration& co
   clock.enter(Stage::scale);
   const CardModelSize card = configuration.card.size();
   CardFit fit;
-  collect_tracks(input, rays, focal_px, pose, configuration.card_search.tracks, workspace);
+  collect_tracks(input, rays, focal_px, pose, workspace);
   report.card_tracks = static_cast<int>(workspace.tracks.size());
   status = find_card(workspace.tracks.items(), card, configuration.card_search, random, workspace.card, fit);
   if (!status.ok()) return status;
@@ -214,7 +212,7 @@ Status calibrate_extrinsics(const ExtrinsicInput& input, const Configuration& co
                               extrinsics.pose_from_card);
   if (!status.ok()) return status;
   if (extrinsics.pose_from_card) {
-    collect_tracks(input, rays, focal_px, pose, configuration.card_search.tracks, workspace);
+    collect_tracks(input, rays, focal_px, pose, workspace);
     status =
         find_card(workspace.tracks.items(), card, configuration.card_search, random, workspace.card, fit);
     if (!status.ok()) return status;

@@ -94,8 +94,7 @@ void append_features(const SearchPicture& picture, bool card_apart, std::size_t 
     view.ray_storage[before + kept] = ray;
     found[kept++] = keypoint;
   }
-  describe_surf(integral, configuration.surf, found.items().first(kept),
-                view.descriptor_storage.subspan(before, kept));
+  describe_surf(integral, found.items().first(kept), view.descriptor_storage.subspan(before, kept));
   view.keypoints.extend(kept);
 }
 

@@ -48,8 +48,7 @@ ReferencePair choose_reference(EstimatorState& state, const LinesOfSight& lines,
                                MeasurementViews& views) {
   Extrinsics& extrinsics = state.extrinsics;
   const Plane& plane = extrinsics.table;
-  const bool keep = !state.configuration.pair.reference_is_steeper ||
-                    lines.first.dot(plane.normal) >= lines.second.dot(plane.normal);
+  const bool keep = lines.first.dot(plane.normal) >= lines.second.dot(plane.normal);
   table = {plane, extrinsics.card_points.items()};
   views.reference_view = state.worked_index(keep ? 0 : 1);
   if (keep)
@@ -85,7 +84,7 @@ void warn_about_views(const EstimatorState& state, Measurement& measurement) {
   warnings.raise_if(is_crowded(views[0]) || is_crowded(views[1]), Warning::keypoints_capped);
   warnings.raise_if(extrinsics.matches_capped, Warning::matches_capped);
   warnings.raise_if(extrinsics.pose_from_card, Warning::pose_from_card);
-  warnings.raise_if(measurement.report.card_tracks < state.configuration.pair.few_card_tracks,
+  warnings.raise_if(measurement.report.card_tracks < state.configuration.card_search.few_tracks,
                     Warning::few_card_points);
   warn_about_angles({measurement.relative_angle_deg, measurement.rotation_angle_deg, views[0].arm_angle_deg,
                      views[1].arm_angle_deg},

@@ -16,7 +16,6 @@ namespace traygauge::paper {
 template <class Config, class Visit>
 void visit_paper_features(Config& c, Visit&& visit) {
   using Range = ParameterRange;
-  using Choices = ParameterChoices;
   visit("view.matching_dish_px", c.view.matching_dish_px, Range{1024, 1e7});
   visit("view.feature_dish_px", c.view.feature_dish_px, Range{1024, 1e8});
   visit("view.match_dish_only", c.view.match_dish_only);
@@ -30,11 +29,9 @@ void visit_paper_features(Config& c, Visit&& visit) {
   visit("surf.octaves", c.surf.octaves, Range{1, kMaxOctaves});
   visit("surf.first_step_px", c.surf.first_step_px, Range{1, 4});
   visit("surf.min_response", c.surf.min_response, Range{1e-9, 1});
-  visit("surf.upright", c.surf.upright);
   visit("matcher.top_ranking", c.matcher.top_ranking, Range{1, 2});
   visit("matcher.distinctiveness_ratio", c.matcher.distinctiveness_ratio, Range{1, 100});
   visit("matcher.distance_cutoff", c.matcher.distance_cutoff, Range{0, 1});
-  visit("matcher.search", c.matcher.search, Choices{{"exhaustive", "kd_tree"}});
 }
 
 template <class Config, class Visit>
@@ -54,18 +51,13 @@ void visit_paper_pose(Config& c, Visit&& visit) {
   visit("pose.min_iterations", c.pose.min_iterations, Range{1, 10'000});
   visit("pose.max_iterations", c.pose.max_iterations, Range{1, 10'000});
   visit("pose.refine", c.pose.refine);
-  visit("pose.try_planar_twin", c.pose.try_planar_twin);
   visit("pose.robust_scale", c.pose.robust_scale, Range{0.01, 1e6});
   auto& card = c.card_search;
-  visit("card.tracks", card.tracks, Choices{{"triangle", "one_side"}});
   visit("card.model", card.detection.model, Choices{{"homography", "absolute_pose"}});
   visit("card.inlier_fraction", card.detection.inlier_fraction, Range{1e-4, 1});
   visit("card.min_tracks", card.detection.min_tracks, Range{4, 1 << 16});
-  visit("card.scale", card.scale.method, Choices{{"half_sample_mode", "median", "card_motion"}});
   visit("card.min_distance_fraction", card.scale.min_distance_fraction, Range{0, 1});
-  visit("card.plane", card.plane.source, Choices{{"sparse_points", "absolute_pose"}});
   visit("card.plane_inlier_mm", card.plane.inlier_mm, Range{0.001, 1000});
-  visit("geometry.reference_is_steeper", c.pair.reference_is_steeper);
 }
 
 template <class Config, class Visit>
@@ -83,17 +75,11 @@ void visit_paper_surface(Config& c, Visit&& visit) {
   visit("stereo.smoothness_deviation", c.stereo.smoothness_deviation, Range{0.001, 1000});
   visit("stereo.variance_radius_px", c.stereo.variance_radius_px, Range{1, kMaxVarianceRadius});
   visit("stereo.median_radius_px", c.stereo.median_radius_px, Range{0, kMaxMedianRadius});
-  visit("stereo.subpixel", c.stereo.subpixel);
   visit("mesh.points", c.mesh.points, Range{16, 1 << 18});
-  visit("mesh.sampling", c.mesh.sampling, Choices{{"pixel", "cell_mean"}});
-  visit("rim.source", c.rim.source, Choices{{"dense", "contour", "both"}});
-  visit("rim.inset_px", c.rim.inset_px, Range{0, 100});
   visit("rim.min_crossing_sine", c.rim.min_crossing_sine, Range{0, 1});
   visit("rim.plane_threshold_mm", c.rim.plane.threshold_mm, Range{0.001, 100});
   visit("dish.surface", c.dish.surface, Choices{{"rim_and_card", "card_alone"}});
-  visit("dish.height", c.dish.height, Choices{{"rim_points_over_card_plane", "card_points_under_rim_plane"}});
   visit("dish.mode_halvings", c.dish.mode.halvings, Range{0, 64});
-  visit("volume.folded", c.volume.folded, Choices{{"subtracted", "added"}});
 }
 
 // All of them, in the order of the stages.

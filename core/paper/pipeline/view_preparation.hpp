@@ -79,7 +79,7 @@ struct PreparationWorkspace {
     integral = arena.template take<std::uint32_t>(
         pixels + static_cast<std::size_t>(limits.max_frame_width + limits.max_frame_height + 1));
     card_silhouette.allocate(arena, limits.max_frame_height);
-    surf.allocate(arena, limits.max_frame_width, limits.max_frame_height, configuration.surf);
+    surf.allocate(arena, limits.max_frame_width, configuration.surf);
   }
 };
 

@@ -24,11 +24,12 @@ int identify_dish(const VolumeExtractionWorkspace& workspace, const Configuratio
 
 // A rim that belongs to no known dish: are the outlines wrong, or is it another dish? The dense depth just
 // inside the reference view's outline tells.
-StatusCode judge_unknown_dish(const RimInput& input, const Plane& rim, const Configuration& configuration,
-                              VolumeExtractionWorkspace& workspace) {
-  RimParams dense = configuration.rim;
-  dense.source = RimSource::dense;
-  if (!collect_rim_points(input, dense, workspace.rim).ok()) return StatusCode::labels_inconsistent;
+StatusCode judge_unknown_dish(const ReferencePair& pair, ImageView<const float> depth_mm, const Plane& rim,
+                              const Configuration& configuration, VolumeExtractionWorkspace& workspace) {
+  const PreparedView& view = *pair.reference;
+  const Status crest =
+      collect_rim_crest(view.working_labels, depth_mm, view.cutout.camera, configuration.rim, workspace.rim);
+  if (!crest.ok()) return StatusCode::labels_inconsistent;
   const auto points = workspace.rim.points_mm.items();
   const std::size_t count = std::min(points.size(), workspace.dish.heights_mm.size());
   const auto heights = workspace.dish.heights_mm.first(count);
@@ -67,8 +68,7 @@ Status find_dish_bottom(const ReferencePair& pair, const TableReference& table,
                         const Configuration& configuration, Random& random,
                         VolumeExtractionWorkspace& workspace, MeasurementReport& report,
                         WorkingPictures& pictures, MeasurementViews& views) {
-  const RimInput rim_input{pair.reference->working_labels, pair.other->working_labels, pictures.depth_mm,
-                           pair.cameras()};
+  const RimInput rim_input{pair.reference->working_labels, pair.other->working_labels, pair.cameras()};
   Status status = collect_rim_points(rim_input, configuration.rim, workspace.rim);
   if (!status.ok()) return status;
   PlaneFit rim;
@@ -83,7 +83,9 @@ Status find_dish_bottom(const ReferencePair& pair, const TableReference& table,
   status = measure_rim_height(dish_input, configuration.dish, workspace.dish, report.rim_height_mm);
   if (!status.ok()) return status;
   report.dish_index = identify_dish(workspace, configuration, rim.plane, report.rim_height_mm);
-  if (report.dish_index < 0) return judge_unknown_dish(rim_input, rim.plane, configuration, workspace);
+  if (report.dish_index < 0) {
+    return judge_unknown_dish(pair, pictures.depth_mm, rim.plane, configuration, workspace);
+  }
   const DishModel& dish = configuration.dishes[static_cast<std::size_t>(report.dish_index)];
   views.table = table.table;
   views.dish_bottom =

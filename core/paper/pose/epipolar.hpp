@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <span>
 
 #include "core/geometry/geometry.hpp"
 #include "core/geometry/triangulation.hpp"
@@ -56,16 +55,6 @@ inline double symmetric_epipolar_distance_px(const Mat3& essential, const RayMat
   const auto fraction = squared_distance_fraction(epipolar_terms<double>(
       essential, match.first.x(), match.first.y(), match.second.x(), match.second.y()));
   return focal_px * std::sqrt(fraction.numerator / std::max(fraction.denominator, kMinDenominator));
-}
-
-// Eq. (1): the sum of max(threshold − distance, 0).
-inline double inlier_fitness(const Mat3& essential, std::span<const RayMatch> matches, double focal_px,
-                             double threshold_px) {
-  double sum = 0.0;
-  for (const RayMatch& match : matches) {
-    sum += std::max(threshold_px - symmetric_epipolar_distance_px(essential, match, focal_px), 0.0);
-  }
-  return sum;
 }
 
 }  // namespace traygauge::paper

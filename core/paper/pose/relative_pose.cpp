@@ -150,14 +150,11 @@ void choose_between_twins(double focal_px, const RelativePoseParams& params,
                                                    params.fitness_threshold_px, -1.0);
   const double twin_fitness = workspace.matches.fitness(essential_matrix(twin.second_from_first), focal_px,
                                                         params.fitness_threshold_px, -1.0);
-  pose.twin_fitness = twin_fitness;
   if (twin_fitness <= fitness) return;
   const auto twin_indices =
       list_inliers(essential_matrix(twin.second_from_first), focal_px, twin.threshold_px, workspace);
   const std::size_t in_front = count_in_front(workspace.matches, twin_indices, twin.second_from_first, 0.0);
-  if (2 * in_front <= twin_indices.size()) return;
-  pose = twin;
-  pose.twin_fitness = fitness;
+  if (2 * in_front > twin_indices.size()) pose = twin;
 }
 
 // Fills the report and judges the outcome.
@@ -212,8 +209,8 @@ Status estimate_relative_pose(std::span<const RayMatch> matches, double focal_px
   pose.threshold_px = found.threshold_px;
   const auto indices = list_inliers(found.essential, focal_px, found.threshold_px, workspace);
   pose.second_from_first = choose_motion(found.essential, indices, params, workspace);
-  if (params.refine) refine(focal_px, params, thresholds, workspace, pose);
-  if (params.refine && params.try_planar_twin) {
+  if (params.refine) {
+    refine(focal_px, params, thresholds, workspace, pose);
     choose_between_twins(focal_px, params, thresholds, workspace, pose);
   }
   return conclude(matches, focal_px, params, workspace, pose, inliers);

@@ -38,7 +38,6 @@ struct RelativePoseParams {
   int refine_iterations = 20;
   int refine_rounds = 3;             // refinements, each on the inliers that the one before leaves
   double robust_scale = 3.0;         // of the refinement's loss, in medians of the inliers' distances
-  bool try_planar_twin = true;       // refine the second motion of a plane, too; not in the paper
   double min_displacement_px = 0.5;  // median between the views; below: the camera did not move
   double min_parallax_deg = 1.0;     // median of the inliers; below: the views are too close for depth
   // Of eq. (1) where hypotheses are compared: one for all of them. Too narrow, and the few points off a
@@ -53,7 +52,6 @@ struct RelativePose {
   int iterations = 0;
   double rms_px = 0.0;        // of the inliers' symmetric epipolar distances after refinement
   double fitness = 0.0;       // eq. (1) of the distinct matches at fitness_threshold_px, for comparisons
-  double twin_fitness = 0.0;  // the same of the planar twin that lost; near `fitness`: the scene is flat
   double parallax_deg = 0.0;  // median of the inliers, the rotation compensated
 };
 

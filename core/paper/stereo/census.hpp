@@ -12,7 +12,6 @@ namespace traygauge::paper {
 constexpr int census_bytes(int radius_px) {
   return radius_px * (radius_px + 1) / 2;
 }
-inline constexpr int kMaxCensusBytes = census_bytes(kMaxCensusRadius);
 
 // A bit per neighbour, 1 where it is greater than the centre: census_bytes() byte planes a column.
 // Beyond the picture its border is repeated.

@@ -61,10 +61,10 @@ void aggregate_costs(Interval columns, const StereoParams& params, StereoWorkspa
   }
 }
 
-Disparity refine(const PathStates& states, int x, int row, int d, bool subpixel) {
+Disparity refine(const PathStates& states, int x, int row, int d) {
   const Interval band = states.bands[static_cast<std::size_t>(x)];
   int offset = 0;
-  if (subpixel && d > band.lo && d < band.hi) {
+  if (d > band.lo && d < band.hi) {
     const CostLanes* costs = states.costs_of(x) + (d - band.lo);
     offset = parabola_offset(costs[-1][row], costs[0][row], costs[1][row]);
   }
@@ -82,8 +82,7 @@ bool has_partner(const StereoPair& pair, int x, int y, DisparityRange range) {
 }
 
 void write_rows(const StereoPair& pair, int top, Interval columns, DisparityRange range,
-                const StereoParams& params, const StereoWorkspace& workspace,
-                ImageView<Disparity> disparity) {
+                const StereoWorkspace& workspace, ImageView<Disparity> disparity) {
   const int rows = std::min(kRowLanes, pair.first.height - top);
   for (int r = 0; r < rows; ++r) {
     Disparity* target = disparity.row(top + r);
@@ -92,7 +91,7 @@ void write_rows(const StereoPair& pair, int top, Interval columns, DisparityRang
     for (int x = columns.lo; x <= columns.hi; ++x) {
       if (mask[x] == 0 || !has_partner(pair, x, top + r, range)) continue;
       const int d = workspace.paths[static_cast<std::size_t>(x)][r];
-      target[x] = refine(workspace.states, x, r, d, params.subpixel);
+      target[x] = refine(workspace.states, x, r, d);
     }
   }
 }
@@ -117,7 +116,7 @@ void match_level(const StereoPair& pair, ImageView<const Disparity> coarse, Disp
       aggregate_costs(columns, params, workspace);
       find_best_paths(states, columns, workspace.smoothness, workspace.paths);
     }
-    write_rows(pair, top, columns, range, params, workspace, disparity);
+    write_rows(pair, top, columns, range, workspace, disparity);
   }
 }
 

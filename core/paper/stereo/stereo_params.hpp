@@ -40,7 +40,6 @@ struct StereoParams {
   int variance_radius_px = 3;
   // 0 … 3; 0: no median.
   int median_radius_px = 2;
-  bool subpixel = true;
 };
 
 // invalid_configuration when a value lies outside its range.

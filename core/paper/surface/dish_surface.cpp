@@ -6,8 +6,7 @@ namespace traygauge::paper {
 
 Status measure_rim_height(const DishInput& input, const DishParams& params, DishWorkspace& workspace,
                           double& rim_height_mm) {
-  const bool over_card =
-      params.surface == DishSurface::card_alone || params.height == DishHeight::rim_points_over_card_plane;
+  const bool over_card = params.surface == DishSurface::card_alone;
   const std::span<const Vec3> points = over_card ? input.rim_points_mm : input.card_points_mm;
   if (points.empty()) return over_card ? StatusCode::rim_not_found : StatusCode::table_not_found;
   const std::size_t count = std::min(points.size(), workspace.heights_mm.size());

@@ -17,15 +17,8 @@ enum class DishSurface : std::uint8_t {
   card_alone,    // the table plane raised (paper: 15% error instead of 8.2%)
 };
 
-// How the rim's height above the table is read.
-enum class DishHeight : std::uint8_t {
-  rim_points_over_card_plane,   // carries the small card's normal over to the dish
-  card_points_under_rim_plane,  // carries the rim's normal over to the card
-};
-
 struct DishParams {
   DishSurface surface = DishSurface::rim_and_card;
-  DishHeight height = DishHeight::card_points_under_rim_plane;
   ModeParams mode;
 };
 
@@ -48,8 +41,9 @@ struct DishWorkspace {
   }
 };
 
-// Modal height of the rim above the table. `card_alone` measures over the table plane whatever `height` says.
-// rim_not_found without rim points; table_not_found without card points where those are used.
+// Modal height of the rim above the table: of the rim's plane over the card's points, which carries the rim's
+// normal over to the small card; with `card_alone` of the rim's points over the table. table_not_found
+// without card points, rim_not_found without rim points, where those are used.
 Status measure_rim_height(const DishInput& input, const DishParams& params, DishWorkspace& workspace,
                           double& rim_height_mm);
 

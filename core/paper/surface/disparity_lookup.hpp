@@ -9,16 +9,14 @@
 
 namespace traygauge::paper {
 
-struct DisparityLookupParams {
-  // Neighbours that differ by more belong to another surface and are not mixed in: larger smears edges,
-  // smaller leaves the steps of whole-pixel disparities.
-  double max_step_px = 1.0;
-};
+// Neighbours that differ by more belong to another surface and are not mixed in: larger smears edges, smaller
+// leaves the steps of whole-pixel disparities.
+inline constexpr int kMaxLookupStep_px = 1;
 
 // Disparity at a real-valued place: bilinear among the valid ones of the four neighbours that lie on the
 // surface of the nearest valid neighbour. False when none is valid or the place lies outside.
 inline bool lookup_disparity(ImageView<const Disparity> disparity, double column, double row,
-                             double& disparity_px, const DisparityLookupParams& params = {}) {
+                             double& disparity_px) {
   if (!(column > -0.5 && row > -0.5 && column < disparity.width - 0.5 && row < disparity.height - 0.5)) {
     return false;
   }
@@ -46,7 +44,7 @@ inline bool lookup_disparity(ImageView<const Disparity> disparity, double column
   double total = 0.0;
   for (std::size_t i = 0; i < 4; ++i) {
     if (values[i] == kNoDisparity) continue;
-    if (std::abs(values[i] - reference) > params.max_step_px * kDisparityScale) continue;
+    if (std::abs(values[i] - reference) > kMaxLookupStep_px * kDisparityScale) continue;
     weighted += weights[i] * values[i];
     total += weights[i];
   }

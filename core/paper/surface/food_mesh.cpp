@@ -36,20 +36,13 @@ PixelBox measure_food(ImageView<const std::uint8_t> labels, std::span<MeshCovera
 class DepthSampler {
  public:
   DepthSampler(ImageView<const float> depth_mm, ImageView<const std::uint8_t> labels, const FoodGrid& grid,
-               const FoodMeshParams& params)
-      : depth_mm_(depth_mm),
-        labels_(labels),
-        grid_(grid),
-        params_(params),
-        cell_radius_px_(static_cast<int>(0.5 * grid.spacing_px)) {}
+               int max_gap_cells)
+      : depth_mm_(depth_mm), labels_(labels), grid_(grid), max_gap_cells_(max_gap_cells) {}
 
   // NaN where unknown.
   double sample(int x, int y) const {
-    if (params_.sampling == DepthSampling::pixel) {
-      const double depth = depth_mm_.at(x, y);
-      return depth > 0.0 ? depth : std::numeric_limits<double>::quiet_NaN();
-    }
-    return cell_mean(x, y);
+    const double depth = depth_mm_.at(x, y);
+    return depth > 0.0 ? depth : std::numeric_limits<double>::quiet_NaN();
   }
 
   // Interpolates a grid point between the nearest known points of its label along its row and its column,
@@ -77,25 +70,11 @@ class DepthSampler {
     double inverse_depth = 0.0;
   };
 
-  double cell_mean(int x, int y) const {
-    const std::uint8_t label = labels_.at(x, y);
-    double sum = 0.0;
-    int count = 0;
-    for (int v = y - cell_radius_px_; v <= y + cell_radius_px_; ++v) {
-      for (int u = x - cell_radius_px_; u <= x + cell_radius_px_; ++u) {
-        if (!labels_.contains(u, v) || labels_.at(u, v) != label || !(depth_mm_.at(u, v) > 0.0F)) continue;
-        sum += 1.0 / static_cast<double>(depth_mm_.at(u, v));
-        ++count;
-      }
-    }
-    return count > 0 ? count / sum : std::numeric_limits<double>::quiet_NaN();
-  }
-
   Known walk(std::size_t column, std::size_t row, int step_x, int step_y) const {
     const int start_x = grid_.columns[column];
     const int start_y = grid_.rows[row];
     const std::uint8_t label = labels_.at(start_x, start_y);
-    for (std::ptrdiff_t k = 1; k <= params_.max_gap_cells; ++k) {
+    for (std::ptrdiff_t k = 1; k <= max_gap_cells_; ++k) {
       const std::ptrdiff_t i = static_cast<std::ptrdiff_t>(column) + k * step_x;
       const std::ptrdiff_t j = static_cast<std::ptrdiff_t>(row) + k * step_y;
       if (i < 0 || j < 0 || i >= std::ssize(grid_.columns) || j >= std::ssize(grid_.rows)) break;
@@ -111,8 +90,7 @@ class DepthSampler {
   ImageView<const float> depth_mm_;
   ImageView<const std::uint8_t> labels_;
   FoodGrid grid_;
-  FoodMeshParams params_;
-  int cell_radius_px_;
+  int max_gap_cells_;
 };
 
 // Triangles of one cell. Corners: a b / c d as they lie in the picture.
@@ -196,7 +174,7 @@ Status build_food_mesh(ImageView<const float> depth_mm, ImageView<const std::uin
   const int max_points = std::min(params.points, static_cast<int>(workspace.points.capacity()));
   const FoodGrid grid =
       fit_food_grid(labels, food, food_pixels, max_points, workspace.columns, workspace.rows);
-  const DepthSampler sampler(depth_mm, labels, grid, params);
+  const DepthSampler sampler(depth_mm, labels, grid, params.max_gap_cells);
   CellTriangulator triangulator(workspace);
   std::span<std::int32_t> upper = workspace.upper;
   std::span<std::int32_t> lower = workspace.lower;

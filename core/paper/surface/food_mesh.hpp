@@ -15,14 +15,8 @@
 
 namespace traygauge::paper {
 
-enum class DepthSampling : std::uint8_t {
-  pixel,      // the depth at the grid point (paper)
-  cell_mean,  // the mean over the pixels of its cell with the same label
-};
-
 struct FoodMeshParams {
   int points = 4096;  // 2^12 (paper, Table IV)
-  DepthSampling sampling = DepthSampling::pixel;
   // Widest row of grid points without depth that is bridged between known points of the same label; a
   // Delaunay triangulation of the known points has no limit. 0 leaves every gap open.
   int max_gap_cells = 1000;

@@ -9,6 +9,7 @@ namespace {
 
 constexpr std::size_t kBlockSides = RimWorkspace::kBlockSides;
 constexpr int kNewtonSteps = 3;
+constexpr double kCrestInset_px = 3.0;  // so far inside the border lies the rim's crest, clear of the table
 
 // Line of a picture: normal · (x, y) + offset = 0.
 struct PixelLine {
@@ -127,19 +128,25 @@ void average_blocks(const DishContour& contour, BoundedList<Vec2>& blocks) {
   }
 }
 
-// The measured depth inset_px inside the border.
-bool unproject_inside(const RimInput& input, const RimParams& params, const DishContour& contour,
-                      std::size_t side, Vec3& point_mm) {
+// The measured depth at the rim's crest.
+bool unproject_crest(ImageView<const float> depth_mm, const PinholeCamera& camera,
+                     const ContourFitParams& params, const DishContour& contour, std::size_t side,
+                     Vec3& point_mm) {
   ContourCurve curve;
-  if (!fit_contour_curve(contour, side, params.curve, curve)) return false;
-  const Vec2 place = curve.point(0.0) + params.inset_px * curve.inward;
+  if (!fit_contour_curve(contour, side, params, curve)) return false;
+  const Vec2 place = curve.point(0.0) + kCrestInset_px * curve.inward;
   const int x = static_cast<int>(std::lround(place.x()));
   const int y = static_cast<int>(std::lround(place.y()));
-  if (!input.depth_mm.contains(x, y)) return false;
-  const double depth = input.depth_mm.at(x, y);
+  if (!depth_mm.contains(x, y)) return false;
+  const double depth = depth_mm.at(x, y);
   if (!(depth > 0.0)) return false;
-  point_mm = homogeneous_ray(input.cameras.first, Vec2(x, y)) * depth;
+  point_mm = homogeneous_ray(camera, Vec2(x, y)) * depth;
   return true;
+}
+
+Status judge_count(const BoundedList<Vec3>& points_mm, const RimParams& params) {
+  const bool is_enough = points_mm.size() >= static_cast<std::size_t>(params.plane.min_inliers);
+  return is_enough ? StatusCode::ok : StatusCode::rim_not_found;
 }
 
 // Moves the points to the front whose line of sight from both cameras comes from inside the dish, or from
@@ -167,26 +174,31 @@ Status collect_rim_points(const RimInput& input, const RimParams& params, RimWor
   workspace.points_mm.clear();
   const Status first = trace_dish_contour(input.first_labels, workspace.first);
   if (!first.ok()) return first;
+  const Status second = trace_dish_contour(input.second_labels, workspace.second);
+  if (!second.ok()) return second;
+  average_blocks(workspace.second, workspace.second_blocks);
+  const ContourMatcher matcher(input, params, workspace);
   const auto step = static_cast<std::size_t>(params.step_sides);
   Vec3 point_mm;
-  if (params.source != RimSource::dense) {
-    const Status second = trace_dish_contour(input.second_labels, workspace.second);
-    if (!second.ok()) return second;
-    average_blocks(workspace.second, workspace.second_blocks);
-    const ContourMatcher matcher(input, params, workspace);
-    for (std::size_t side = 0; side < workspace.first.sides.size(); side += step) {
-      if (matcher.match(side, point_mm)) workspace.points_mm.push_back(point_mm);
+  for (std::size_t side = 0; side < workspace.first.sides.size(); side += step) {
+    if (matcher.match(side, point_mm)) workspace.points_mm.push_back(point_mm);
+  }
+  return judge_count(workspace.points_mm, params);
+}
+
+Status collect_rim_crest(ImageView<const std::uint8_t> labels, ImageView<const float> depth_mm,
+                         const PinholeCamera& camera, const RimParams& params, RimWorkspace& workspace) {
+  workspace.points_mm.clear();
+  const Status traced = trace_dish_contour(labels, workspace.first);
+  if (!traced.ok()) return traced;
+  const auto step = static_cast<std::size_t>(params.step_sides);
+  Vec3 point_mm;
+  for (std::size_t side = 0; side < workspace.first.sides.size(); side += step) {
+    if (unproject_crest(depth_mm, camera, params.curve, workspace.first, side, point_mm)) {
+      workspace.points_mm.push_back(point_mm);
     }
   }
-  if (params.source != RimSource::contour) {
-    for (std::size_t side = 0; side < workspace.first.sides.size(); side += step) {
-      if (unproject_inside(input, params, workspace.first, side, point_mm)) {
-        workspace.points_mm.push_back(point_mm);
-      }
-    }
-  }
-  const bool is_enough = workspace.points_mm.size() >= static_cast<std::size_t>(params.plane.min_inliers);
-  return is_enough ? StatusCode::ok : StatusCode::rim_not_found;
+  return judge_count(workspace.points_mm, params);
 }
 
 double tilt_sigma_rad(const PlaneFit& fit, const RimParams& params) {
@@ -199,7 +211,6 @@ Status fit_rim_plane(const Pose& second_from_first, const RimParams& params, Ran
                      BoundedList<Vec3>& points_mm, PlaneFit& fit) {
   if (!fit_plane(points_mm.items(), params.plane, random, fit)) return StatusCode::rim_not_found;
   points_mm.truncate(static_cast<std::size_t>(fit.inliers));
-  if (params.source == RimSource::dense) return StatusCode::ok;
 
   const Vec3 second_centre = second_from_first.inverse().translation;
   const std::size_t edge_points =

@@ -16,22 +16,13 @@
 
 namespace traygauge::paper {
 
-// Where the rim's 3-D points come from.
-enum class RimSource : std::uint8_t {
-  dense,    // the depth map just inside the border (paper: "densely match the dish border points")
-  contour,  // the borders of both label pictures, matched along epipolar lines
-  both,
-};
-
 struct RimParams {
-  RimSource source = RimSource::contour;
   int step_sides = 3;      // every so many sides of the first border give a point
-  double inset_px = 3.0;   // dense: so far inside the border lies the rim's crest, clear of the table
-  ContourFitParams curve;  // contour: subpixel place of the border
-  // Contour: where the border runs along the epipolar line the crossing is uncertain; 0.5 is 30 degrees.
+  ContourFitParams curve;  // subpixel place of the border
+  // Where the border runs along the epipolar line the crossing is uncertain; 0.5 is 30 degrees.
   double min_crossing_sine = 0.5;
   PlaneFitParams plane;
-  // Contour: seen from outside, the near side's border is the outer wall below the edge, in each view another
+  // Seen from outside, the near side's border is the outer wall below the edge, in each view another
   // line of it. The plane is fitted again without the points that either camera sees from further outside
   // than this; tangent of the angle between the line of sight and the rim's normal.
   double max_outward_tangent = 0.0;
@@ -58,19 +49,22 @@ struct RimWorkspace {
   }
 };
 
-// Both working label pictures, whose dish is the labels 1…199, and the depth of the first.
+// Both working label pictures, whose dish is the labels 1…199.
 struct RimInput {
   ImageView<const std::uint8_t> first_labels;
   ImageView<const std::uint8_t> second_labels;
-  ImageView<const float> depth_mm;  // not read by `contour`
   CameraPair cameras;
 };
 
-// Points on the rim, in the first camera, into `workspace.points_mm`. The contour source meets the outer
-// edge, or the outer wall below it where a steep view sees that on the near side; the dense source meets the
-// crest. rim_not_found when there are fewer than the plane needs; no_dish_label, out_of_memory from the
-// tracing.
+// Points on the rim, in the first camera, into `workspace.points_mm`: the borders of both label pictures,
+// matched along epipolar lines. They meet the outer edge, or the outer wall below it where a steep view sees
+// that on the near side. rim_not_found when there are fewer than the plane needs; no_dish_label,
+// out_of_memory from the tracing.
 Status collect_rim_points(const RimInput& input, const RimParams& params, RimWorkspace& workspace);
+
+// The same from the depth of the first picture, just inside its border: points on the rim's crest.
+Status collect_rim_crest(ImageView<const std::uint8_t> labels, ImageView<const float> depth_mm,
+                         const PinholeCamera& camera, const RimParams& params, RimWorkspace& workspace);
 
 // Standard deviation of a rim plane's direction about its weakest axis, from its residuals. Points whose
 // fitted stretches of border overlap repeat each other's error.

@@ -8,20 +8,17 @@
 namespace traygauge::paper {
 namespace {
 
-// Area of the triangle's shadow on the plane; negative where the surface is folded over. Corners run
-// clockwise in the picture, so their cross product points away from the camera.
+// Area of the triangle's shadow on the plane.
 double horizontal_area(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& up) {
-  return -0.5 * up.dot((b - a).cross(c - a));
+  return std::abs(0.5 * up.dot((b - a).cross(c - a)));
 }
 
-void add_triangles(const FoodMesh& mesh, const Plane& dish_bottom, FoldedArea folded,
-                   std::span<ItemVolume> items) {
+void add_triangles(const FoodMesh& mesh, const Plane& dish_bottom, std::span<ItemVolume> items) {
   for (const MeshTriangle& triangle : mesh.triangles) {
     const auto corner = [&](std::size_t k) -> const Vec3& {
       return mesh.points[static_cast<std::size_t>(triangle.corners[k])].position_mm;
     };
-    double area = horizontal_area(corner(0), corner(1), corner(2), dish_bottom.normal);
-    if (folded == FoldedArea::added) area = std::abs(area);
+    const double area = horizontal_area(corner(0), corner(1), corner(2), dish_bottom.normal);
     const double heights =
         dish_bottom.height(corner(0)) + dish_bottom.height(corner(1)) + dish_bottom.height(corner(2));
     ItemVolume& item = items[triangle.label];
@@ -58,7 +55,7 @@ Status integrate_volume(const FoodMesh& mesh, const Plane& dish_bottom, const Vo
   std::fill(workspace.items.begin(), workspace.items.end(), ItemVolume{});
   if (mesh.triangles.empty()) return StatusCode::too_little_depth;
   if (mesh.points.size() > workspace.heights_mm.size()) return StatusCode::out_of_memory;
-  add_triangles(mesh, dish_bottom, params.folded, workspace.items);
+  add_triangles(mesh, dish_bottom, workspace.items);
   measure_max_heights(mesh, dish_bottom, params.max_height_quantile, workspace);
   for (ItemVolume& item : workspace.items) {
     if (item.area_mm2 > 0.0) item.mean_height_mm = item.volume_ml * kMm3PerMl / item.area_mm2;

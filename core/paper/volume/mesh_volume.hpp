@@ -1,5 +1,6 @@
 // Volume under the food surface (paper III-C-3): for each triangle its horizontal area times the mean height
-// of its corners, summed per label.
+// of its corners, summed per label. The paper's areas have no sign: a finer mesh than its 2^12 points counts
+// noise of the depth as volume, which is why its Table IV has a minimum.
 #pragma once
 
 #include <array>
@@ -21,16 +22,7 @@ struct ItemVolume {
   double max_height_mm = 0.0;
 };
 
-// How a triangle that the surface folds over counts.
-enum class FoldedArea : std::uint8_t {
-  subtracted,  // signed: what lies twice over the same place counts once, so noise cancels
-  added,
-};
-
 struct VolumeParams {
-  // The paper sums areas (III-C-3), which have no sign: a finer mesh than its 2^12 points then counts noise
-  // of the depth as volume, which is why its Table IV has a minimum.
-  FoldedArea folded = FoldedArea::added;
   // Quantile of the heights of an item's points that is its greatest height: 1 is the highest point, which
   // depth noise pushes up; lower cuts peaks.
   double max_height_quantile = 0.998;

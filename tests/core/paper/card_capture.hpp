@@ -86,7 +86,7 @@ inline std::vector<Match> match_sets(const Features& first, const Features& seco
 // The scene of one pair of views: tracks from real matches, cloud from the true pose, inliers within
 // `max_epipolar_px`.
 inline CardScene load_card_scene(const CardCapture& capture, std::size_t first, std::size_t second,
-                                 TrackRule rule = TrackRule::triangle, double max_epipolar_px = 1.0) {
+                                 double max_epipolar_px = 1.0) {
   const CaptureView& a = capture.views[first];
   const CaptureView& b = capture.views[second];
   CardScene scene;
@@ -114,7 +114,7 @@ inline CardScene load_card_scene(const CardCapture& capture, std::size_t first, 
   BoundedList<CardTrack> tracks(storage);
   build_card_tracks(
       {first_second, in_cloud, cloud, first_pattern, second_pattern, a.rays, b.rays, capture.pattern_mm},
-      rule, tracks);
+      tracks);
   scene.tracks.assign(tracks.begin(), tracks.end());
   return scene;
 }

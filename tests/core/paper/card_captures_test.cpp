@@ -5,9 +5,7 @@
 
 #include "core/card/card_detection.hpp"
 #include "core/card/card_pose.hpp"
-#include "core/paper/card/card_plane.hpp"
 #include "core/paper/card/card_scale.hpp"
-#include "core/paper/card/scale_estimation.hpp"
 #include "tests/core/paper/card_capture.hpp"
 
 namespace traygauge::paper {
@@ -41,13 +39,13 @@ TEST_P(CardCaptures, ScaleWithinOnePercentAndPlaneOnTheTable) {
     EXPECT_LT((mapped - corner).norm(), 0.4) << "mm, near the card's corners";
   }
   ScaleEstimate scale;
-  ASSERT_TRUE(
-      estimate_scale(scene.tracks, fit.inliers, capture.size.length_mm(), params, random, *memory, scale)
-          .ok());
+  ASSERT_TRUE(estimate_scale(scene.tracks, fit.inliers, capture.size.length_mm(), params.scale, random,
+                             *memory, scale)
+                  .ok());
   EXPECT_NEAR(scale.mm_per_baseline / scene.baseline_mm, 1.0, 0.01);
   Plane plane;
   ASSERT_TRUE(fit_card_plane(scene.tracks, fit.inliers, capture.size.length_mm(), scale.mm_per_baseline,
-                             params, random, *memory, plane)
+                             params.plane, random, *memory, plane)
                   .ok());
   const Vec3 centre = scene.first_from_card * Vec3(42.8, 26.99, 0.0);
   const double tilt =

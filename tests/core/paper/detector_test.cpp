@@ -15,9 +15,7 @@ using test::planned_bytes;
 using test::run_surf;
 using test::textured_picture;
 
-static_assert(planned_bytes(1264, 948, SurfParams{}) < 80U * 1024U,
-              "three rows a layer, whatever the height");
-static_assert(planned_bytes(1264, 10, SurfParams{}) == planned_bytes(1264, 948, SurfParams{}));
+static_assert(planned_bytes(1264, SurfParams{}) < 80U * 1024U, "three rows a layer, whatever the height");
 
 cv::Mat gaussian_blob(const Vec2& centre, double sigma, double amplitude) {
   constexpr int kSide = 301;

@@ -44,20 +44,14 @@ TEST_F(DishTest, CardPointsUnderTheRimPlaneIgnoreTheCardsTilt) {
   EXPECT_NEAR(bottom.height(Vec3(90, -50, 478.0)), 17.5, 1e-9);
 }
 
-TEST_F(DishTest, RimPointsOverTheCardPlaneCarryItsTiltToTheDish) {
+TEST_F(DishTest, CardAloneRaisesTheTableAndCarriesTheCardsTiltToTheDish) {
   DishParams params;
-  params.height = DishHeight::rim_points_over_card_plane;
+  params.surface = DishSurface::card_alone;
   params.mode.halvings = 0;
   double height = 0.0;
   ASSERT_TRUE(measure_rim_height(input_, params, *space_, height).ok());
   EXPECT_NEAR(height, 22.0 - 0.035 * 200.0, 0.6);  // 2 degrees over 200 mm
-  EXPECT_NEAR(place_dish_bottom(input_, params, height, 4.5).height(Vec3(0, 0, 478.0)), height - 4.5, 1e-9);
-}
-
-TEST_F(DishTest, CardAloneRaisesTheTable) {
-  DishParams params;
-  params.surface = DishSurface::card_alone;
-  const Plane bottom = place_dish_bottom(input_, params, 22.0, 4.5);
+  const Plane bottom = place_dish_bottom(input_, params, height, 4.5);
   EXPECT_EQ(bottom.normal, input_.table.normal);
   EXPECT_NEAR(bottom.height(Vec3(200.0, 10.0, 500.0)), -4.5, 1e-9);
 }
@@ -67,7 +61,7 @@ TEST_F(DishTest, SaysWhichPointsAreMissing) {
   input_.card_points_mm = {};
   EXPECT_EQ(measure_rim_height(input_, {}, *space_, height).code(), StatusCode::table_not_found);
   DishParams params;
-  params.height = DishHeight::rim_points_over_card_plane;
+  params.surface = DishSurface::card_alone;
   input_.rim_points_mm = {};
   EXPECT_EQ(measure_rim_height(input_, params, *space_, height).code(), StatusCode::rim_not_found);
 }

@@ -13,7 +13,6 @@
 namespace traygauge::paper {
 namespace {
 
-using Search = MatcherParams::Search;
 constexpr int kCap = 3000;
 
 std::vector<Match> match(const Features& first, const Features& second, const MatcherParams& params,
@@ -82,9 +81,7 @@ TEST(Matcher, EqualsOpenCvOnRandomDescriptors) {
       for (const float ratio : {1.0F, 1.05F, 1.1F, 1.3F}) {
         const auto reference = reference_matches(first, second, top, ratio);
         EXPECT_GT(reference.size(), 50U);
-        for (const Search search : {Search::exhaustive, Search::kd_tree}) {
-          expect_equal(match(first, second, {top, ratio, 0.0F, search}), reference);
-        }
+        expect_equal(match(first, second, {top, ratio}), reference);
       }
     }
   }
@@ -101,36 +98,6 @@ TEST(Matcher, EqualsOpenCvCrossCheckWithoutSigns) {
   std::vector<cv::DMatch> reference;
   cv::BFMatcher(cv::NORM_L2, true).match(first.mat(), second.mat(), reference);
   expect_equal(match(first, second, {1, 1.0F}), reference);
-}
-
-// Same indices and the same bits of distance; coordinates on a coarse grid make plenty of equal distances.
-TEST(Matcher, TreeFindsExactlyWhatTheExhaustiveSearchFinds) {
-  for (unsigned seed = 1; seed <= 40; ++seed) {
-    SCOPED_TRACE(testing::Message() << "seed " << seed);
-    std::mt19937 random(seed);
-    Features first;
-    Features second;
-    const std::size_t shared = random() % 60;
-    make_pair(random, shared + random() % 200, shared + random() % 200, shared, 0.1F, seed % 2 == 0, first,
-              second);
-    if (seed % 4 == 0) {
-      for (auto* set : {&first, &second}) {
-        for (Descriptor& descriptor : set->descriptors) {
-          for (float& value : descriptor) value = std::round(value * 4.0F) / 4.0F;
-        }
-      }
-    }
-    for (const int top : {1, 2}) {
-      const auto a = match(first, second, {top, 1.0F, 0.0F, Search::exhaustive});
-      const auto b = match(first, second, {top, 1.0F, 0.0F, Search::kd_tree});
-      ASSERT_EQ(a.size(), b.size());
-      for (std::size_t i = 0; i < a.size(); ++i) {
-        EXPECT_EQ(a[i].first, b[i].first);
-        EXPECT_EQ(a[i].second, b[i].second);
-        EXPECT_EQ(a[i].distance, b[i].distance);
-      }
-    }
-  }
 }
 
 TEST(Matcher, IsSymmetric) {
@@ -200,12 +167,10 @@ TEST(Matcher, ExactCopiesAreNotDistinct) {
   Features second = first;
   second.descriptors.push_back(second.descriptors[0]);
   second.keypoints.resize(3);
-  for (const Search search : {Search::exhaustive, Search::kd_tree}) {
-    const auto strict = match(first, second, {1, 1.1F, 0.0F, search});
-    ASSERT_EQ(strict.size(), 1U);
-    EXPECT_EQ(strict[0].first, 1);
-    EXPECT_EQ(match(first, second, {1, 1.0F, 0.0F, search}).size(), 2U);
-  }
+  const auto strict = match(first, second, {1, 1.1F});
+  ASSERT_EQ(strict.size(), 1U);
+  EXPECT_EQ(strict[0].first, 1);
+  EXPECT_EQ(match(first, second, {1, 1.0F}).size(), 2U);
 }
 
 TEST(Matcher, EmptyAndTinySets) {
@@ -216,14 +181,11 @@ TEST(Matcher, EmptyAndTinySets) {
   one.keypoints = {{.laplacian = 1}};
   Features other = one;
   other.keypoints[0].laplacian = -1;
-  for (const Search search : {Search::exhaustive, Search::kd_tree}) {
-    const MatcherParams params{1, 1.1F, 0.0F, search};
-    EXPECT_TRUE(match(none, none, params).empty());
-    EXPECT_TRUE(match(one, none, params).empty());
-    EXPECT_TRUE(match(none, one, params).empty());
-    EXPECT_EQ(match(one, one, params).size(), 1U);
-    EXPECT_TRUE(match(one, other, params).empty()) << "bright never matches dark";
-  }
+  EXPECT_TRUE(match(none, none, {}).empty());
+  EXPECT_TRUE(match(one, none, {}).empty());
+  EXPECT_TRUE(match(none, one, {}).empty());
+  EXPECT_EQ(match(one, one, {}).size(), 1U);
+  EXPECT_TRUE(match(one, other, {}).empty()) << "bright never matches dark";
 }
 
 TEST(Matcher, TimeAndMemory) {
@@ -240,14 +202,12 @@ TEST(Matcher, TimeAndMemory) {
         for (Keypoint& keypoint : set->keypoints) keypoint.laplacian = 0;
       }
     }
-    for (const Search search : {Search::exhaustive, Search::kd_tree}) {
-      const auto start = std::chrono::steady_clock::now();
-      const auto matches = match(first, second, {1, 1.1F, 0.0F, search});
-      const std::chrono::duration<double, std::milli> time = std::chrono::steady_clock::now() - start;
-      std::cout << (search == Search::kd_tree ? "k-d tree   " : "exhaustive ")
-                << (signs ? "signs " : "      ") << time.count() << " ms, " << matches.size() << " matches\n";
-      EXPECT_GT(matches.size(), 1000U);
-    }
+    const auto start = std::chrono::steady_clock::now();
+    const auto matches = match(first, second, {});
+    const std::chrono::duration<double, std::milli> time = std::chrono::steady_clock::now() - start;
+    std::cout << (signs ? "with signs " : "without    ") << time.count() << " ms, " << matches.size()
+              << " matches\n";
+    EXPECT_GT(matches.size(), 1000U);
   }
 }
 

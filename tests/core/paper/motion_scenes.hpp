@@ -1,13 +1,16 @@
 // Exact scenes with known motion for the tests of the pose stage.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <numbers>
+#include <span>
 #include <vector>
 
 #include "core/base/arena.hpp"
 #include "core/base/random.hpp"
+#include "core/paper/pose/epipolar.hpp"
 #include "core/paper/pose/relative_pose.hpp"
 #include "tests/support/cameras.hpp"
 
@@ -132,5 +135,16 @@ class Estimation {
   };
   std::vector<Line> block_;
 };
+
+// Eq. (1): the sum of max(threshold − distance, 0).
+inline double inlier_fitness(const Mat3& essential, std::span<const RayMatch> matches, double focal_px,
+                             double threshold_px) {
+  double sum = 0.0;
+  for (const RayMatch& match : matches) {
+    const double distance_px = paper::symmetric_epipolar_distance_px(essential, match, focal_px);
+    sum += std::max(threshold_px - distance_px, 0.0);
+  }
+  return sum;
+}
 
 }  // namespace traygauge::test

@@ -189,7 +189,7 @@ std::vector<int> best_path(const Reference& reference, int y, int lo, int hi,
 }
 
 int subpixel(const Reference& reference, int x, int y, int d, Band band) {
-  if (!reference.params.subpixel || d == band.lo || d == band.hi) return 0;
+  if (d == band.lo || d == band.hi) return 0;
   const int before = reference.window_cost(x, y, d - 1);
   const int middle = reference.window_cost(x, y, d);
   const int after = reference.window_cost(x, y, d + 1);

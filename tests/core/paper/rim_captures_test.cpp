@@ -130,7 +130,6 @@ Rates measure(const Setting& setting, bool print = false) {
   Rates rates;
   for (const CaptureScene& scene : scenes()) {
     for (const auto& [a, b] : scene.pairs) {
-      if (setting.rim.source != RimSource::contour && a != 0) continue;  // depth is of view 0
       const auto& first = scene.views[static_cast<std::size_t>(a)];
       const auto& second = scene.views[static_cast<std::size_t>(b)];
       const Pose second_from_first{
@@ -140,7 +139,6 @@ Rates measure(const Setting& setting, bool print = false) {
       const cv::Mat1b second_labels = roughen(second.labels, setting.label_noise_px, 2);
       const RimInput input{test::view_of(first_labels),
                            test::view_of(second_labels),
-                           test::view_of(scene.depth_mm),
                            {first.camera, second.camera, second_from_first}};
       Random random(1);
       PlaneFit fit;
@@ -218,39 +216,17 @@ TEST_F(CaptureRim, TheNearSidesWallTiltsThePlaneUnlessItIsLeftOut) {
   EXPECT_LT(Rates::quantile(measure({}).tilt_deg, 0.5), 0.5 * Rates::quantile(with_wall.tilt_deg, 0.5));
 }
 
-TEST_F(CaptureRim, ExactDenseDepthGivesTheRimsCrest) {
-  Setting setting;
-  setting.card.sigma_px = 0.0;
-  for (const double inset_px : {1.0, 2.0, 3.0, 4.0, 8.0}) {
-    setting.rim.source = RimSource::dense;
-    setting.rim.inset_px = inset_px;
-    const Rates rates = measure(setting);
-    rates.print(("dense, exact card, inset " + std::to_string(inset_px)).c_str());
-    EXPECT_EQ(rates.failures, 0);
-    EXPECT_LT(Rates::quantile(rates.tilt_deg, 1.0), 0.3);
-  }
-  setting.rim = {};
-  setting.rim.source = RimSource::both;
-  const Rates both = measure(setting);
-  both.print("both, exact card");
-  EXPECT_LT(Rates::quantile(both.tilt_deg, 1.0), 0.3);
-}
-
 TEST_F(CaptureRim, TheRimsNormalBeatsTheCards) {
   Setting setting;  // card points with noise
-  const Rates under = measure(setting);
-  under.print("card 0.3 px: card points under the rim plane");
-  setting.dish.height = DishHeight::rim_points_over_card_plane;
-  const Rates over = measure(setting);
-  over.print("card 0.3 px: rim points over the card plane");
+  const Rates with_rim = measure(setting);
+  with_rim.print("card 0.3 px: card points under the rim plane");
   setting.dish.surface = DishSurface::card_alone;
   const Rates alone = measure(setting);
   alone.print("card 0.3 px: card alone");
-  EXPECT_EQ(under.wrong_dish, 0);
-  EXPECT_LT(Rates::quantile(under.offset_mm, 0.5), 0.3);
-  EXPECT_LT(Rates::quantile(under.offset_mm, 0.5), 0.3 * Rates::quantile(over.offset_mm, 0.5));
-  EXPECT_LT(Rates::quantile(under.offset_mm, 0.5), 0.3 * Rates::quantile(alone.offset_mm, 0.5));
-  EXPECT_LT(Rates::quantile(under.tilt_deg, 0.5), 0.2 * Rates::quantile(alone.tilt_deg, 0.5));
+  EXPECT_EQ(with_rim.wrong_dish, 0);
+  EXPECT_LT(Rates::quantile(with_rim.offset_mm, 0.5), 0.3);
+  EXPECT_LT(Rates::quantile(with_rim.offset_mm, 0.5), 0.3 * Rates::quantile(alone.offset_mm, 0.5));
+  EXPECT_LT(Rates::quantile(with_rim.tilt_deg, 0.5), 0.2 * Rates::quantile(alone.tilt_deg, 0.5));
 }
 
 TEST_F(CaptureRim, RoughLabelsCostPrecisionNotTheRim) {

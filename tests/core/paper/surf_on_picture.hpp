@@ -14,10 +14,10 @@
 
 namespace traygauge::test {
 
-constexpr std::size_t planned_bytes(int width, int height, const paper::SurfParams& params) {
+constexpr std::size_t planned_bytes(int width, const paper::SurfParams& params) {
   ArenaPlan plan;
   paper::SurfWorkspace workspace;
-  workspace.allocate(plan, width, height, params);
+  workspace.allocate(plan, width, params);
   return plan.high_water_bytes();
 }
 
@@ -47,11 +47,11 @@ inline PictureFeatures run_surf(const cv::Mat& gray, const paper::SurfParams& pa
   struct alignas(kArenaAlignmentBytes) Line {
     std::byte bytes[kArenaAlignmentBytes];
   };
-  const std::size_t bytes = planned_bytes(gray.cols, gray.rows, params);
+  const std::size_t bytes = planned_bytes(gray.cols, params);
   std::vector<Line> block(bytes / sizeof(Line));
   Arena arena({block.front().bytes, bytes});
   paper::SurfWorkspace workspace;
-  workspace.allocate(arena, gray.cols, gray.rows, params);
+  workspace.allocate(arena, gray.cols, params);
   CV_Assert(!arena.exhausted());
 
   const Integral integral(gray);
@@ -62,7 +62,7 @@ inline PictureFeatures run_surf(const cv::Mat& gray, const paper::SurfParams& pa
   features.dropped = list.dropped();
   features.keypoints.resize(list.size());
   features.descriptors.resize(list.size());
-  paper::describe_surf(integral.view(), params, features.keypoints, features.descriptors);
+  paper::describe_surf(integral.view(), features.keypoints, features.descriptors);
   return features;
 }
 

@@ -133,7 +133,7 @@ TEST(MatchTable, ScoresAsTheFormulasSay) {
     for (const RayMatch& match : scene.matches) {
       count += symmetric_epipolar_distance_px(e, match, test::kFocalPx) <= 1.5 ? 1U : 0U;
     }
-    const double fitness = inlier_fitness(e, scene.matches, test::kFocalPx, 1.5);
+    const double fitness = test::inlier_fitness(e, scene.matches, test::kFocalPx, 1.5);
     const MatchTable& table = estimation.workspace.matches;
     EXPECT_EQ(table.count_inliers(e, test::kFocalPx, 1.5, 0), count) << "seed " << seed;
     EXPECT_EQ(table.count_inliers(e, test::kFocalPx, 1.5, count - 1), count) << "seed " << seed;

@@ -1,12 +1,11 @@
-#include "core/paper/card/scale_estimation.hpp"
+#include "core/paper/card/card_scale.hpp"
 
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/bounded_list.hpp"
 #include "core/base/ransac.hpp"
-#include "core/card/card_pose.hpp"
-#include "core/card/homography.hpp"
-#include "core/paper/base/half_sample_mode.hpp"
+#include "core/paper/base/plane_fit.hpp"
 
 namespace traygauge::paper {
 
@@ -47,50 +46,59 @@ void collect_ratios(std::span<const CardTrack> tracks, std::span<const std::int3
   }
 }
 
-// Baselines become mm by the length of the motion that the card itself saw.
-bool scale_from_card_motion(std::span<const CardTrack> tracks, std::span<const std::uint8_t> inliers,
-                            const CardPoseParams& params, double& mm_per_baseline) {
-  CardPose pose[2];
-  const CardView views[2] = {&CardTrack::first, &CardTrack::second};
-  for (std::size_t v = 0; v < 2; ++v) {
-    Mat3 homography;
-    if (!fit_homography(tracks, inliers, views[v], homography) ||
-        !card_pose_from_homography(homography, tracks, inliers, views[v], params, pose[v])) {
-      return false;
-    }
+// The flagged points of the sparse cloud in mm.
+std::span<Vec3> list_points(std::span<const CardTrack> tracks, std::span<const std::uint8_t> inliers,
+                            double mm_per_baseline, std::span<Vec3> points_mm) {
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < inliers.size() && count < points_mm.size(); ++i) {
+    if (inliers[i] != 0) points_mm[count++] = tracks[i].point_in_first * mm_per_baseline;
   }
-  mm_per_baseline = motion_from_card(pose[0].camera_from_card, pose[1].camera_from_card).translation.norm();
-  return mm_per_baseline > 0.0;
+  return points_mm.first(count);
+}
+
+PlaneFitParams plane_fit_params(const CardPlaneParams& params, std::size_t points) {
+  const auto share = static_cast<int>(std::ceil(params.min_inlier_fraction * static_cast<double>(points)));
+  PlaneFitParams fit;
+  fit.threshold_mm = params.inlier_mm;
+  fit.min_iterations = params.min_iterations;
+  fit.max_iterations = params.max_iterations;
+  fit.confidence = params.confidence;
+  fit.min_triangle_mm2 = 0.0;  // the spread of all inliers is checked instead
+  fit.min_facing_cosine = params.min_tilt_cosine;
+  fit.refits = params.refits;
+  fit.min_inliers = std::max(params.min_inliers, share);
+  return fit;
 }
 
 }  // namespace
 
 Status estimate_scale(std::span<const CardTrack> tracks, std::span<const std::uint8_t> inliers,
-                      double card_length_mm, const CardScaleParams& params, Random& random,
+                      double card_length_mm, const ScaleParams& params, Random& random,
                       CardScaleWorkspace& workspace, ScaleEstimate& estimate) {
   estimate = {};
   const auto points = list_inliers(inliers, workspace.indices);
   BoundedList<double> ratios(workspace.ratios);
-  collect_ratios(tracks, points, params.scale.min_distance_fraction * card_length_mm, random, ratios);
+  collect_ratios(tracks, points, params.min_distance_fraction * card_length_mm, random, ratios);
   estimate.pairs = static_cast<int>(ratios.size());
-  if (ratios.empty() || estimate.pairs < params.scale.min_pairs) return StatusCode::scale_not_found;
+  if (ratios.empty() || estimate.pairs < params.min_pairs) return StatusCode::scale_not_found;
   std::sort(ratios.begin(), ratios.end());
   const std::size_t count = ratios.size();
-  switch (params.scale.method) {
-    case ScaleMethod::half_sample_mode:
-      estimate.mm_per_baseline = half_sample_mode(ratios.items(), params.scale.mode);
-      break;
-    case ScaleMethod::median:
-      estimate.mm_per_baseline = 0.5 * (ratios[(count - 1) / 2] + ratios[count / 2]);
-      break;
-    case ScaleMethod::card_motion:
-      if (!scale_from_card_motion(tracks, inliers, params.pose, estimate.mm_per_baseline)) {
-        return StatusCode::scale_not_found;
-      }
-      break;
-  }
+  estimate.mm_per_baseline = half_sample_mode(ratios.items(), params.mode);
   estimate.spread = (ratios[count - 1 - count / 4] - ratios[count / 4]) / estimate.mm_per_baseline;
-  if (!(estimate.spread <= params.scale.max_spread)) return StatusCode::scale_not_found;
+  if (!(estimate.spread <= params.max_spread)) return StatusCode::scale_not_found;
+  return {};
+}
+
+Status fit_card_plane(std::span<const CardTrack> tracks, std::span<const std::uint8_t> inliers,
+                      double card_length_mm, double mm_per_baseline, const CardPlaneParams& params,
+                      Random& random, CardScaleWorkspace& workspace, Plane& card_plane_in_first) {
+  const auto points_mm = list_points(tracks, inliers, mm_per_baseline, workspace.points_mm);
+  PlaneFit fit;
+  if (!fit_plane(points_mm, plane_fit_params(params, points_mm.size()), random, fit) ||
+      fit.weak_spread_mm < params.min_spread_fraction * card_length_mm) {
+    return StatusCode::table_not_found;
+  }
+  card_plane_in_first = fit.plane;
   return {};
 }
 
