@@ -146,11 +146,9 @@ CardSampling sampling_for(int pixels, int max_samples) {
 
 }  // namespace
 
-Status align_card(ImageView<const std::uint8_t> gray, ImageView<const std::uint8_t> labels,
-                  const PixelBox& box, const LensModel& lens, const CardPattern& pattern,
-                  const CardAlignmentParams& params, CardAlignmentWorkspace& workspace,
-                  CardAlignment& alignment) {
-  alignment = {};
+Result<CardAlignment> align_card(ImageView<const std::uint8_t> gray, ImageView<const std::uint8_t> labels,
+                                 const PixelBox& box, const LensModel& lens, const CardPattern& pattern,
+                                 const CardAlignmentParams& params, CardAlignmentWorkspace& workspace) {
   const bool is_one_size = gray.width == labels.width && gray.height == labels.height &&
                            lens.width == labels.width && lens.height == labels.height;
   if (!is_one_size) return StatusCode::labels_size_mismatch;
@@ -158,15 +156,15 @@ Status align_card(ImageView<const std::uint8_t> gray, ImageView<const std::uint8
     return StatusCode::card_not_found;
   }
   CardPicture& picture = workspace.picture;
-  CardOutline outline;
-  Status status = find_card_outline(labels, box, lens, params.outline, workspace.outline, outline);
-  if (status.ok()) status = picture.load(gray, labels, box, lens, params.picture);
-  if (!status.ok()) return status;
+  const Result<CardOutline> outline = find_card_outline(labels, box, lens, params.outline, workspace.outline);
+  if (!outline.ok()) return outline.status();
+  const Status loaded = picture.load(gray, labels, box, lens, params.picture);
+  if (!loaded.ok()) return loaded;
 
   CardRefinement refinement(lens, pattern, params.refinement, picture);
   Search search(refinement, pattern.size, params);
-  Finalists finalists = search.best_of(outline);
-  if (finalists[0].correlation < params.min_correlation) finalists = search.best_without_a_side(outline);
+  Finalists finalists = search.best_of(*outline);
+  if (finalists[0].correlation < params.min_correlation) finalists = search.best_without_a_side(*outline);
   if (finalists[0].correlation < params.min_correlation) return StatusCode::card_not_found;
   Candidate candidate = search.choose(finalists);
   if (candidate.correlation < params.min_correlation) return StatusCode::card_not_found;
@@ -175,6 +173,7 @@ Status align_card(ImageView<const std::uint8_t> gray, ImageView<const std::uint8
   const CardPatternLevel& level = search.find_blur(pose);
   refinement.select(pose, level);
   const CardSampling sampling = sampling_for(picture.used_pixels(), params.max_samples);
+  CardAlignment alignment;
   if (!refinement.refine(level, sampling, params.fine_iterations, candidate.state) ||
       !refinement.inform(level, sampling, candidate.state, alignment.information)) {
     return StatusCode::card_not_found;
@@ -190,7 +189,8 @@ Status align_card(ImageView<const std::uint8_t> gray, ImageView<const std::uint8
   alignment.blur_px = refinement.blur_px(pose, level);
   const bool is_seen = alignment.correlation >= params.min_correlation &&
                        alignment.visible_fraction >= params.min_visible_fraction;
-  return is_seen ? StatusCode::ok : StatusCode::card_not_found;
+  if (!is_seen) return StatusCode::card_not_found;
+  return alignment;
 }
 
 }  // namespace traygauge

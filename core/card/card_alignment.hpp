@@ -5,7 +5,7 @@
 
 #include <cstdint>
 
-#include "core/base/status.hpp"
+#include "core/base/result.hpp"
 #include "core/card/card_outline.hpp"
 #include "core/card/card_pattern.hpp"
 #include "core/card/card_picture.hpp"
@@ -74,9 +74,8 @@ struct CardAlignmentWorkspace {
 // to lay the print on it and two poses each; grey values choose. Where they reject all, each side in turn is
 // taken for another thing's edge and placed anew by the other three.
 // card_not_found without a label, when less than half of the card is seen, or when nothing correlates.
-Status align_card(ImageView<const std::uint8_t> gray, ImageView<const std::uint8_t> labels,
-                  const PixelBox& box, const LensModel& lens, const CardPattern& pattern,
-                  const CardAlignmentParams& params, CardAlignmentWorkspace& workspace,
-                  CardAlignment& alignment);
+Result<CardAlignment> align_card(ImageView<const std::uint8_t> gray, ImageView<const std::uint8_t> labels,
+                                 const PixelBox& box, const LensModel& lens, const CardPattern& pattern,
+                                 const CardAlignmentParams& params, CardAlignmentWorkspace& workspace);
 
 }  // namespace traygauge

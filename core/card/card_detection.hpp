@@ -21,8 +21,8 @@ struct CardFit {
 };
 
 // card_not_found when fewer than min_tracks agree on a homography, when chance could do as much, when the
-// inliers crowd in one place or line, or when no rigid card seen from its printed side projects like that.
-// O(iterations × tracks).
+// inliers crowd in one place or line, or when no rigid card seen from its printed side projects like that;
+// `fit` then still counts the inliers that were not enough. O(iterations × tracks).
 Status find_card(std::span<const CardTrack> tracks, const CardModelSize& size, const CardParams& params,
                  Random& random, CardWorkspace& workspace, CardFit& fit);
 

@@ -49,36 +49,39 @@ Status learn_card(ImageView<const std::uint8_t> picture, const CardModelSize& si
 Status locate_card(ImageView<const std::uint8_t> gray, ImageView<std::uint8_t> labels, const LensModel& lens,
                    const CardLocator& locator, CardAlignment& alignment, CardPolygon& outline_px) {
   alignment = {};
-  std::array<Vec2, 4> corners;
-  const Status found = search_card(gray, lens, locator.pattern.size, locator.print, locator.search,
-                                   locator.detection, locator.search_space, corners);
-  if (!found.ok()) return found;
-  outline_px = outline_of(corners, lens);
+  const Result<std::array<Vec2, 4>> corners =
+      search_card(gray, lens, locator.pattern.size, locator.print, locator.search, locator.detection,
+                  locator.search_space);
+  if (!corners.ok()) return corners.status();
+  outline_px = outline_of(*corners, lens);
   for (int round = 0; round < locator.rounds.max_alignments; ++round) {
     draw_card(outline_px, labels);
-    CardAlignment aligned;
-    const Status reached = align_card(gray, labels, measure_regions(labels).card, lens, locator.pattern,
-                                      locator.alignment, locator.alignment_space, aligned);
-    if (!reached.ok() && round == 0) return reached;
-    if (!reached.ok() || aligned.correlation <= alignment.correlation) break;
-    alignment = aligned;
-    outline_px = outline_of(corners_of(aligned.camera_from_table, locator.pattern.size), lens);
-    if (aligned.correlation >= locator.rounds.sure_correlation) break;
+    const Result<CardAlignment> aligned =
+        align_card(gray, labels, measure_regions(labels).card, lens, locator.pattern, locator.alignment,
+                   locator.alignment_space);
+    if (!aligned.ok() && round == 0) return aligned.status();
+    if (!aligned.ok() || aligned->correlation <= alignment.correlation) break;
+    alignment = *aligned;
+    outline_px = outline_of(corners_of(aligned->camera_from_table, locator.pattern.size), lens);
+    if (aligned->correlation >= locator.rounds.sure_correlation) break;
   }
   draw_card(outline_px, labels);
   return StatusCode::ok;
 }
 
-Status locate_card(ImageView<const std::uint8_t> gray, ImageView<std::uint8_t> labels, const LensModel& lens,
-                   const CardLocationParams& params, CardLocationWorkspace& workspace,
-                   CardAlignment& alignment) {
+Result<CardAlignment> locate_card(ImageView<const std::uint8_t> gray, ImageView<std::uint8_t> labels,
+                                  const LensModel& lens, const CardLocationParams& params,
+                                  CardLocationWorkspace& workspace) {
   CardParams detection;
   detection.detection = params.detection;
+  CardAlignment alignment;
   CardPolygon outline_px;
-  return locate_card(gray, labels, lens,
-                     {workspace.pattern, workspace.print, params.search, detection, params.alignment,
-                      params.rounds, workspace.search, workspace.alignment},
-                     alignment, outline_px);
+  const Status located = locate_card(gray, labels, lens,
+                                     {workspace.pattern, workspace.print, params.search, detection,
+                                      params.alignment, params.rounds, workspace.search, workspace.alignment},
+                                     alignment, outline_px);
+  if (!located.ok()) return located;
+  return alignment;
 }
 
 }  // namespace traygauge

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "core/base/result.hpp"
 #include "core/base/status.hpp"
 #include "core/card/card.hpp"
 #include "core/card/card_alignment.hpp"
@@ -75,8 +76,8 @@ Status locate_card(ImageView<const std::uint8_t> gray, ImageView<std::uint8_t> l
                    const CardLocator& locator, CardAlignment& alignment, CardPolygon& outline_px);
 
 // The same with what learn_card() left in `workspace`.
-Status locate_card(ImageView<const std::uint8_t> gray, ImageView<std::uint8_t> labels, const LensModel& lens,
-                   const CardLocationParams& params, CardLocationWorkspace& workspace,
-                   CardAlignment& alignment);
+Result<CardAlignment> locate_card(ImageView<const std::uint8_t> gray, ImageView<std::uint8_t> labels,
+                                  const LensModel& lens, const CardLocationParams& params,
+                                  CardLocationWorkspace& workspace);
 
 }  // namespace traygauge

@@ -189,9 +189,9 @@ bool is_convex(const std::array<Vec2, 4>& corners) {
 
 }  // namespace
 
-Status find_card_outline(ImageView<const std::uint8_t> labels, const PixelBox& box, const LensModel& lens,
-                         const CardOutlineParams& params, CardOutlineWorkspace& workspace,
-                         CardOutline& outline) {
+Result<CardOutline> find_card_outline(ImageView<const std::uint8_t> labels, const PixelBox& box,
+                                      const LensModel& lens, const CardOutlineParams& params,
+                                      CardOutlineWorkspace& workspace) {
   if (box.empty() || std::max(box.width(), box.height()) < params.min_side_px)
     return StatusCode::card_not_found;
   const auto points = OutlinePoints(labels, box, lens, workspace.points).collect();
@@ -210,6 +210,7 @@ Status find_card_outline(ImageView<const std::uint8_t> labels, const PixelBox& b
     const Vec2& end = hull[(i + 1) % 4];
     if (!fit_side(points, hull[i], end, fit, sides[i])) sides[i] = line_through(hull[i], end);
   }
+  CardOutline outline;
   for (std::size_t i = 0; i < 4; ++i) {
     if (!intersect(sides[(i + 3) % 4], sides[i], outline.corners[i])) return StatusCode::card_not_found;
   }
@@ -218,7 +219,7 @@ Status find_card_outline(ImageView<const std::uint8_t> labels, const PixelBox& b
     const double wide = 2.0 * params.inlier_px * px;
     outline.support[i] = support_of(points, outline.corners[i], outline.corners[(i + 1) % 4], wide);
   }
-  return {};
+  return outline;
 }
 
 }  // namespace traygauge

@@ -6,7 +6,7 @@
 #include <span>
 
 #include "core/base/arena.hpp"
-#include "core/base/status.hpp"
+#include "core/base/result.hpp"
 #include "core/geometry/camera.hpp"
 #include "core/geometry/geometry.hpp"
 #include "core/labels/label_regions.hpp"
@@ -45,8 +45,8 @@ struct CardOutlineWorkspace {
 // its neighbours are extended, until four are left: a covered corner or a fork across the card then changes
 // nothing. Each side is fitted anew to the points near it. In rays, where sides are straight. card_not_found
 // when the label is missing, small, or has no such quadrilateral. O(points · log points + hull²).
-Status find_card_outline(ImageView<const std::uint8_t> labels, const PixelBox& box, const LensModel& lens,
-                         const CardOutlineParams& params, CardOutlineWorkspace& workspace,
-                         CardOutline& outline);
+Result<CardOutline> find_card_outline(ImageView<const std::uint8_t> labels, const PixelBox& box,
+                                      const LensModel& lens, const CardOutlineParams& params,
+                                      CardOutlineWorkspace& workspace);
 
 }  // namespace traygauge

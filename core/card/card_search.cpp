@@ -243,9 +243,10 @@ class CardSearch {
 
 }  // namespace
 
-Status search_card(ImageView<const std::uint8_t> gray, const LensModel& lens, const CardModelSize& size,
-                   const PrintCorners& print, const CardSearchParams& params, const CardParams& card,
-                   CardSearchWorkspace& workspace, std::array<Vec2, 4>& corners) {
+Result<std::array<Vec2, 4>> search_card(ImageView<const std::uint8_t> gray, const LensModel& lens,
+                                        const CardModelSize& size, const PrintCorners& print,
+                                        const CardSearchParams& params, const CardParams& card,
+                                        CardSearchWorkspace& workspace) {
   CardSearch search(gray, lens, size, print, params, card, workspace);
   double searched = 0.0;
   for (const int pixels : params.search_px) {
@@ -253,9 +254,7 @@ Status search_card(ImageView<const std::uint8_t> gray, const LensModel& lens, co
     const double scale = workspace.fit(gray.width, gray.height, std::min(1.0, by_area));
     if (scale == searched) break;
     searched = scale;
-    if (!search.run(scale).ok()) continue;
-    corners = search.corners();
-    return StatusCode::ok;
+    if (search.run(scale).ok()) return search.corners();
   }
   return StatusCode::card_not_found;
 }

@@ -10,6 +10,7 @@
 
 #include "core/base/arena.hpp"
 #include "core/base/bounded_list.hpp"
+#include "core/base/result.hpp"
 #include "core/base/status.hpp"
 #include "core/card/card.hpp"
 #include "core/card/card_pattern.hpp"
@@ -145,8 +146,9 @@ Status learn_print_corners(const CardPattern& pattern, const CardSearchParams& p
 
 // The card's corners (rays), clockwise in the picture from the print's top left one. card_not_found where no
 // homography of the print is beyond chance.
-Status search_card(ImageView<const std::uint8_t> gray, const LensModel& lens, const CardModelSize& size,
-                   const PrintCorners& print, const CardSearchParams& params, const CardParams& card,
-                   CardSearchWorkspace& workspace, std::array<Vec2, 4>& corners);
+Result<std::array<Vec2, 4>> search_card(ImageView<const std::uint8_t> gray, const LensModel& lens,
+                                        const CardModelSize& size, const PrintCorners& print,
+                                        const CardSearchParams& params, const CardParams& card,
+                                        CardSearchWorkspace& workspace);
 
 }  // namespace traygauge

@@ -48,8 +48,10 @@ Status prepare_labelled_view(const GivenPicture& picture, const Configuration& c
     view.card_storage.front() = *picture.card;
     return StatusCode::ok;
   }
-  return align_card(gray, view.labels, view.regions().card, view.lens, pattern, configuration.card_alignment,
-                    workspace.card, view.card_storage.front());
+  const Result<CardAlignment> aligned = align_card(gray, view.labels, view.regions().card, view.lens, pattern,
+                                                   configuration.card_alignment, workspace.card);
+  if (aligned.ok()) view.card_storage.front() = *aligned;
+  return aligned.status();
 }
 
 }  // namespace traygauge

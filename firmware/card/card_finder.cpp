@@ -41,7 +41,9 @@ Status CardFinder::find(const FrameView& frame, const LensModel& lens, CardAlign
   const ImageView<std::uint8_t> gray{memory_.gray.data, frame.width, frame.height};
   const ImageView<std::uint8_t> labels{memory_.labels.data, frame.width, frame.height};
   convert_to_gray(frame, gray);
-  return locate_card(gray, labels, lens, params_, memory_.card, card);
+  const Result<CardAlignment> found = locate_card(gray, labels, lens, params_, memory_.card);
+  if (found.ok()) card = *found;
+  return found.status();
 }
 
 }  // namespace traygauge

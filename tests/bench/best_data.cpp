@@ -56,11 +56,11 @@ bool BestData::prepare_view(std::size_t i) {
   view.regions = measure_regions(labels.gray());
   view.pyramid = build_pyramid(view_of(view.gray), *pyramids[i]);
   OwnedWorkspace<CardAlignmentWorkspace> workspace(configuration.card_alignment);
-  CardAlignment alignment;
-  const Status status = align_card(view_of(view.gray), view_of(view.labels), view.regions.card, scene.lens,
-                                   *pattern, configuration.card_alignment, *workspace, alignment);
-  view.from_card = alignment.camera_from_table;
-  return status.ok();
+  const Result<CardAlignment> alignment =
+      align_card(view_of(view.gray), view_of(view.labels), view.regions.card, scene.lens, *pattern,
+                 configuration.card_alignment, *workspace);
+  if (alignment.ok()) view.from_card = alignment->camera_from_table;
+  return alignment.ok();
 }
 
 TrackedView BestData::tracked(std::size_t i) const {

@@ -63,10 +63,10 @@ Comparison compare_card(const BestData& data) {
   const CardAlignmentParams& params = data.configuration.card_alignment;
   const auto ours = [&data, &view, &params,
                      workspace = std::make_shared<OwnedWorkspace<CardAlignmentWorkspace>>(params)] {
-    CardAlignment alignment;
-    const Status status = align_card(view_of(view.gray), view_of(view.labels), view.regions.card,
-                                     data.scene.lens, *data.pattern, params, **workspace, alignment);
-    return status.ok() ? card_error_px(data, alignment.camera_from_table) : std::nan("");
+    const Result<CardAlignment> alignment =
+        align_card(view_of(view.gray), view_of(view.labels), view.regions.card, data.scene.lens,
+                   *data.pattern, params, **workspace);
+    return alignment.ok() ? card_error_px(data, alignment->camera_from_table) : std::nan("");
   };
   const auto peer = [&data, &view, lens = OpenCvLens(data.scene.lens),
                      pattern = prepare_pattern(data.scene)] {

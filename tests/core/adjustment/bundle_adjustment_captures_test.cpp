@@ -109,11 +109,11 @@ class Preparation {
     prepared.gray = view.read_gray();
     prepared.labels = view.read_labels();
     const auto labels = test::view_of(prepared.labels);
-    CardAlignment alignment;
-    EXPECT_TRUE(align_card(test::view_of(prepared.gray), labels, measure_regions(labels).card, view.lens,
-                           *pattern_, card_params_, *card_workspace_, alignment)
-                    .ok());
-    prepared.card = {alignment.camera_from_table, alignment.information};
+    const Result<CardAlignment> alignment =
+        align_card(test::view_of(prepared.gray), labels, measure_regions(labels).card, view.lens, *pattern_,
+                   card_params_, *card_workspace_);
+    EXPECT_TRUE(alignment.ok());
+    prepared.card = {alignment->camera_from_table, alignment->information};
     for (const test::TrueDish& dish : capture.dishes) {
       std::vector<Vec2> storage(kMaxOutlinePoints);
       BoundedList<Vec2> rays{std::span<Vec2>(storage)};

@@ -31,16 +31,16 @@ TEST(CardAlignmentCaptures, EveryViewOfEveryCapture) {
       const auto pattern = folder.path() / card.at("pattern").get<std::string>();
       ASSERT_TRUE(aligner.set_pattern(cv::imread(pattern.string(), cv::IMREAD_GRAYSCALE), size).ok());
       for (const test::TrueView& view : capture.views) {
-        CardAlignment alignment;
-        ASSERT_TRUE(aligner.align(view.read_gray(), view.read_labels(), view.lens, alignment).ok())
-            << view.image;
+        const Result<CardAlignment> alignment =
+            aligner.align(view.read_gray(), view.read_labels(), view.lens);
+        ASSERT_TRUE(alignment.ok()) << view.image;
         const Pose truth =
             view.camera_from_world * test::table_frame_of(capture, size.thickness_mm).inverse();
-        const CardPoseError error = compare_poses(alignment, truth, size, view.lens.pinhole.mean_focal_px());
+        const CardPoseError error = compare_poses(*alignment, truth, size, view.lens.pinhole.mean_focal_px());
         EXPECT_LT(error.corner_rms_px, 0.1) << view.image;
         EXPECT_LT(error.normal_deg, 0.15) << view.image;
         EXPECT_LT(error.normalised_square, 30.0) << view.image;
-        EXPECT_GT(alignment.visible_fraction, 0.9) << view.image;
+        EXPECT_GT(alignment->visible_fraction, 0.9) << view.image;
         corners_px.push_back(error.corner_rms_px);
         normals_deg.push_back(error.normal_deg);
         heights_mm.push_back(error.height_200_mm);

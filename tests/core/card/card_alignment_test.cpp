@@ -57,11 +57,9 @@ class CardAlignmentTest : public ::testing::Test {
 
   void expect_close(const CardRender& render, const Pose& pose, double max_px, double max_deg,
                     const std::string& what = "") {
-    CardAlignment alignment;
-    const Status status = aligner_.align(render, alignment);
-    ASSERT_TRUE(status.ok()) << what << " " << name(status.code()) << ", correlation "
-                             << alignment.correlation << ", seen " << alignment.visible_fraction;
-    const CardPoseError error = compare_poses(alignment, pose, kCard, kFocalPx);
+    const Result<CardAlignment> alignment = aligner_.align(render);
+    ASSERT_TRUE(alignment.ok()) << what << " " << name(alignment.code());
+    const CardPoseError error = compare_poses(*alignment, pose, kCard, kFocalPx);
     EXPECT_LT(error.corner_rms_px, max_px) << what;
     EXPECT_LT(error.normal_deg, max_deg) << what;
     EXPECT_LT(error.normalised_square, 40.0) << what;  // one in two million by noise
@@ -121,9 +119,9 @@ TEST_F(CardAlignmentTest, AFaintPrintIsFound) {
   render.gray.convertTo(faint, CV_8U, kFaintContrast, 128.0 * (1.0 - kFaintContrast));
   faint.copyTo(render.gray, render.labels == kCardLabel);
   add_noise(render.gray, 8.0, 3);
-  CardAlignment alignment;
-  ASSERT_TRUE(aligner_.align(render, alignment).ok()) << "correlation " << alignment.correlation;
-  EXPECT_LT(alignment.correlation, 0.5);
+  const Result<CardAlignment> alignment = aligner_.align(render);
+  ASSERT_TRUE(alignment.ok());
+  EXPECT_LT(alignment->correlation, 0.5);
   expect_close(render, pose, 0.3, 0.6);
 }
 
@@ -160,9 +158,9 @@ TEST_F(CardAlignmentTest, InformationMatchesTheScatterOfPoses) {
   for (int run = 0; run < kRuns; ++run) {
     CardRender render{clean.gray.clone(), clean.labels};
     add_noise(render.gray, 6.0, static_cast<std::uint64_t>(run) + 1);
-    CardAlignment alignment;
-    ASSERT_TRUE(aligner.align(render, alignment).ok());
-    sum += compare_poses(alignment, pose, kCard, kFocalPx).normalised_square;
+    const Result<CardAlignment> alignment = aligner.align(render);
+    ASSERT_TRUE(alignment.ok());
+    sum += compare_poses(*alignment, pose, kCard, kFocalPx).normalised_square;
   }
   // Chi square of 6 degrees; the mean of 40 has a standard deviation of 0.55.
   std::cout << "mean normalised square " << sum / kRuns << "\n";
@@ -174,12 +172,12 @@ TEST_F(CardAlignmentTest, BlurIsFoundAndHarmless) {
   const Pose pose = usual_pose();
   for (const double blur_px : {0.0, 0.7, 1.5}) {
     const CardRender render = noisy(pose, 3, blur_px);
-    CardAlignment alignment;
-    ASSERT_TRUE(aligner_.align(render, alignment).ok()) << blur_px;
-    EXPECT_LT(compare_poses(alignment, pose, kCard, kFocalPx).corner_rms_px, 0.05) << blur_px;
+    const Result<CardAlignment> alignment = aligner_.align(render);
+    ASSERT_TRUE(alignment.ok()) << blur_px;
+    EXPECT_LT(compare_poses(*alignment, pose, kCard, kFocalPx).corner_rms_px, 0.05) << blur_px;
     const double total_px = std::hypot(blur_px, 0.29);  // with the pixel's own square
-    EXPECT_LT(alignment.blur_px, std::max(0.75, 1.45 * total_px)) << blur_px;
-    EXPECT_GT(alignment.blur_px, total_px / 1.45) << blur_px;
+    EXPECT_LT(alignment->blur_px, std::max(0.75, 1.45 * total_px)) << blur_px;
+    EXPECT_GT(alignment->blur_px, total_px / 1.45) << blur_px;
   }
 }
 
@@ -243,26 +241,25 @@ TEST_F(CardAlignmentTest, LabelsThatAreTooWideOrTooNarrowAreHarmless) {
 
 TEST_F(CardAlignmentTest, NoCardIsFoundWhereThereIsNone) {
   const Pose pose = usual_pose();
-  CardAlignment alignment;
   CardRender unlabelled = noisy(pose, 10);
   unlabelled.labels.setTo(0);
-  EXPECT_EQ(aligner_.align(unlabelled, alignment).code(), StatusCode::card_not_found);
+  EXPECT_EQ(aligner_.align(unlabelled).code(), StatusCode::card_not_found);
 
   CardRender mostly_covered = noisy(pose, 10);
   cover(mostly_covered, pose, {{-5.0, -5.0}, {62.0, -5.0}, {62.0, 60.0}, {-5.0, 60.0}}, 1, 200);
-  EXPECT_EQ(aligner_.align(mostly_covered, alignment).code(), StatusCode::card_not_found);
+  EXPECT_EQ(aligner_.align(mostly_covered).code(), StatusCode::card_not_found);
 
   CardRender other = render_card(pose, kCard, random_print(8));
-  EXPECT_EQ(aligner_.align(other, alignment).code(), StatusCode::card_not_found);
+  EXPECT_EQ(aligner_.align(other).code(), StatusCode::card_not_found);
 
   CardRender blank = render_card(pose, kCard, print());
   blank.gray.setTo(170, blank.labels);
-  EXPECT_EQ(aligner_.align(blank, alignment).code(), StatusCode::card_not_found);
+  EXPECT_EQ(aligner_.align(blank).code(), StatusCode::card_not_found);
 
   CardRender mirrored = render_card(pose, kCard, print());
   cv::flip(mirrored.gray, mirrored.gray, 1);
   cv::flip(mirrored.labels, mirrored.labels, 1);
-  EXPECT_EQ(aligner_.align(mirrored, alignment).code(), StatusCode::card_not_found);
+  EXPECT_EQ(aligner_.align(mirrored).code(), StatusCode::card_not_found);
 }
 
 TEST_F(CardAlignmentTest, AnyLabelsEndWithAStatus) {
@@ -277,18 +274,15 @@ TEST_F(CardAlignmentTest, AnyLabelsEndWithAStatus) {
       const cv::Point b(random.uniform(-50, 1650), random.uniform(-50, 1250));
       cv::line(labels, a, b, kCardLabel, random.uniform(1, 120));
     }
-    CardAlignment alignment;
-    const Status status = aligner_.align(render.gray, labels, render_lens(), alignment);
-    if (!status.ok()) continue;
-    EXPECT_LT(compare_poses(alignment, pose, kCard, kFocalPx).corner_rms_px, 1.0) << "seed " << seed;
+    const Result<CardAlignment> alignment = aligner_.align(render.gray, labels, render_lens());
+    if (!alignment.ok()) continue;
+    EXPECT_LT(compare_poses(*alignment, pose, kCard, kFocalPx).corner_rms_px, 1.0) << "seed " << seed;
   }
   cv::Mat1b everything(render.labels.size(), kCardLabel);
-  CardAlignment alignment;
-  EXPECT_FALSE(aligner_.align(render.gray, everything, render_lens(), alignment).ok());
+  EXPECT_FALSE(aligner_.align(render.gray, everything, render_lens()).ok());
   LensModel other = render_lens();
   other.width = 800;
-  EXPECT_EQ(aligner_.align(render.gray, render.labels, other, alignment).code(),
-            StatusCode::labels_size_mismatch);
+  EXPECT_EQ(aligner_.align(render.gray, render.labels, other).code(), StatusCode::labels_size_mismatch);
 }
 
 }  // namespace

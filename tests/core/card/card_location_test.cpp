@@ -19,10 +19,10 @@ class CardLocatorUnderTest {
     EXPECT_TRUE(learn_card(test::view_of(print), kCardSize, params, *memory_).ok());
   }
 
-  Status locate(const cv::Mat1b& gray, CardAlignment& alignment) {
+  Result<CardAlignment> locate(const cv::Mat1b& gray) {
     cv::Mat1b labels(gray.size());
     return locate_card(test::view_of(gray), {labels.data, labels.cols, labels.rows}, render_lens(), params_,
-                       *memory_, alignment);
+                       *memory_);
   }
 
  private:
@@ -68,12 +68,12 @@ TEST(CardLocation, CloserLookShowsASmallCard) {
                                    {500.0 + 80.0 * k, 800.0 - 60.0 * k});
     CardRender render = render_card(pose, kCardSize, print, 0.8);
     add_noise(render.gray, 3.0, static_cast<std::uint64_t>(i));
-    CardAlignment alignment;
-    found_without += coarse.locate(render.gray, alignment).ok() ? 1 : 0;
-    if (!closer.locate(render.gray, alignment).ok()) continue;
+    found_without += coarse.locate(render.gray).ok() ? 1 : 0;
+    const Result<CardAlignment> alignment = closer.locate(render.gray);
+    if (!alignment.ok()) continue;
     ++found;
     const CardPoseError error =
-        compare_poses(alignment, pose, kCardSize, render_lens().pinhole.mean_focal_px());
+        compare_poses(*alignment, pose, kCardSize, render_lens().pinhole.mean_focal_px());
     EXPECT_LT(error.corner_rms_px, 0.3) << i;
   }
   std::printf("%d of %d found, %d without a closer look\n", found, kRounds, found_without);
@@ -94,11 +94,11 @@ TEST(CardLocation, TiltIsRightSeenFromAbove) {
     CardRender render = render_card(pose, kCardSize, print, 0.6);
     scatter_discs(render, static_cast<std::uint64_t>(100 + i));
     add_noise(render.gray, 3.0, static_cast<std::uint64_t>(i));
-    CardAlignment alignment;
-    ASSERT_TRUE(locator.locate(render.gray, alignment).ok()) << i;
+    const Result<CardAlignment> alignment = locator.locate(render.gray);
+    ASSERT_TRUE(alignment.ok()) << i;
     const CardPoseError error =
-        compare_poses(alignment, pose, kCardSize, render_lens().pinhole.mean_focal_px());
-    EXPECT_LT(error.corner_rms_px, 0.3) << i << ": " << alignment.correlation;
+        compare_poses(*alignment, pose, kCardSize, render_lens().pinhole.mean_focal_px());
+    EXPECT_LT(error.corner_rms_px, 0.3) << i << ": " << alignment->correlation;
   }
 }
 

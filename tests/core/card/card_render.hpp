@@ -189,14 +189,13 @@ class CardAligner {
   Status set_pattern(const cv::Mat1b& print, const CardModelSize& size) {
     return prepare_card_pattern(test::view_of(print), size, params_.pattern, pattern_);
   }
-  Status align(const cv::Mat1b& gray, const cv::Mat1b& labels, const LensModel& lens,
-               CardAlignment& alignment) {
+  Result<CardAlignment> align(const cv::Mat1b& gray, const cv::Mat1b& labels, const LensModel& lens) {
     const LabelRegions regions = measure_regions(test::view_of(labels));
     return align_card(test::view_of(gray), test::view_of(labels), regions.card, lens, pattern_, params_,
-                      workspace_, alignment);
+                      workspace_);
   }
-  Status align(const CardRender& render, CardAlignment& alignment) {
-    return align(render.gray, render.labels, render_lens(), alignment);
+  Result<CardAlignment> align(const CardRender& render) {
+    return align(render.gray, render.labels, render_lens());
   }
   const CardPattern& pattern() const { return pattern_; }
   const CardAlignmentWorkspace& workspace() const { return workspace_; }

@@ -227,13 +227,12 @@ TEST_F(Mango, ColumnVolumeWithPosesFromMarkersAndTracks) {
     std::array<CardPrior, 2> cards;
     for (std::size_t v = 0; v < 2; ++v) {
       const auto labels = test::view_of(photographs[v].labels);
-      CardAlignment alignment;
-      ASSERT_TRUE(align_card(test::view_of(photographs[v].gray), labels, measure_regions(labels).card,
-                             photographs[v].view.lens, *pattern, params, *alignment_space, alignment)
-                      .ok())
-          << pair.first << ' ' << pair.second;
-      EXPECT_GT(alignment.correlation, 0.95);
-      cards[v] = {alignment.camera_from_table, alignment.information};
+      const Result<CardAlignment> alignment =
+          align_card(test::view_of(photographs[v].gray), labels, measure_regions(labels).card,
+                     photographs[v].view.lens, *pattern, params, *alignment_space);
+      ASSERT_TRUE(alignment.ok()) << pair.first << ' ' << pair.second;
+      EXPECT_GT(alignment->correlation, 0.95);
+      cards[v] = {alignment->camera_from_table, alignment->information};
     }
     const TableCameras given = {photographs[0].view.camera_from_world, photographs[1].view.camera_from_world};
     const Status status = stages.run(photographs, cards, {0.5 * kCardMm, -0.5 * kCardMm, 0.0}, 1);
