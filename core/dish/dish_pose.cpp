@@ -193,13 +193,13 @@ bool guess_place(const DishOutlines& outlines, const TableCameras& cameras, doub
       if (std::isfinite(depth) && depth > 0.0) workspace.points_mm.push_back(centre_mm + depth * direction);
     }
   }
-  RimEllipse ellipse;
   const Plane level{Vec3::UnitZ(), height_mm};
-  if (!fit_rim_size(workspace.points_mm.items(), level, ellipse).ok()) return false;
-  place.centre_mm = ellipse.centre_mm.head<2>();
-  place.azimuth_rad = std::atan2(ellipse.axes[0].y(), ellipse.axes[0].x());
+  const Result<RimEllipse> ellipse = fit_rim_size(workspace.points_mm.items(), level);
+  if (!ellipse.ok()) return false;
+  place.centre_mm = ellipse->centre_mm.head<2>();
+  place.azimuth_rad = std::atan2(ellipse->axes[0].y(), ellipse->axes[0].x());
   place.edge_height_mm = height_mm;
-  place.size_mm = ellipse.size_mm;
+  place.size_mm = ellipse->size_mm;
   return as_vector(place).allFinite();
 }
 

@@ -27,22 +27,23 @@ class DishSearch {
     }
   }
 
-  Status run(std::span<const DishModel> candidates, FoundDish& found) {
+  Result<FoundDish> run(std::span<const DishModel> candidates) {
     const std::span<RimPeak> storage =
         std::span(peaks_).first(std::min(kMaxRimPeaks, static_cast<std::size_t>(params_.max_peaks)));
     const std::size_t count =
         vote_for_places(views_, edges_, candidates, taken_, params_, workspace_, storage);
-    Status status = StatusCode::rim_not_found;
+    FoundDish best;
     for (RimPeak& peak : storage.first(count)) {
-      FoundDish tried;
       peak.place.edge_drop_mm = params_.placement.edge_drop_mm;
       shift_to_edges(peak.inside_sign, peak.place);
-      if (is_repeated(peak) || !confirm(peak, tried).ok() || !(tried.support > found.support)) continue;
-      found = tried;
-      found.candidate = static_cast<int>(peak.dish - candidates.data());
-      status = StatusCode::ok;
+      if (is_repeated(peak)) continue;
+      const Result<FoundDish> confirmed = confirm(peak);
+      if (!confirmed.ok() || !(confirmed->support > best.support)) continue;
+      best = *confirmed;
+      best.candidate = static_cast<int>(peak.dish - candidates.data());
     }
-    return status;
+    if (best.candidate < 0) return StatusCode::rim_not_found;
+    return best;
   }
 
  private:
@@ -61,7 +62,7 @@ class DishSearch {
 
   // Only place and azimuth are free. Whatever else stands parallel to the rim, a band of its decoration or
   // the foot of its shadow, has another size.
-  Status confirm(const RimPeak& peak, FoundDish& found) {
+  Result<FoundDish> confirm(const RimPeak& peak) {
     DishPose place = peak.place;
     PlacePrior prior = prior_of(*peak.dish, place.azimuth_rad, params_.placement);
     prior.information.tail<kPlaceParameters - kPlaceHeight>().setConstant(kDescribedInformation);
@@ -76,11 +77,13 @@ class DishSearch {
                                   params_.scale_px, 1);
     minimise<kPlaceParameters>(problem, search, place);
     if (!as_vector(place).allFinite()) return StatusCode::rim_not_found;
+    FoundDish found;
     found.place = place;
     const double noise = noise_beside(place, peak.inside_sign);
     found.support = trace(place, peak.inside_sign,
                           std::max(params_.min_step, params_.min_step_over_noise * noise), found.rms_mm);
-    return found.support >= params_.min_support ? StatusCode::ok : StatusCode::rim_not_found;
+    if (!(found.support >= params_.min_support)) return StatusCode::rim_not_found;
+    return found;
   }
 
   // Moves the place to where most of the rim lies on an edge, in both views together.
@@ -245,11 +248,10 @@ RimNormal rim_normal(const DishPose& place, const Vec2& cosine_sine) {
   return rim;
 }
 
-Status search_dish(const DishSearchViews& views, const RimEdges& edges, std::span<const DishModel> candidates,
-                   std::span<const FoundDish> taken, const DishSearchParams& params,
-                   DishSearchWorkspace& workspace, FoundDish& found) {
-  found = {};
-  return DishSearch(views, edges, taken, params, workspace).run(candidates, found);
+Result<FoundDish> search_dish(const DishSearchViews& views, const RimEdges& edges,
+                              std::span<const DishModel> candidates, std::span<const FoundDish> taken,
+                              const DishSearchParams& params, DishSearchWorkspace& workspace) {
+  return DishSearch(views, edges, taken, params, workspace).run(candidates);
 }
 
 }  // namespace traygauge

@@ -11,7 +11,7 @@
 
 #include "core/base/arena.hpp"
 #include "core/base/bounded_list.hpp"
-#include "core/base/status.hpp"
+#include "core/base/result.hpp"
 #include "core/dish/dish_pose.hpp"
 #include "core/dish/rim_edges.hpp"
 #include "core/geometry/camera.hpp"
@@ -110,9 +110,9 @@ struct DishSearchWorkspace {
 
 // The best place for one of the candidates, apart from `taken`, by the edges of both views. rim_not_found
 // where none has enough edge along its rim.
-Status search_dish(const DishSearchViews& views, const RimEdges& edges, std::span<const DishModel> candidates,
-                   std::span<const FoundDish> taken, const DishSearchParams& params,
-                   DishSearchWorkspace& workspace, FoundDish& found);
+Result<FoundDish> search_dish(const DishSearchViews& views, const RimEdges& edges,
+                              std::span<const DishModel> candidates, std::span<const FoundDish> taken,
+                              const DishSearchParams& params, DishSearchWorkspace& workspace);
 
 // The dish's outer edge at this angle from the first axis (of the ellipse's parameter).
 RimNormal rim_normal(const DishPose& place, const Vec2& cosine_sine);

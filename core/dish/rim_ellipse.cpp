@@ -43,7 +43,7 @@ bool solve_symmetric(Mat5 matrix, Vec5 right_side, Vec5& solution) {
 
 }  // namespace
 
-Status fit_rim_size(std::span<const Vec3> rim_points_mm, const Plane& rim, RimEllipse& ellipse) {
+Result<RimEllipse> fit_rim_size(std::span<const Vec3> rim_points_mm, const Plane& rim) {
   if (rim_points_mm.size() < 5) return StatusCode::rim_not_found;
   const std::array<Vec3, 2> axes = plane_axes(rim);
   Vec3 mean = Vec3::Zero();
@@ -75,6 +75,7 @@ Status fit_rim_size(std::span<const Vec3> rim_points_mm, const Plane& rim, RimEl
   const Vec2 centre = -0.5 * solver.eigenvectors() *
                       (solver.eigenvectors().transpose() * linear).cwiseQuotient(solver.eigenvalues());
   const double level = 1.0 + centre.dot(form * centre);
+  RimEllipse ellipse;
   ellipse.centre_mm = mean + scale * (centre.x() * axes[0] + centre.y() * axes[1]);
   for (int k = 0; k < 2; ++k) {  // eigenvalues ascend, so the long axis comes first
     const Vec2 direction = solver.eigenvectors().col(k);
@@ -82,7 +83,7 @@ Status fit_rim_size(std::span<const Vec3> rim_points_mm, const Plane& rim, RimEl
     ellipse.axes[i] = direction.x() * axes[0] + direction.y() * axes[1];
     ellipse.size_mm[i] = 2.0 * scale * std::sqrt(level / solver.eigenvalues()[k]);
   }
-  return StatusCode::ok;
+  return ellipse;
 }
 
 int choose_dish(std::span<const DishCandidate> candidates, const std::array<double, 2>& size_mm,

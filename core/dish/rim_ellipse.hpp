@@ -4,7 +4,7 @@
 #include <array>
 #include <span>
 
-#include "core/base/status.hpp"
+#include "core/base/result.hpp"
 #include "core/geometry/geometry.hpp"
 
 namespace traygauge {
@@ -17,7 +17,7 @@ struct RimEllipse {
 
 // The ellipse through rim points in their plane: algebraic least squares about their centre. rim_not_found
 // for fewer than five points or when they fit no ellipse.
-Status fit_rim_size(std::span<const Vec3> rim_points_mm, const Plane& rim, RimEllipse& ellipse);
+Result<RimEllipse> fit_rim_size(std::span<const Vec3> rim_points_mm, const Plane& rim);
 
 struct DishCandidate {
   std::array<double, 2> outer_size_mm{};

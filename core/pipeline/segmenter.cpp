@@ -142,9 +142,11 @@ Status Segmenter::find_dishes() {
     if (result_.dish_count == kMaxPlacedDishes) return StatusCode::too_many_dishes;
     SegmentedDish& dish = result_.dishes[result_.dish_count++];
     dish.label = label;
-    dish.status = search_dish(cameras_, memory_.edges, candidates, std::span(taken).first(taken_count),
-                              params_.dish, memory_.dish, dish.found);
-    if (!dish.status.ok()) continue;
+    const Result<FoundDish> found = search_dish(
+        cameras_, memory_.edges, candidates, std::span(taken).first(taken_count), params_.dish, memory_.dish);
+    dish.status = found.status();
+    if (!found.ok()) continue;
+    dish.found = *found;
     dish.model = candidates[static_cast<std::size_t>(dish.found.candidate)];
     taken[taken_count++] = dish.found;
     for (const DishSearchView& camera : cameras_) {

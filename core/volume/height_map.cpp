@@ -3,14 +3,15 @@
 #include <algorithm>
 #include <limits>
 
+#include "core/base/result.hpp"
 #include "core/volume/occluded_cells.hpp"
 #include "core/volume/view_splat.hpp"
 
 namespace traygauge {
 namespace {
 
-// Sizes the map around the dish's outer edge.
-Status lay_out(const InnerSurface& dish, double cell_mm, std::size_t max_cells, HeightMap& map) {
+// The map around the dish's outer edge, without its memory.
+Result<HeightMap> lay_out(const InnerSurface& dish, double cell_mm, std::size_t max_cells) {
   if (!(cell_mm > 0.0) || !dish.place.centre_mm.allFinite() || !dish.place.axis.allFinite()) {
     return StatusCode::invalid_configuration;
   }
@@ -24,12 +25,13 @@ Status lay_out(const InnerSurface& dish, double cell_mm, std::size_t max_cells, 
       std::max(width, height) > std::numeric_limits<std::int16_t>::max()) {
     return StatusCode::out_of_memory;
   }
+  HeightMap map;
   map.cell_mm = cell_mm;
   map.origin_mm = dish.place.centre_mm - 0.5 * cell_mm * Vec2(width - 1.0, height - 1.0);
   map.cells.width = static_cast<int>(width);
   map.cells.height = static_cast<int>(height);
   map.cells.stride = map.cells.width;
-  return StatusCode::ok;
+  return map;
 }
 
 // Slope of a view's line of sight to the dish's middle.
@@ -66,8 +68,9 @@ HeightCell fuse(const HeightCell& a, const HeightCell& b, float disagreement_mm)
 Status build_height_map(std::span<const SurfaceGrid> views, const InnerSurface& dish,
                         const HeightMapParams& params, HeightMapWorkspace& workspace, HeightMap& map) {
   map = {};
-  const Status laid_out = lay_out(dish, params.cell_mm, workspace.first.size(), map);
-  if (!laid_out.ok()) return laid_out;
+  const Result<HeightMap> laid_out = lay_out(dish, params.cell_mm, workspace.first.size());
+  if (!laid_out.ok()) return laid_out.status();
+  map = *laid_out;
   map.cells.data = workspace.first.data();
   HeightMap other = map;
   other.cells.data = workspace.second.data();

@@ -12,14 +12,14 @@ namespace {
 // Which of the candidate dishes stands there; −1 when none fits.
 int identify_dish(const VolumeExtractionWorkspace& workspace, const Configuration& configuration,
                   const Plane& rim, double rim_height_mm) {
-  RimEllipse ellipse;
-  if (!fit_rim_size(workspace.rim.points_mm.items(), rim, ellipse).ok()) return -1;
+  const Result<RimEllipse> ellipse = fit_rim_size(workspace.rim.points_mm.items(), rim);
+  if (!ellipse.ok()) return -1;
   std::array<DishCandidate, kMaxDishCandidates> candidates{};
   for (std::size_t i = 0; i < configuration.dishes.size(); ++i) {
     candidates[i] = {configuration.dishes[i].outer_size_mm, configuration.dishes[i].rim_height_mm};
   }
-  return choose_dish(std::span(candidates).first(configuration.dishes.size()), ellipse.size_mm, rim_height_mm,
-                     configuration.dish_choice);
+  return choose_dish(std::span(candidates).first(configuration.dishes.size()), ellipse->size_mm,
+                     rim_height_mm, configuration.dish_choice);
 }
 
 // A rim that belongs to no known dish: are the outlines wrong, or is it another dish? The dense depth just

@@ -58,8 +58,8 @@ class Table {
     }
   }
 
-  Status search(std::span<const DishModel> candidates, std::span<const FoundDish> taken, FoundDish& found) {
-    return search_dish(views_, edges_, candidates, taken, params_, *memory_, found);
+  Result<FoundDish> search(std::span<const DishModel> candidates, std::span<const FoundDish> taken) {
+    return search_dish(views_, edges_, candidates, taken, params_, *memory_);
   }
 
  private:
@@ -96,10 +96,10 @@ TEST(DishSearch, FindsARoundDishByItsRim) {
     SCOPED_TRACE(seed);
     const Vec2 centre_mm(-20.0 + 15.0 * seed, 12.0 * seed - 25.0);
     Table table({place_of(dish, centre_mm, 0.0)}, seed);
-    FoundDish found;
-    ASSERT_TRUE(table.search({&dish, 1}, {}, found).ok());
-    EXPECT_LT((found.place.centre_mm - centre_mm).norm(), 0.5);
-    EXPECT_GT(found.support, 0.95);
+    const Result<FoundDish> found = table.search({&dish, 1}, {});
+    ASSERT_TRUE(found.ok());
+    EXPECT_LT((found->place.centre_mm - centre_mm).norm(), 0.5);
+    EXPECT_GT(found->support, 0.95);
   }
 }
 
@@ -108,10 +108,10 @@ TEST(DishSearch, FindsAnOvalDishAndHowItIsTurned) {
   for (const double azimuth_rad : {0.1, 1.0, 2.2}) {
     SCOPED_TRACE(azimuth_rad);
     Table table({place_of(dish, {10.0, -15.0}, azimuth_rad)});
-    FoundDish found;
-    ASSERT_TRUE(table.search({&dish, 1}, {}, found).ok());
-    EXPECT_LT((found.place.centre_mm - Vec2(10.0, -15.0)).norm(), 0.6);
-    EXPECT_LT(std::abs(std::remainder(found.place.azimuth_rad - azimuth_rad, std::numbers::pi)), 0.01);
+    const Result<FoundDish> found = table.search({&dish, 1}, {});
+    ASSERT_TRUE(found.ok());
+    EXPECT_LT((found->place.centre_mm - Vec2(10.0, -15.0)).norm(), 0.6);
+    EXPECT_LT(std::abs(std::remainder(found->place.azimuth_rad - azimuth_rad, std::numbers::pi)), 0.01);
   }
 }
 
@@ -119,9 +119,9 @@ TEST(DishSearch, ChoosesTheDishByItsSize) {
   const std::vector<DishModel> candidates = {dish_of(200.0, 200.0, 25.0), dish_of(230.0, 230.0, 25.0),
                                              dish_of(260.0, 180.0, 22.0)};
   Table table({place_of(candidates[1], {5.0, 8.0}, 0.0)});
-  FoundDish found;
-  ASSERT_TRUE(table.search(candidates, {}, found).ok());
-  EXPECT_EQ(found.candidate, 1);
+  const Result<FoundDish> found = table.search(candidates, {});
+  ASSERT_TRUE(found.ok());
+  EXPECT_EQ(found->candidate, 1);
 }
 
 TEST(DishSearch, TakesOnePlaceOnceOnly) {
@@ -129,19 +129,19 @@ TEST(DishSearch, TakesOnePlaceOnceOnly) {
   const Vec2 first_mm(-90.0, 0.0);
   const Vec2 second_mm(85.0, 10.0);
   Table table({place_of(dish, first_mm, 0.0), place_of(dish, second_mm, 0.0)});
-  std::array<FoundDish, 2> found;
-  ASSERT_TRUE(table.search({&dish, 1}, {}, found[0]).ok());
-  ASSERT_TRUE(table.search({&dish, 1}, std::span(found).first(1), found[1]).ok());
-  const bool is_first = (found[0].place.centre_mm - first_mm).norm() < 0.5;
-  EXPECT_LT((found[0].place.centre_mm - (is_first ? first_mm : second_mm)).norm(), 0.5);
-  EXPECT_LT((found[1].place.centre_mm - (is_first ? second_mm : first_mm)).norm(), 0.5);
+  const Result<FoundDish> one = table.search({&dish, 1}, {});
+  ASSERT_TRUE(one.ok());
+  const Result<FoundDish> other = table.search({&dish, 1}, {&*one, 1});
+  ASSERT_TRUE(other.ok());
+  const bool is_first = (one->place.centre_mm - first_mm).norm() < 0.5;
+  EXPECT_LT((one->place.centre_mm - (is_first ? first_mm : second_mm)).norm(), 0.5);
+  EXPECT_LT((other->place.centre_mm - (is_first ? second_mm : first_mm)).norm(), 0.5);
 }
 
 TEST(DishSearch, FindsNoDishOnABareTable) {
   const DishModel dish = dish_of(240.0, 240.0, 25.0);
   Table table({});
-  FoundDish found;
-  EXPECT_EQ(table.search({&dish, 1}, {}, found).code(), StatusCode::rim_not_found);
+  EXPECT_EQ(table.search({&dish, 1}, {}).code(), StatusCode::rim_not_found);
 }
 
 }  // namespace

@@ -167,11 +167,11 @@ Rates measure(const Setting& setting, bool print = false) {
       rates.height_mm.push_back(rim_height - scene.rim_height_mm);
       rates.points += fit.inliers;
       rates.rms_mm += fit.rms_mm;
-      RimEllipse ellipse;
-      EXPECT_TRUE(fit_rim_size(rim->points_mm.items(), fit.plane, ellipse).ok());
-      rates.size_mm.push_back(ellipse.size_mm[0] - scene.outer_size_mm[0]);
-      rates.size_mm.push_back(ellipse.size_mm[1] - scene.outer_size_mm[1]);
-      const int chosen = choose_dish(kDishes, ellipse.size_mm, rim_height, {});
+      const Result<RimEllipse> ellipse = fit_rim_size(rim->points_mm.items(), fit.plane);
+      EXPECT_TRUE(ellipse.ok());
+      rates.size_mm.push_back(ellipse->size_mm[0] - scene.outer_size_mm[0]);
+      rates.size_mm.push_back(ellipse->size_mm[1] - scene.outer_size_mm[1]);
+      const int chosen = choose_dish(kDishes, ellipse->size_mm, rim_height, {});
       if (chosen < 0 || kDishes[static_cast<std::size_t>(chosen)].rim_height_mm != scene.rim_height_mm)
         ++rates.wrong_dish;
       if (print) {
@@ -179,7 +179,7 @@ Rates measure(const Setting& setting, bool print = false) {
             "%-17s %d-%d  tilt %.3f deg  offset %+.3f mm  rim height %.2f (%.1f)  size %.1f x %.1f  %d of "
             "%zu points rms %.2f mm, direction to %.3f deg\n",
             scene.name.c_str(), a, b, tilt, rates.offset_mm.back(), rim_height, scene.rim_height_mm,
-            ellipse.size_mm[0], ellipse.size_mm[1], fit.inliers, rim->points_mm.size(), fit.rms_mm,
+            ellipse->size_mm[0], ellipse->size_mm[1], fit.inliers, rim->points_mm.size(), fit.rms_mm,
             tilt_sigma_rad(fit, setting.rim) * 180 / CV_PI);
       }
     }

@@ -72,11 +72,11 @@ class Finder {
       collect_rim_edges({gray.data, gray.cols, gray.rows}, view.lens, params().dish.edges, edges_, list);
     }
     tray.found = cv::Mat1b(gray.size(), 0);
-    FoundDish dish;
-    while (tray.dishes.size() < kMaxDishes &&
-           search_dish({view, view}, memory_.edges, sizes_, tray.dishes, params().dish, memory_.dish, dish)
-               .ok()) {
-      tray.dishes.push_back(dish);
+    while (tray.dishes.size() < kMaxDishes) {
+      const Result<FoundDish> dish =
+          search_dish({view, view}, memory_.edges, sizes_, tray.dishes, params().dish, memory_.dish);
+      if (!dish.ok()) break;
+      tray.dishes.push_back(*dish);
     }
     Arena arena(block_.bytes());
     memory_.allocate(arena, configuration_);
