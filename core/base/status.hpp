@@ -16,7 +16,8 @@ namespace traygauge {
        "The configuration holds a value outside its range; run `traygauge measure` on a capture whose " \
        "camera, card and dish are plausible.") \
   CODE(wrong_call, \
-       "The program called the measurement in an order that it does not have; please report this.") \
+       "The program called the measurement in an order or with arguments that it does not take; please " \
+       "report this.") \
   CODE(out_of_memory, \
        "The memory reserved at start is too small for this configuration; see `traygauge memory`.") \
   CODE(frame_missing, "A view is missing; two pictures of the dish are needed.") \

@@ -143,9 +143,8 @@ Status prepare_card_pattern(ImageView<const std::uint8_t> picture, const CardMod
     const int height = static_cast<int>(size.height_mm * px_per_mm);
     const auto pixels =
         static_cast<std::size_t>(std::max(width, 0)) * static_cast<std::size_t>(std::max(height, 0));
-    if (width < kMinSide || height < kMinSide || pixels > pattern.storage[i].size()) {
-      return StatusCode::invalid_configuration;
-    }
+    if (width < kMinSide || height < kMinSide) return StatusCode::invalid_configuration;
+    if (pixels > pattern.storage[i].size()) return StatusCode::wrong_call;
     level.gray = {pattern.storage[i].data(), width, height};
     level.px_per_axis_mm = {width / size.width_mm, height / size.height_mm};
     level.blur_mm = blur_px / px_per_mm;

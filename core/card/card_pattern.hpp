@@ -52,7 +52,8 @@ struct CardPattern {
 // Blurs the printed side's picture, which fills the card whatever its resolution, in linear light: lenses and
 // pixels average light, not grey values, and tone curves are near a square root. The kernel is the cubic
 // B-spline: within 1% of Gauss's, and exact on every processor.
-// invalid_configuration when picture or card are empty or the storage is too small.
+// invalid_configuration when picture or card are empty or the card is too narrow for the coarsest level;
+// wrong_call when the storage is smaller than what allocate() takes for `params`.
 Status prepare_card_pattern(ImageView<const std::uint8_t> picture, const CardModelSize& size,
                             const CardPatternParams& params, CardPattern& pattern);
 

@@ -12,9 +12,8 @@ namespace {
 
 // The map around the dish's outer edge, without its memory.
 Result<HeightMap> lay_out(const InnerSurface& dish, double cell_mm, std::size_t max_cells) {
-  if (!(cell_mm > 0.0) || !dish.place.centre_mm.allFinite() || !dish.place.axis.allFinite()) {
-    return StatusCode::invalid_configuration;
-  }
+  if (!(cell_mm > 0.0)) return StatusCode::invalid_configuration;
+  if (!dish.place.centre_mm.allFinite() || !dish.place.axis.allFinite()) return StatusCode::wrong_call;
   const Vec2& semi = dish.profile.semi_axes_mm();
   const Vec2& axis = dish.place.axis;
   const Vec2 half(std::hypot(semi.x() * axis.x(), semi.y() * axis.y()),

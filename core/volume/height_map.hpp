@@ -106,7 +106,7 @@ struct HeightMapWorkspace {
 // (occluded_cells.hpp), or else what is seen at the sheet's foot, level. `kind` stays hidden for filled
 // cells. Grids without points count as no view. out_of_memory when the dish has more cells or a grid wider
 // rows than the workspace; too_little_depth when nothing is seen; invalid_configuration for a cell size that
-// is not positive.
+// is not positive; wrong_call for a dish without a finite place.
 Status build_height_map(std::span<const SurfaceGrid> views, const InnerSurface& dish,
                         const HeightMapParams& params, HeightMapWorkspace& workspace, HeightMap& map);
 

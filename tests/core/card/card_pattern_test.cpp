@@ -60,9 +60,18 @@ TEST(CardPatternTest, LevelsFitTheirMemoryForAnyCard) {
       EXPECT_EQ(&aligner.pattern().nearest_level(1.1 * blur_mm), &level);
     }
   }
-  EXPECT_FALSE(aligner.set_pattern(print, {0.0, 20.0, 0.3}).ok());
-  EXPECT_FALSE(aligner.set_pattern(print, {85.6, 0.001, 0.3}).ok());
-  EXPECT_FALSE(aligner.set_pattern(cv::Mat1b(), {85.6, 54.0, 0.3}).ok());
+  for (const CardModelSize& size : {CardModelSize{0.0, 20.0, 0.3}, CardModelSize{85.6, 0.001, 0.3}})
+    EXPECT_EQ(aligner.set_pattern(print, size).code(), StatusCode::invalid_configuration);
+  EXPECT_EQ(aligner.set_pattern(cv::Mat1b(), {85.6, 54.0, 0.3}).code(), StatusCode::invalid_configuration);
+}
+
+TEST(CardPatternTest, MemoryForAnotherPatternIsAWrongCall) {
+  const cv::Mat1b print = random_print(3);
+  const CardAligner aligner;
+  CardPattern pattern = aligner.pattern();
+  pattern.storage.back() = pattern.storage.back().first(1);
+  EXPECT_EQ(prepare_card_pattern(test::view_of(print), {85.6, 54.0, 0.3}, {}, pattern).code(),
+            StatusCode::wrong_call);
 }
 
 }  // namespace

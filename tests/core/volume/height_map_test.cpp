@@ -169,7 +169,7 @@ TEST(HeightMap, RefusesWhatItCannotHold) {
   EXPECT_EQ(build_height_map(empty, tile, {.cell_mm = 1.0}, *space, map).code(),
             StatusCode::too_little_depth);
   tile.place.centre_mm.x() = kNan;
-  EXPECT_EQ(run(tile, *space, 1.0), StatusCode::invalid_configuration);
+  EXPECT_EQ(run(tile, *space, 1.0), StatusCode::wrong_call);
 }
 
 }  // namespace
