@@ -69,10 +69,10 @@ struct OutlinedCard {
       for (int x = 0; x < labels.cols; ++x) labels(y, x) = large(8 * y + 4, 8 * x + 4);
     }
   }
-  Status find(CardOutline& outline) const {
+  Result<CardOutline> find() const {
     test::Allocated<CardOutlineWorkspace> space(CardOutlineParams{});
     return find_card_outline(test::view_of(labels), measure_regions(test::view_of(labels)).card, lens, {},
-                             *space, outline);
+                             *space);
   }
   // The farthest corner, in pixels, whichever comes first.
   double off_px(const CardOutline& outline) const {
@@ -92,12 +92,13 @@ TEST(CardOutline, HasTheCornersOfTheCardClockwise) {
   std::mt19937 random(test::random_seed());
   for (int round = 0; round < 40; ++round) {
     const OutlinedCard card(random);
-    CardOutline outline;
-    ASSERT_TRUE(card.find(outline).ok());
-    EXPECT_LT(card.off_px(outline), 1.0);
-    for (const double support : outline.support) EXPECT_GT(support, 0.9);
+    const Result<CardOutline> outline = card.find();
+    ASSERT_TRUE(outline.ok());
+    EXPECT_LT(card.off_px(*outline), 1.0);
+    for (const double support : outline->support) EXPECT_GT(support, 0.9);
     double area = 0.0;
-    for (std::size_t i = 0; i < 4; ++i) area += 0.5 * cross(outline.corners[i], outline.corners[(i + 1) % 4]);
+    for (std::size_t i = 0; i < 4; ++i)
+      area += 0.5 * cross(outline->corners[i], outline->corners[(i + 1) % 4]);
     EXPECT_GT(area, 0.0);  // y points down
   }
 }
@@ -117,25 +118,24 @@ TEST(CardOutline, IsThatOfTheWholeCardThoughPartIsCovered) {
     } else {
       cv::circle(card.labels, {cvRound(corner.x()), cvRound(corner.y())}, 14, cv::Scalar(0), cv::FILLED);
     }
-    CardOutline outline;
-    ASSERT_TRUE(card.find(outline).ok());
-    EXPECT_LT(card.off_px(outline), 1.5) << round;
+    const Result<CardOutline> outline = card.find();
+    ASSERT_TRUE(outline.ok());
+    EXPECT_LT(card.off_px(*outline), 1.5) << round;
   }
 }
 
 TEST(CardOutline, IsNoneWithoutACard) {
   std::mt19937 random(4);
   OutlinedCard card(random);
-  CardOutline outline;
   card.labels.setTo(0);
-  EXPECT_EQ(card.find(outline).code(), StatusCode::card_not_found);
+  EXPECT_EQ(card.find().code(), StatusCode::card_not_found);
   card.labels(cv::Rect(100, 100, 10, 6)).setTo(kCardLabel);
-  EXPECT_EQ(card.find(outline).code(), StatusCode::card_not_found);
+  EXPECT_EQ(card.find().code(), StatusCode::card_not_found);
   card.labels.setTo(0);
   card.labels(cv::Rect(100, 100, 60, 1)).setTo(kCardLabel);
-  const Status line = card.find(outline);
+  const Result<CardOutline> line = card.find();
   if (line.ok()) {
-    for (const Vec2& corner : outline.corners) EXPECT_TRUE(corner.allFinite());
+    for (const Vec2& corner : line->corners) EXPECT_TRUE(corner.allFinite());
   }
 }
 
