@@ -2,6 +2,11 @@
 
 namespace traygauge {
 
+Status blame_card(const Segmentation& segmentation, Status status) {
+  const bool is_measured = status.ok() || status.code() == StatusCode::partial;
+  return segmentation.is_card_doubtful && !is_measured ? Status(StatusCode::card_hidden) : status;
+}
+
 void warn_about_labels(const Segmentation& segmentation, WarningSet& warnings) {
   for (std::size_t d = 0; d < segmentation.dish_count; ++d) {
     const SegmentedDish& dish = segmentation.dishes[d];

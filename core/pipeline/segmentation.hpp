@@ -47,6 +47,10 @@ struct Segmentation {
   double total_ms() const { return card_ms + dish_ms + food_ms; }
 };
 
+// `status`, or card_hidden where nothing was measured and the card is doubtful: outlines that were drawn
+// after a card out of its place contradict each other, and every other refusal would blame the wrong thing.
+Status blame_card(const Segmentation& segmentation, Status status);
+
 // Raises what is doubtful about labels that were found, where they were found at all.
 void warn_about_labels(const Segmentation& segmentation, WarningSet& warnings);
 

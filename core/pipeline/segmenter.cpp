@@ -92,7 +92,7 @@ void Segmenter::segment() {
     }
     if (result_.items == 0) result_.status = StatusCode::no_food_label;
   }
-  if (!result_.status.ok() && result_.is_card_doubtful) result_.status = StatusCode::card_hidden;
+  result_.status = blame_card(result_, result_.status);
   clock.stop();
   result_.dish_ms = clock.stage_ms()[static_cast<std::size_t>(Stage::surface)];
   result_.food_ms = clock.stage_ms()[static_cast<std::size_t>(Stage::volume)];

@@ -176,9 +176,7 @@ const Measurement& TrayEstimator::estimate(std::uint64_t seed, StageObserver* ob
     measure_tray(state.memory, state.configuration, seed, observer, clock, measurement_);
   if (is_found && state.segmentation.status.ok()) {
     warn_about_labels(state.segmentation, measurement_.warnings);
-    // Outlines that were drawn after a card out of its place contradict each other; nothing else is to blame.
-    if (state.segmentation.is_card_doubtful && !is_measured(measurement_))
-      measurement_.status = StatusCode::card_hidden;
+    measurement_.status = blame_card(state.segmentation, measurement_.status);
   }
   clock.stop();
   measurement_.stage_ms = clock.stage_ms();

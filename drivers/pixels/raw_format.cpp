@@ -5,14 +5,32 @@
 namespace traygauge {
 namespace {
 
-constexpr auto kEncodingNames =
-    std::to_array<const char*>({"YUYV", "NV12", "GREY", "MJPEG", "RGB24", "BGR24", "Bayer"});
+#define TRAYGAUGE_NAME(encoding, text) text,
+constexpr std::array<const char*, kRawEncodingCount> kEncodingNames = {
+    TRAYGAUGE_RAW_ENCODINGS(TRAYGAUGE_NAME)};
+#undef TRAYGAUGE_NAME
 constexpr auto kPatternNames = std::to_array<const char*>({"RGGB", "GRBG", "GBRG", "BGGR"});
 
 std::size_t packed_samples(int samples, int bits) {
   const int group = bits == 10 ? 4 : 2;
   const int group_bytes = bits == 10 ? 5 : 3;
   return static_cast<std::size_t>((samples + group - 1) / group * group_bytes);
+}
+
+// In rows of the grey ones' stride.
+int rows_with_colours(const RawFormat& format, int height) {
+  switch (format.encoding) {
+    case RawEncoding::nv12:
+      return height + height / 2;
+    case RawEncoding::yuyv:
+    case RawEncoding::grey:
+    case RawEncoding::mjpeg:
+    case RawEncoding::rgb24:
+    case RawEncoding::bgr24:
+    case RawEncoding::bayer:
+      break;
+  }
+  return height;
 }
 
 }  // namespace
@@ -45,8 +63,8 @@ std::size_t row_bytes(const RawFormat& format, int width) {
 std::size_t frame_bytes(const RawFormat& format, int width, int height, std::ptrdiff_t stride_bytes) {
   const std::size_t row = row_bytes(format, width);
   if (row == 0) return 0;
-  const int rows = format.encoding == RawEncoding::nv12 ? height + height / 2 : height;
-  return static_cast<std::size_t>(stride_bytes) * static_cast<std::size_t>(rows - 1) + row;
+  const auto rows = static_cast<std::size_t>(rows_with_colours(format, height));
+  return static_cast<std::size_t>(stride_bytes) * (rows - 1) + row;
 }
 
 PixelFormat converted_pixels(const RawFormat& format) {

@@ -10,7 +10,23 @@
 
 namespace traygauge {
 
-enum class RawEncoding : std::uint8_t { yuyv, nv12, grey, mjpeg, rgb24, bgr24, bayer };
+// Each with its name.
+#define TRAYGAUGE_RAW_ENCODINGS(X) \
+  X(yuyv, "YUYV")                  \
+  X(nv12, "NV12")                  \
+  X(grey, "GREY")                  \
+  X(mjpeg, "MJPEG")                \
+  X(rgb24, "RGB24")                \
+  X(bgr24, "BGR24")                \
+  X(bayer, "Bayer")
+
+#define TRAYGAUGE_ENUMERATOR(encoding, text) encoding,
+enum class RawEncoding : std::uint8_t { TRAYGAUGE_RAW_ENCODINGS(TRAYGAUGE_ENUMERATOR) };
+#undef TRAYGAUGE_ENUMERATOR
+
+#define TRAYGAUGE_ONE(encoding, text) +1
+inline constexpr int kRawEncodingCount = TRAYGAUGE_RAW_ENCODINGS(TRAYGAUGE_ONE);
+#undef TRAYGAUGE_ONE
 
 // The two first pixels of the two first rows.
 enum class BayerPattern : std::uint8_t { rggb, grbg, gbrg, bggr };

@@ -25,23 +25,38 @@ constexpr RawFormat bayer(BayerPattern pattern, int bits, bool is_packed = false
 }
 
 using enum BayerPattern;
+// clang-format off
 constexpr auto kKnownFormats = std::to_array<KnownFormat>({
     // Best first: without loss, colours at full resolution.
-    {V4L2_PIX_FMT_BGR24, {RawEncoding::bgr24}},     {V4L2_PIX_FMT_RGB24, {RawEncoding::rgb24}},
-    {V4L2_PIX_FMT_YUYV, {RawEncoding::yuyv}},       {V4L2_PIX_FMT_NV12, {RawEncoding::nv12}},
-    {V4L2_PIX_FMT_MJPEG, {RawEncoding::mjpeg}},     {V4L2_PIX_FMT_JPEG, {RawEncoding::mjpeg}},
-    {V4L2_PIX_FMT_SRGGB12, bayer(rggb, 12)},        {V4L2_PIX_FMT_SGRBG12, bayer(grbg, 12)},
-    {V4L2_PIX_FMT_SGBRG12, bayer(gbrg, 12)},        {V4L2_PIX_FMT_SBGGR12, bayer(bggr, 12)},
-    {V4L2_PIX_FMT_SRGGB12P, bayer(rggb, 12, true)}, {V4L2_PIX_FMT_SGRBG12P, bayer(grbg, 12, true)},
-    {V4L2_PIX_FMT_SGBRG12P, bayer(gbrg, 12, true)}, {V4L2_PIX_FMT_SBGGR12P, bayer(bggr, 12, true)},
-    {V4L2_PIX_FMT_SRGGB10, bayer(rggb, 10)},        {V4L2_PIX_FMT_SGRBG10, bayer(grbg, 10)},
-    {V4L2_PIX_FMT_SGBRG10, bayer(gbrg, 10)},        {V4L2_PIX_FMT_SBGGR10, bayer(bggr, 10)},
-    {V4L2_PIX_FMT_SRGGB10P, bayer(rggb, 10, true)}, {V4L2_PIX_FMT_SGRBG10P, bayer(grbg, 10, true)},
-    {V4L2_PIX_FMT_SGBRG10P, bayer(gbrg, 10, true)}, {V4L2_PIX_FMT_SBGGR10P, bayer(bggr, 10, true)},
-    {V4L2_PIX_FMT_SRGGB8, bayer(rggb, 8)},          {V4L2_PIX_FMT_SGRBG8, bayer(grbg, 8)},
-    {V4L2_PIX_FMT_SGBRG8, bayer(gbrg, 8)},          {V4L2_PIX_FMT_SBGGR8, bayer(bggr, 8)},
+    {V4L2_PIX_FMT_BGR24, {RawEncoding::bgr24}},
+    {V4L2_PIX_FMT_RGB24, {RawEncoding::rgb24}},
+    {V4L2_PIX_FMT_YUYV, {RawEncoding::yuyv}},
+    {V4L2_PIX_FMT_NV12, {RawEncoding::nv12}},
+    {V4L2_PIX_FMT_MJPEG, {RawEncoding::mjpeg}},
+    {V4L2_PIX_FMT_JPEG, {RawEncoding::mjpeg}},
+    {V4L2_PIX_FMT_SRGGB12, bayer(rggb, 12)},
+    {V4L2_PIX_FMT_SGRBG12, bayer(grbg, 12)},
+    {V4L2_PIX_FMT_SGBRG12, bayer(gbrg, 12)},
+    {V4L2_PIX_FMT_SBGGR12, bayer(bggr, 12)},
+    {V4L2_PIX_FMT_SRGGB12P, bayer(rggb, 12, true)},
+    {V4L2_PIX_FMT_SGRBG12P, bayer(grbg, 12, true)},
+    {V4L2_PIX_FMT_SGBRG12P, bayer(gbrg, 12, true)},
+    {V4L2_PIX_FMT_SBGGR12P, bayer(bggr, 12, true)},
+    {V4L2_PIX_FMT_SRGGB10, bayer(rggb, 10)},
+    {V4L2_PIX_FMT_SGRBG10, bayer(grbg, 10)},
+    {V4L2_PIX_FMT_SGBRG10, bayer(gbrg, 10)},
+    {V4L2_PIX_FMT_SBGGR10, bayer(bggr, 10)},
+    {V4L2_PIX_FMT_SRGGB10P, bayer(rggb, 10, true)},
+    {V4L2_PIX_FMT_SGRBG10P, bayer(grbg, 10, true)},
+    {V4L2_PIX_FMT_SGBRG10P, bayer(gbrg, 10, true)},
+    {V4L2_PIX_FMT_SBGGR10P, bayer(bggr, 10, true)},
+    {V4L2_PIX_FMT_SRGGB8, bayer(rggb, 8)},
+    {V4L2_PIX_FMT_SGRBG8, bayer(grbg, 8)},
+    {V4L2_PIX_FMT_SGBRG8, bayer(gbrg, 8)},
+    {V4L2_PIX_FMT_SBGGR8, bayer(bggr, 8)},
     {V4L2_PIX_FMT_GREY, {RawEncoding::grey}},
 });
+// clang-format on
 
 std::size_t rank(std::uint32_t fourcc) {
   return static_cast<std::size_t>(std::ranges::find(kKnownFormats, fourcc, &KnownFormat::fourcc) -
@@ -214,6 +229,22 @@ std::string describe_modes(const std::vector<OfferedMode>& modes, const std::vec
     separator = ", ";
   }
   return text;
+}
+
+std::string list_known_formats() {
+  std::string names;
+  std::string last;
+  for (const KnownFormat& known : kKnownFormats) {
+    const std::string next = name(known.format);
+    if (next != last) names += (names.empty() ? "" : ", ") + next;
+    last = next;
+  }
+  return names;
+}
+
+bool is_known_format(const std::string& format) {
+  return std::ranges::any_of(kKnownFormats,
+                             [&](const KnownFormat& known) { return name(known.format) == format; });
 }
 
 std::string describe_wish(const ModeWish& wish) {

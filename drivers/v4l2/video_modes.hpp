@@ -54,6 +54,10 @@ std::optional<ChosenMode> choose_mode(const std::vector<OfferedMode>& modes, con
 std::string describe_modes(const std::vector<OfferedMode>& modes, const std::vector<std::string>& unknown);
 std::string describe_wish(const ModeWish& wish);
 
+// The formats that `format` of a wish may name, best first: "BGR24, RGB24, YUYV".
+std::string list_known_formats();
+bool is_known_format(const std::string& name);
+
 // What the kernel says of the numbers of a format that was set.
 YuvCoding yuv_coding_of(std::uint32_t colorspace, std::uint32_t encoding, std::uint32_t quantization);
 

@@ -7,6 +7,7 @@
 #include "core/adjustment/bundle_problem.hpp"
 #include "core/pipeline/measurement.hpp"
 #include "drivers/v4l2/device_finder.hpp"
+#include "drivers/v4l2/video_modes.hpp"
 #include "firmware/base/text.hpp"
 #include "simulator/capture/json_node.hpp"
 #include "simulator/capture/toml_file.hpp"
@@ -96,7 +97,11 @@ V4l2CameraParams read_camera(const JsonNode& table) {
   }
   take(table, "width", kMinPictureSide, kMaxPictureSide, camera.mode.width);
   take(table, "height", kMinPictureSide, kMaxPictureSide, camera.mode.height);
-  if (const auto format = table.find("format")) camera.mode.format = format->text();
+  if (const auto format = table.find("format")) {
+    camera.mode.format = format->text();
+    if (!is_known_format(camera.mode.format))
+      format->fail("one of " + list_known_formats(), "correct the value");
+  }
   take(table, "frames_per_s", {0.1, 1000.0}, camera.mode.frames_per_s);
   for (std::size_t i = 0; i < kCameraControlCount; ++i) {
     if (const auto node = table.find(name(static_cast<CameraControl>(i)))) {

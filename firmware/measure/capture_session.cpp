@@ -131,7 +131,7 @@ const Measurement& CaptureSession::measure_found_labels(std::uint64_t seed) {
   if (found.status.ok()) {
     measurement_ = paper_->measure({input(0), input(1)}, seed);
     warn_about_labels(found, measurement_.warnings);
-    if (found.is_card_doubtful && !is_measured(measurement_)) measurement_.status = StatusCode::card_hidden;
+    measurement_.status = blame_card(found, measurement_.status);
   }
   measurement_.segmentation_ms = found.total_ms();
   measurement_.total_ms += measurement_.segmentation_ms;

@@ -185,9 +185,19 @@ TEST_F(Converters, GreyRgbAndBgrAreCopiedRowByRow) {
   EXPECT_EQ(converted_pixels({RawEncoding::bgr24}), PixelFormat::bgr8);
 }
 
+// All but JPEG.
+std::vector<RawFormat> formats_of_fixed_size() {
+  std::vector<RawFormat> formats;
+  for (int i = 0; i < kRawEncodingCount; ++i) {
+    const RawFormat format{static_cast<RawEncoding>(i)};
+    if (format.encoding != RawEncoding::mjpeg) formats.push_back(format);
+  }
+  return formats;
+}
+
 TEST_F(Converters, NothingIsWrittenBehindThePicture) {
   for (int run = 0; run < kRuns; ++run) {
-    RawFormat format{static_cast<RawEncoding>(run % 7)};
+    RawFormat format{static_cast<RawEncoding>(run % kRawEncodingCount)};
     if (format.encoding == RawEncoding::mjpeg) continue;
     const int width = 4 * draw(1, 70);
     const int height = 2 * draw(2, 9);
@@ -202,9 +212,7 @@ TEST_F(Converters, NothingIsWrittenBehindThePicture) {
 }
 
 TEST_F(Converters, AMissingByteMakesThePictureIncomplete) {
-  for (const RawEncoding encoding : {RawEncoding::yuyv, RawEncoding::nv12, RawEncoding::grey,
-                                     RawEncoding::rgb24, RawEncoding::bgr24, RawEncoding::bayer}) {
-    const RawFormat format{encoding};
+  for (const RawFormat& format : formats_of_fixed_size()) {
     const auto stride = static_cast<std::ptrdiff_t>(row_bytes(format, 16));
     auto bytes = draw_bytes(frame_bytes(format, 16, 8, stride));
     FrameConverter converter(format, 16, 8, stride);
@@ -240,9 +248,7 @@ TEST_F(Converters, ABlurredPictureIsLessSharp) {
     const auto stride = static_cast<std::ptrdiff_t>(row_bytes(format, grey.cols));
     return FrameConverter(format, grey.cols, grey.rows, stride).sharpness(bytes);
   };
-  for (const RawFormat& format :
-       {RawFormat{RawEncoding::yuyv}, RawFormat{RawEncoding::nv12}, RawFormat{RawEncoding::grey},
-        RawFormat{RawEncoding::rgb24}, RawFormat{RawEncoding::bgr24}, RawFormat{RawEncoding::bayer}}) {
+  for (const RawFormat& format : formats_of_fixed_size()) {
     EXPECT_GT(grade(format, sharp), 2.0 * grade(format, blurred)) << name(format);
   }
 }
@@ -275,9 +281,7 @@ TEST_F(Converters, SharpnessOfAMosaicComparesEqualColours) {
 
 TEST_F(Converters, BrightnessIsTheMeanGrey) {
   for (const int level : {0, 60, 255}) {
-    for (const RawFormat& format :
-         {RawFormat{RawEncoding::yuyv}, RawFormat{RawEncoding::nv12}, RawFormat{RawEncoding::grey},
-          RawFormat{RawEncoding::rgb24}, RawFormat{RawEncoding::bayer}}) {
+    for (const RawFormat& format : formats_of_fixed_size()) {
       const auto stride = static_cast<std::ptrdiff_t>(row_bytes(format, 32));
       std::vector<std::uint8_t> bytes(frame_bytes(format, 32, 24, stride), static_cast<std::uint8_t>(level));
       if (format.encoding == RawEncoding::yuyv)

@@ -169,6 +169,7 @@ TEST_F(StationFileTest, NamesTheKeyThatIsWrong) {
            {small + "debounce_ms = 0\n", "button.debounce_ms"},
            {small + "active_low = 1\n", "button.active_low"},
            {"[camera]\ndevice = \"/dev/v\"\nfocus = \"auto\"\n[button]\nline = \"T\"\n", "camera.focus"},
+           {"[camera]\ndevice = \"/dev/v\"\nformat = \"NV-12\"\n[button]\nline = \"T\"\n", "camera.format"},
            {"[camera]\ndevice = \"/dev/v\"\nburst = 9\n[button]\nline = \"T\"\n", "camera.burst"},
            {"[camera]\ndevice = \"/dev/v\"\n[button]\nline = \"gpiochip0/\"\n", "button.line"},
            {small + "[arm]\nkind = \"hydraulic\"\n", "arm.kind"},
