@@ -33,11 +33,6 @@ class DishProfile {
     return inset >= last_inset_mm_ ? bottom_height_mm_ : height_at_inset_mm(inset);
   }
 
-  // Whether the point lies within the rim's ellipse.
-  bool contains(const Vec2& dish_mm) const {
-    return dish_mm.cwiseQuotient(semi_axes_mm_).squaredNorm() < 1.0;
-  }
-
   // Inset d of the curve (x/(a−d))² + (y/(b−d))² = 1 through the point; negative outside of the edge. Points
   // over the flat bottom all get its inset: 0 in a dish without a profile.
   double inset_mm(const Vec2& dish_mm) const;

@@ -51,8 +51,7 @@ struct FillMap {
   }
 };
 
-// Every known cell has a height of its own, so that a filled one tells where it took it from. With and
-// without a profile the dish is level.
+// Every known cell has a height of its own, so that a filled one tells where it took it from.
 TEST(OccludedCells, FillHolesFromTheNearestWithinReach) {
   std::mt19937 random(test::random_seed());
   std::uniform_int_distribution<int> place(0, kFillSide - 1);
@@ -63,7 +62,7 @@ TEST(OccludedCells, FillHolesFromTheNearestWithinReach) {
   int beyond = 0;
   int not_nearest = 0;
   for (int round = 0; round < 20; ++round) {
-    FillMap scene(round % 2 == 0);
+    FillMap scene;
     cv::Mat1b known(kFillSide, kFillSide, std::uint8_t{255});
     for (int i = 0; i < 6; ++i)
       cv::circle(known, {place(random), place(random)}, radius(random), cv::Scalar(0), cv::FILLED);
@@ -193,6 +192,16 @@ TEST(OccludedCells, BehindWhatIsNoItemTheFootGoesOnLevel) {
   EXPECT_FLOAT_EQ(scene.at(25, 30).z_mm, 9.0F);
   EXPECT_EQ(scene.at(25, 30).label, kFillItem);
   EXPECT_FLOAT_EQ(scene.at(35, 30).z_mm, 12.0F);  // never over the line of sight
+}
+
+// On a board holes lie beside the flanks of what stands there, and what is nearest is no guess at them.
+TEST(OccludedCells, ADishWithoutAProfileKeepsItsHoles) {
+  FillMap scene(false);
+  for (int y = 20; y < 24; ++y) {
+    for (int x = 30; x < 34; ++x) scene.at(x, y) = {};
+  }
+  scene.fill({});
+  EXPECT_EQ(scene.at(31, 21).kind, CellKind::unseen);
 }
 
 TEST(OccludedCells, NothingKnownStaysUnseen) {
