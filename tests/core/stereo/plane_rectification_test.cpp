@@ -9,8 +9,10 @@
 #include <vector>
 
 #include "core/stereo/plane_rectification.hpp"
+#include "core/stereo/view_slope.hpp"
 #include "tests/support/cameras.hpp"
 #include "tests/support/opencv_camera.hpp"
+#include "tests/support/pictures.hpp"
 #include "tests/support/random_seed.hpp"
 
 namespace traygauge {
@@ -216,6 +218,44 @@ TEST(PlaneRectification, RefusesBadInput) {
   Scene outside(first, second);
   outside.views[0].dish.right = outside.views[0].lens.width + 1;
   EXPECT_FALSE(outside.build(grid).ok());
+}
+
+// A round item, whose outline's normal points away from its centre.
+TEST(PlaneRectification, ViewsLeanOverARoundOutlineAsItsRadiusSays) {
+  Scene scene({-60.0, -220.0, 430.0}, {80.0, -200.0, 450.0});
+  PlaneRectification grid;
+  ASSERT_TRUE(scene.build(grid).ok());
+  constexpr std::uint8_t kRoundItem = 7;
+  constexpr double kItemRadiusMm = 40.0;
+  const Vec2 centre(20.0, -30.0);
+  cv::Mat1b labels(grid.rows(), grid.columns(), kDishLabel);
+  const auto from_centre = [&](int row, int column) {
+    return Vec2(grid.plane_point(row, column).head<2>() - centre);
+  };
+  for (int row = 0; row < grid.rows(); ++row) {
+    for (int column = 0; column < grid.columns(); ++column) {
+      if (from_centre(row, column).norm() < kItemRadiusMm) labels(row, column) = kRoundItem;
+    }
+  }
+  int outlines = 0;
+  for (int row = 0; row < grid.rows(); ++row) {
+    for (int column = 1; column + 1 < grid.columns(); ++column) {
+      for (const int side : {-1, 1}) {
+        if (labels(row, column) != kRoundItem || labels(row, column + side) == kRoundItem) continue;
+        const Vec2 radius = from_centre(row, column).normalized();
+        // Near the top and bottom row the outline runs along the row, and rows around end elsewhere.
+        if (radius.dot(side * grid.row(row).direction) < 0.6) continue;
+        for (const int view : {0, 1}) {
+          const Vec2 run = (grid.plane_point(row, column) - grid.camera_mm(view)).head<2>();
+          const double expected = radius.dot(run) / grid.camera_height_mm(view);
+          const RectifiedViewSlope slope(grid, test::view_of(labels), view, row);
+          EXPECT_NEAR(slope.at(column, side), expected, 0.15 * run.norm() / grid.camera_height_mm(view));
+          ++outlines;
+        }
+      }
+    }
+  }
+  EXPECT_GT(outlines, 100);
 }
 
 }  // namespace
