@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "firmware/base/exit_status.hpp"
+#include "firmware/paper/paper_profile.hpp"
 #include "tests/firmware/command_runner.hpp"
 
 namespace traygauge {
@@ -94,8 +95,10 @@ TEST(Parameters, AreFew) {
   EXPECT_EQ(groups.at("profile paper").size(), 51U);
 }
 
-// What a person types, and a part of the one line that answers.
-void expect_refused(std::vector<std::string> options, const std::string& answer) {
+// What a person types, and a part of the one line that answers; without profile paper, choosing it is wrong.
+void expect_refused(std::vector<std::string> options, std::string answer) {
+  const bool chooses_paper = std::find(options.begin(), options.end(), "paper") != options.end();
+  if (chooses_paper && !has_paper_profile()) answer = "this program was built without it";
   options.insert(options.begin(), {"evaluate", "--parameters"});
   const CommandResult result = run(options);
   EXPECT_EQ(result.status, kExitWrongUse) << answer;
