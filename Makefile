@@ -15,6 +15,9 @@ options := $(if $(shell command -v ccache),-DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
 ifeq ($(CI),true)
 options += -DTRAYGAUGE_WHOLE_TESTS=ON
 endif
+# CI takes the sanitizers and ARM without profile paper, which is no part of what is shipped and takes a third of the time.
+# So its absence is tested, too.
+paper = -DTRAYGAUGE_PAPER=$(if $(filter true,$(CI)),OFF,ON)
 # What comes next, and when it began.
 say = @echo "== $$(date +%T) $(1)"
 sources = git ls-files '*.cpp' '*.hpp'
@@ -111,11 +114,11 @@ board-station: board-programs
 # The cross-build under user-mode emulation: tests of the core without captures, the drivers' tests, and the volumes of the
 # demo beside this machine's. Not the alignment of the card, which takes minutes: the volumes depend on the card's place.
 ARM_TESTS = base_test geometry_test image_test features_test tracking_test card_test adjustment_test dish_test segmentation_test \
-  stereo_test paper_sparse_test pixels_test v4l2_test gpio_test serial_test drivers_test
+  stereo_test pixels_test v4l2_test gpio_test serial_test drivers_test $(if $(filter true,$(CI)),,paper_sparse_test)
 arm_libraries = /usr/lib/aarch64-linux-gnu
 in_arm = qemu-aarch64-static -L $(arm_sysroot) -E LD_LIBRARY_PATH=$(arm_libraries)/blas:$(arm_libraries)/lapack
 arm-test: build arm-sysroot
-	cmake --preset aarch64 $(options)
+	cmake --preset aarch64 $(options) $(paper)
 	cmake --build --preset aarch64 -j $(JOBS) --target traygauge $(ARM_TESTS)
 	printf '%s\n' $(ARM_TESTS) | xargs -P $(JOBS) -I TEST \
 	  env TRAYGAUGE_CAPTURES= sh -c '$(in_arm) "$$(find build-aarch64/tests -type f -name TEST)" --gtest_brief=1 --gtest_filter=-CardAlignment*'
@@ -158,9 +161,8 @@ lint-changed: packages
 
 sanitize: asan-ubsan tsan
 
-# On CI without profile paper: it is no part of what is shipped, and takes a third of the time. Its absence is so tested, too.
 asan-ubsan: packages
-	cmake --preset asan-ubsan $(options) -DTRAYGAUGE_PAPER=$(if $(filter true,$(CI)),OFF,ON)
+	cmake --preset asan-ubsan $(options) $(paper)
 	cmake --build --preset asan-ubsan -j $(JOBS)
 	$(ctest) --test-dir build-asan-ubsan
 
