@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cassert>
+#include <utility>
 
 #include "core/base/status.hpp"
 
@@ -13,7 +14,7 @@ template <class T>
 class [[nodiscard]] Result {
  public:
   // NOLINTBEGIN(google-explicit-constructor): a function returns its refusal or its value as they are
-  constexpr Result(const T& value) : value_(value) {}
+  constexpr Result(T value) : value_(std::move(value)) {}
   constexpr Result(Status refusal) : status_(refusal) { assert(!refusal.ok()); }
   constexpr Result(StatusCode refusal) : Result(Status(refusal)) {}
   // NOLINTEND(google-explicit-constructor)
