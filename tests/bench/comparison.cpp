@@ -24,13 +24,23 @@ double median(std::vector<double> values) {
   return *middle;
 }
 
+// Google Benchmark calls it `error_occurred` up to version 1.7, which Debian 12 has, then `skipped`.
+template <class Run>
+bool has_failed(const Run& run) {
+  if constexpr (requires { run.skipped; }) {
+    return static_cast<int>(run.skipped) != 0;
+  } else {
+    return run.error_occurred;
+  }
+}
+
 // Collects the repetitions and prints nothing.
 class Collector : public benchmark::BenchmarkReporter {
  public:
   bool ReportContext(const Context& /*context*/) override { return true; }
   void ReportRuns(const std::vector<Run>& runs) override {
     for (const Run& run : runs) {
-      if (run.run_type != Run::RT_Iteration || run.error_occurred) continue;
+      if (run.run_type != Run::RT_Iteration || has_failed(run)) continue;
       Sample& sample = samples[run.run_name.function_name];
       sample.times_ms.push_back(run.GetAdjustedCPUTime());
       sample.figure = run.counters.at(kFigure).value;
