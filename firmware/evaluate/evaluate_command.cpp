@@ -93,7 +93,7 @@ std::vector<Plot> prepare_plots(const EvaluateOptions& options) {
 
 void add_evaluate_command(Program& program, EvaluateOptions& options) {
   Command command = program.add_command("evaluate", "Measure a set of captures and compare with their truth");
-  command.add_option("set", options.set, "A capture with truth.json, or a folder of such");
+  command.add_option("SET", options.set, "A capture with truth.json, or a folder of such");
   command.add_option("--runs", options.runs, "Seeds a pair, default 8").range(1, kMaxRuns);
   command.add_option("--jobs", options.jobs, "Pairs measured at the same time, default 1").range(1, kMaxJobs);
   command.add_option("--profile", options.profile, "best (default) or paper");
