@@ -15,9 +15,12 @@ const char* name(Stage stage) {
   return kStageNames[static_cast<std::size_t>(stage)];
 }
 
+bool is_measured(Status status) {
+  return status.ok() || status.code() == StatusCode::partial;
+}
+
 bool is_measured(const Measurement& measurement) {
-  const StatusCode code = measurement.status.code();
-  return code == StatusCode::ok || code == StatusCode::partial;
+  return is_measured(measurement.status);
 }
 
 Status summarise(std::span<const ItemResult> items) {

@@ -50,6 +50,7 @@ struct Measurement;
 inline constexpr std::size_t kMaxItems = 198;  // labels 2…199
 
 // True when at least one item was measured.
+bool is_measured(Status status);
 bool is_measured(const Measurement& measurement);
 
 // ok when all items are, partial when some are, else the first one's status.

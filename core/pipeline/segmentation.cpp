@@ -1,10 +1,11 @@
 #include "core/pipeline/segmentation.hpp"
 
+#include "core/pipeline/measurement.hpp"
+
 namespace traygauge {
 
 Status blame_card(const Segmentation& segmentation, Status status) {
-  const bool is_measured = status.ok() || status.code() == StatusCode::partial;
-  return segmentation.is_card_doubtful && !is_measured ? Status(StatusCode::card_hidden) : status;
+  return segmentation.is_card_doubtful && !is_measured(status) ? Status(StatusCode::card_hidden) : status;
 }
 
 void warn_about_labels(const Segmentation& segmentation, WarningSet& warnings) {
