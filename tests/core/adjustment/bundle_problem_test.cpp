@@ -1,4 +1,4 @@
-// The joint problem's slopes against differences of its cost, its elimination against the whole system.
+// The bundle problem's slopes against differences of its cost, its elimination against the whole system.
 #include "core/adjustment/bundle_problem.hpp"
 
 #include <gtest/gtest.h>

@@ -22,7 +22,7 @@ constexpr std::uint8_t kContourItem = 12;
 using SidePlace = std::pair<int, int>;  // doubled
 
 // The outer sides of the largest component (of side by side pixels) with its holes filled.
-std::multiset<SidePlace> sides_of_largest(const cv::Mat& on_dish, double& share) {
+std::multiset<SidePlace> sides_of_largest(const cv::Mat& on_dish, double& fraction) {
   cv::Mat1b framed;
   cv::copyMakeBorder(on_dish, framed, 1, 1, 1, 1, cv::BORDER_CONSTANT, cv::Scalar(0));
   cv::Mat1i numbers;
@@ -32,7 +32,7 @@ std::multiset<SidePlace> sides_of_largest(const cv::Mat& on_dish, double& share)
   int largest = 1;
   for (int i = 2; i < count; ++i)
     if (stats(i, cv::CC_STAT_AREA) > stats(largest, cv::CC_STAT_AREA)) largest = i;
-  share = static_cast<double>(stats(largest, cv::CC_STAT_AREA)) / cv::countNonZero(framed);
+  fraction = static_cast<double>(stats(largest, cv::CC_STAT_AREA)) / cv::countNonZero(framed);
   const cv::Mat beside = numbers != largest;
   cv::Mat1i outside;
   cv::connectedComponents(beside, outside, 8);
@@ -63,9 +63,9 @@ TEST(DishContour, WalksTheOuterSidesOfTheLargestPiece) {
       cv::circle(labels, {place(random), place(random)}, radius(random), cv::Scalar(value), cv::FILLED);
     }
     const cv::Mat on_dish = (labels == kDishLabel) | (labels == kContourItem);
-    double share = 0.0;
-    const std::multiset<SidePlace> truth = sides_of_largest(on_dish, share);
-    if (share < 0.55) continue;
+    double fraction = 0.0;
+    const std::multiset<SidePlace> truth = sides_of_largest(on_dish, fraction);
+    if (fraction < 0.55) continue;
     test::Allocated<DishContour> contour(std::size_t{4000});
     ASSERT_TRUE(trace_dish_contour(test::view_of(labels), *contour).ok());
     std::multiset<SidePlace> found;

@@ -39,10 +39,15 @@ cv::Mat1b drawn_rim(std::uint8_t inside, std::uint8_t outside) {
   return gray;
 }
 
-TEST(RimEdges, LieOnADrawnRimWithTheBrighterSideOnTheLeft) {
-  const LensModel lens = test::phone_lens(kEdgeScale);
+std::vector<cv::Point> drawn_outline() {
   std::vector<cv::Point> polygon;
   cv::ellipse2Poly(kDrawnRim.center, {130, 95}, 15, 0, 360, 1, polygon);
+  return polygon;
+}
+
+TEST(RimEdges, LieOnADrawnRimWithTheBrighterSideOnTheLeft) {
+  const LensModel lens = test::phone_lens(kEdgeScale);
+  const std::vector<cv::Point> polygon = drawn_outline();
   for (const bool is_bright : {true, false}) {
     CollectedEdges found;
     found.collect(is_bright ? drawn_rim(200, 90) : drawn_rim(80, 190), lens);
@@ -77,14 +82,14 @@ TEST(RimEdges, AreThoseOfOpenCvsCanny) {
   }
   cv::Mat1b cannys;
   cv::Canny(gray, cannys, 50.0, 50.0, 3, true);  // a strength here is half a gradient
-  const auto share_near = [](const cv::Mat1b& of, const cv::Mat1b& to) {
+  const auto fraction_near = [](const cv::Mat1b& of, const cv::Mat1b& to) {
     cv::Mat1b wide;
     cv::dilate(to, wide, cv::Mat1b::ones(3, 3));
     return static_cast<double>(cv::countNonZero(of & wide)) / cv::countNonZero(of);
   };
   ASSERT_GT(cv::countNonZero(mine), 1000);
-  EXPECT_GT(share_near(mine, cannys), 0.93);
-  EXPECT_GT(share_near(cannys, mine), 0.93);
+  EXPECT_GT(fraction_near(mine, cannys), 0.93);
+  EXPECT_GT(fraction_near(cannys, mine), 0.93);
 }
 
 TEST(RimEdges, KeepTheStrongest) {
@@ -106,8 +111,7 @@ TEST(RimEdges, OfALargePictureAreFoundInASmallerOne) {
   CollectedEdges found;
   found.collect(large, lens);
   ASSERT_GT(found.edges.size(), 500U);
-  std::vector<cv::Point> polygon;
-  cv::ellipse2Poly(kDrawnRim.center, {130, 95}, 15, 0, 360, 1, polygon);
+  const std::vector<cv::Point> polygon = drawn_outline();
   for (const RimEdge& edge : found.edges) {
     const Vec2 pixel = (lens.pixel(edge.ray).array() + 0.5).matrix() / 4.0 - Vec2::Constant(0.5);
     const cv::Point2f at(static_cast<float>(pixel.x()), static_cast<float>(pixel.y()));

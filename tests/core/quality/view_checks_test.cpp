@@ -99,9 +99,9 @@ TEST(ViewChecks, WarnOfBlurThenRefuseIt) {
 
 TEST(ViewChecks, WarnOfDarkPicturesThenRefuseThem) {
   const ViewQuality good = CheckedScene().assess();
-  const auto darkened_to = [](double share) {
+  const auto darkened_to = [](double fraction) {
     CheckedScene scene;
-    scene.picture.convertTo(scene.picture, CV_8U, share);
+    scene.picture.convertTo(scene.picture, CV_8U, fraction);
     return scene.assess();
   };
   const ViewQuality dim = darkened_to(50.0 / 205.0);
