@@ -15,8 +15,8 @@ options := $(if $(shell command -v ccache),-DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
 ifeq ($(CI),true)
 options += -DTRAYGAUGE_WHOLE_TESTS=ON
 endif
-# CI takes the sanitizers and ARM without profile paper, which is no part of what is shipped and takes a third of the time.
-# So its absence is tested, too.
+# On CI the sanitizers and ARM are built without profile paper: it is no part of what is shipped, and this build is so tested,
+# too.
 paper = -DTRAYGAUGE_PAPER=$(if $(filter true,$(CI)),OFF,ON)
 # What comes next, and when it began.
 say = @echo "== $$(date +%T) $(1)"

@@ -169,9 +169,9 @@ class HiddenFill {
     }
   }
 
-  // Never in a dish without a profile, whose insets are all 0: there, what goes on level from the nearest is
-  // mostly a tall body's flank. The photographed mango (593 ml on a page) then comes out as 661 ml, without
-  // as 584.
+  // Holes are filled only in a dish with a profile; without one every inset is 0. On a flat page most holes
+  // lie beside the flank of a tall body, which must not go on level: the photographed mango of 593 ml comes
+  // out as 661 ml with its holes filled, as 584 ml without.
   bool has_holes() {
     bool any = false;
     for_each_cell([&](int x, int y, const HeightCell& cell) {
