@@ -19,6 +19,12 @@ target_compile_options(traygauge_options INTERFACE
   -Wall -Wextra -Wconversion -Wsign-conversion -Wshadow -Wnon-virtual-dtor -Wold-style-cast
   $<$<BOOL:${TRAYGAUGE_WERROR}>:-Werror>
   -ffp-contract=off)  # no fused multiply-add: the same bits on every processor
+if(CMAKE_CXX_COMPILER_ID STREQUAL GNU AND CMAKE_CXX_COMPILER_VERSION VERSION_GREATER_EQUAL 14
+    AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 15)
+  # Debian 13's GCC 14.2 takes stores for dead that a called function reads: five_point_test then compares with matrices that were
+  # never written. GCC 12 and 15 do not, and stdexec met the same (its pull request 2155).
+  target_compile_options(traygauge_options INTERFACE -fno-ipa-modref)
+endif()
 target_include_directories(traygauge_options INTERFACE ${TRAYGAUGE_ROOT})
 if(NOT TRAYGAUGE_SANITIZERS)
   # A program holds no function that it does not use, however sources are merged.
