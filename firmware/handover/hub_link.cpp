@@ -1,0 +1,140 @@
+#include "firmware/handover/hub_link.hpp"
+
+#include <nlohmann/json.hpp>
+#include <utility>
+
+namespace traygauge {
+namespace {
+
+using Json = nlohmann::json;
+
+// An object, or an empty one where the text is none: a peer's mistake then reads as absent keys.
+Json object_of(const std::string& text) {
+  Json json = Json::parse(text, nullptr, false);
+  return json.is_object() ? json : Json::object();
+}
+
+std::string text_of(const Json& json, const char* key) {
+  const auto found = json.find(key);
+  return found != json.end() && found->is_string() ? found->get<std::string>() : std::string();
+}
+
+std::optional<int> count_of(const Json& json, const char* key) {
+  constexpr int kMaxCount = 100;
+  const auto found = json.find(key);
+  if (found == json.end() || !found->is_number_integer()) return std::nullopt;
+  const auto count = found->get<std::int64_t>();
+  return count >= 0 && count <= kMaxCount ? std::optional(static_cast<int>(count)) : std::nullopt;
+}
+
+std::optional<HubAnswer> answer_of(MessageType type) {
+  switch (type) {
+    case MessageType::stored:
+      return HubAnswer::stored;
+    case MessageType::set_aside:
+      return HubAnswer::set_aside;
+    case MessageType::refused:
+      return HubAnswer::refused;
+    default:
+      return std::nullopt;
+  }
+}
+
+}  // namespace
+
+HubReply HubLink::deliver(std::string_view id, const std::string& document) {
+  if (const Expected<void> connected = connect(); !connected.ok())
+    return {HubAnswer::absent, connected.failure()};
+  const auto end = SteadyClock::now() + params_.answer_timeout;
+  const Expected<void> sent =
+      connection_.send_all(encode({MessageType::scan, document, {}}), params_.answer_timeout);
+  if (!sent.ok()) {
+    disconnect();
+    return {HubAnswer::absent, sent.failure()};
+  }
+  for (;;) {
+    const auto left = std::chrono::ceil<Milliseconds>(end - SteadyClock::now());
+    if (left <= Milliseconds::zero()) {
+      // What it says later may be about this document, and a new connection asks again.
+      disconnect();
+      return {HubAnswer::absent,
+              "the hub did not answer within " + std::to_string(params_.answer_timeout.count()) + " ms"};
+    }
+    const Expected<std::optional<HubReply>> reply = read_reply(id, left);
+    if (!reply.ok()) {
+      disconnect();
+      return {HubAnswer::absent, reply.failure()};
+    }
+    if (*reply) return **reply;
+  }
+}
+
+void HubLink::tell(const Message& message) {
+  if (!connect().ok()) return;
+  // A state is small: what the socket does not take at once belongs to a hub that hangs.
+  if (!connection_.send_all(encode(message), Milliseconds::zero()).ok()) disconnect();
+}
+
+void HubLink::attend() {
+  if (!connect().ok()) return;
+  if (!read_reply({}, Milliseconds::zero()).ok()) disconnect();
+}
+
+Expected<void> HubLink::connect() {
+  if (connection_.is_open()) return {};
+  const auto now = SteadyClock::now();
+  if (was_tried_ && now - tried_at_ < params_.retry_after) return Failure{last_failure_};
+  was_tried_ = true;
+  tried_at_ = now;
+  Expected<LocalConnection> connected = connect_local(params_.socket);
+  if (!connected.ok()) {
+    last_failure_ = connected.failure();
+    return Failure{last_failure_};
+  }
+  connection_ = std::move(*connected);
+  reader_ = MessageReader();
+  const Json hello = {{"station", params_.station}, {"version", 1}, {"program", params_.program_version}};
+  const Expected<void> sent =
+      connection_.send_all(encode({MessageType::hello, hello.dump(), {}}), params_.answer_timeout);
+  if (!sent.ok()) {
+    last_failure_ = sent.failure();
+    disconnect();
+    return Failure{last_failure_};
+  }
+  is_new_ = true;
+  return {};
+}
+
+void HubLink::disconnect() {
+  connection_.close();
+  reader_ = MessageReader();
+}
+
+// The first answer about `id`; other messages are taken on and passed over. None when `timeout` passes.
+Expected<std::optional<HubReply>> HubLink::read_reply(std::string_view id, Milliseconds timeout) {
+  const Expected<std::string> received = connection_.receive_some(timeout);
+  if (!received.ok()) return Failure{received.failure()};
+  reader_.append(*received);
+  for (;;) {
+    Expected<std::optional<Message>> next = reader_.next();
+    if (!next.ok()) return Failure{next.failure()};
+    if (!*next) return std::optional<HubReply>();
+    const Message& message = **next;
+    const auto answer = answer_of(message.type);
+    if (!answer) {
+      take_on(message);
+      continue;
+    }
+    const Json json = object_of(message.text);
+    if (!id.empty() && text_of(json, "id") == id)
+      return std::optional(HubReply{*answer, text_of(json, "why")});
+  }
+}
+
+void HubLink::take_on(const Message& message) {
+  if (message.type != MessageType::next_tray) return;
+  const Json json = object_of(message.text);
+  next_tray_ = NextTray{count_of(json, "items"), count_of(json, "dishes"), SteadyClock::now()};
+}
+
+}  // namespace traygauge
