@@ -46,8 +46,8 @@ HubReply HubLink::deliver(std::string_view id, const std::string& document) {
   if (const Expected<void> connected = connect(); !connected.ok())
     return {HubAnswer::absent, connected.failure()};
   const auto end = SteadyClock::now() + params_.answer_timeout;
-  const Expected<void> sent =
-      connection_.send_all(encode({MessageType::scan, document, {}}), params_.answer_timeout);
+  const Expected<void> sent = connection_.send_all(
+      encode({MessageType::scan, Json{{"id", id}}.dump(), document}), params_.answer_timeout);
   if (!sent.ok()) {
     disconnect();
     return {HubAnswer::absent, sent.failure()};

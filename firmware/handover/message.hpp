@@ -13,9 +13,9 @@ namespace traygauge {
 
 enum class MessageType : std::uint8_t {
   // from the station
-  hello,   // first on every connection: {"station","program","version"}
-  scan,    // a scan's document, to be stored; answered by stored, set_aside or refused
-  state,   // what the station does now: {"state",…}; not answered
+  hello,  // first on every connection: {"station","program","version"}
+  scan,   // {"id"} and, as bytes, the scan's document, to be stored; answered by stored, set_aside or refused
+  state,  // what the station does now: {"state",…}; not answered
   shapes,  // of the scan just stored: {"id"} and the bytes of its height maps and outlines; not answered
   // from the hub
   welcome,    // {"version"}
@@ -29,7 +29,7 @@ const char* name(MessageType type);
 struct Message {
   MessageType type = MessageType::hello;
   std::string text;   // JSON, at most kMaxTextBytes
-  std::string bytes;  // at most kMaxBodyBytes; empty but for shapes
+  std::string bytes;  // at most kMaxBodyBytes; of scan and shapes alone
 
   friend bool operator==(const Message&, const Message&) = default;
 };

@@ -22,14 +22,14 @@ class RecordPrinter final : public ResultSink {
         out_(out),
         printer_(out, log, ScanPrinter::Format::text) {}
 
-  bool deliver(const ScanResult& result) override {
+  Delivery deliver(const ScanResult& result) override {
     if (result.outcome == ScanOutcome::measured) {
       out_ << "Saved " << (out_folder_ / result.tray).string() << std::endl;
-      return out_.good();
+      return out_.good() ? Delivery::done : Delivery::failed;
     }
     if (!recorder_.problem().empty()) {
       out_ << "Not saved: " << recorder_.problem() << std::endl;
-      return false;
+      return Delivery::failed;
     }
     return printer_.deliver(result);
   }

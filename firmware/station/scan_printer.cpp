@@ -101,9 +101,9 @@ std::string scan_json(const ScanResult& result) {
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
-bool ScanPrinter::deliver(const ScanResult& result) {
+Delivery ScanPrinter::deliver(const ScanResult& result) {
   out_ << (format_ == Format::json ? scan_json(result) + "\n" : scan_text(result)) << std::flush;
-  return out_.good();
+  return out_.good() ? Delivery::done : Delivery::failed;
 }
 
 void ScanPrinter::report_fault(const DeviceFailure& failure) {

@@ -19,7 +19,7 @@ class ScanPrinter final : public ResultSink {
   enum class Format : std::uint8_t { text, json };
   ScanPrinter(std::ostream& out, std::ostream& log, Format format) : out_(out), log_(log), format_(format) {}
 
-  bool deliver(const ScanResult& result) override;
+  Delivery deliver(const ScanResult& result) override;
   void report_fault(const DeviceFailure& failure) override;
   void report_restart() override;
   void report_recovery(std::string_view what) override;

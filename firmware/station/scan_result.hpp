@@ -32,7 +32,15 @@ struct ScanResult {
   const Measurement* measurement = nullptr;  // set when measured or not_measurable
   DeviceFailure failure;                     // set when device_failed
   bool was_held = false;                     // the button, which cancelled the scan
+  bool repeats_last = false;                 // pressed again soon after the last result, for the same tray
   Nanoseconds duration{0};                   // from the press to this result, by the station's clock
+};
+
+// Where a result got.
+enum class Delivery : std::uint8_t {
+  done,    // where it belongs
+  kept,    // safe here, on its way there
+  failed,  // nowhere: the lamp then asks for somebody
 };
 
 // Takes results. Used by one thread.
@@ -43,8 +51,12 @@ class ResultSink {
   ResultSink& operator=(const ResultSink&) = delete;
   virtual ~ResultSink() = default;
 
-  // False when the result did not get where it belongs; the lamp then does not say done.
-  [[nodiscard]] virtual bool deliver(const ScanResult& result) = 0;
+  // Only what is done may be shown as done.
+  [[nodiscard]] virtual Delivery deliver(const ScanResult& result) = 0;
+  // False when no further result could be kept: then nothing is measured. The sink tells why, once.
+  [[nodiscard]] virtual bool has_room() { return true; }
+  // Between two looks at the button, every half second at least: may take some tens of milliseconds.
+  virtual void attend() {}
   // A device failed outside a scan; told once, until it works again.
   virtual void report_fault(const DeviceFailure& failure) = 0;
   // The button was held: the devices are opened anew.

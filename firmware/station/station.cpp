@@ -35,6 +35,12 @@ bool casts_doubt_on_arm(const Measurement& measurement) {
   return !is_measured(measurement) || contradicts_arm(measurement);
 }
 
+// The tray may be moved while its result waits for the hub, but only what the hub has is done.
+Signal signal_after(Delivery delivery, Signal signal) {
+  if (delivery == Delivery::failed) return Signal::fault;
+  return delivery == Delivery::kept && signal == Signal::done ? Signal::busy : signal;
+}
+
 }  // namespace
 
 const char* name(StationState state) {
@@ -87,7 +93,9 @@ StationState Station::step() {
 StationState Station::wait_for_press() {
   if (stop_ || (params_.max_scans > 0 && totals_.scans >= params_.max_scans)) return StationState::finished;
   const Instant now = devices_.clock.now();
-  if (now >= result_until_) show(Signal::ready);
+  sink_.attend();
+  const bool has_room = sink_.has_room();
+  if (now >= result_until_) show(has_room ? Signal::ready : Signal::fault);
   const Nanoseconds wait =
       now < result_until_ ? std::min(result_until_ - now, params_.press_wait) : params_.press_wait;
   Press press;
@@ -102,10 +110,20 @@ StationState Station::wait_for_press() {
   const DeviceStatus released = wait_for_release(was_held);
   if (!released.ok()) return enter_fault(devices_.trigger, released);
   if (was_held) return restart_devices();
+  if (!has_room) return refuse_press();
   ++totals_.scans;
   pressed_at_ = press.at;
   is_repeated_ = false;
+  repeats_last_ = false;
   return StationState::taking_first_view;
+}
+
+// A result that could not be kept is better not measured.
+StationState Station::refuse_press() {
+  show(Signal::fault);
+  result_until_ = devices_.clock.now() + params_.result_shown;
+  devices_.trigger.discard_pending();
+  return StationState::waiting;
 }
 
 // The arm starts to move as soon as the picture is taken, and the measurer works meanwhile.
@@ -116,6 +134,8 @@ StationState Station::take_first_view() {
     return fail_scan(*settled.failed, settled.status);
   DeviceStatus status = capture(devices_.camera, first_);
   if (!status.ok()) return fail_scan(devices_.camera, status);
+  first_means_ = means_[1];
+  repeats_last_ = shows_last_tray();
   if (devices_.arm != nullptr) {
     status = devices_.arm->begin_move_to(params_.second_view_deg);
     if (!status.ok()) return fail_scan(*devices_.arm, status);
@@ -123,6 +143,12 @@ StationState Station::take_first_view() {
   const auto home_deg = devices_.arm != nullptr ? std::optional(0.0) : std::nullopt;
   const Status taken = measurer_.add_view({first_.frame.view, first_.frame.sequence, home_deg});
   return taken.ok() ? StationState::awaiting_second_view : StationState::measuring;
+}
+
+bool Station::shows_last_tray() const {
+  return params_.repeat_within > Nanoseconds::zero() && !last_tray_.empty() &&
+         pressed_at_ - last_result_at_ <= params_.repeat_within &&
+         first_means_.agrees_with(last_tray_, params_.steadiness);
 }
 
 StationState Station::await_second_view() {
@@ -297,11 +323,15 @@ StationState Station::end_scan(ScanResult result, Signal signal, StationState ne
   result.scan = totals_.scans;
   result.tray = measurer_.tray_name();
   result.duration = devices_.clock.now() - pressed_at_;
-  const bool delivered = sink_.deliver(result);
-  if (!delivered) ++totals_.undelivered;
-  if (delivered && result.outcome == ScanOutcome::measured) ++totals_.measured;
-  show(delivered ? signal : Signal::fault);
-  result_until_ = devices_.clock.now() + params_.result_shown;
+  result.repeats_last = repeats_last_;
+  const Delivery delivery = sink_.deliver(result);
+  if (delivery == Delivery::failed) ++totals_.undelivered;
+  if (delivery != Delivery::failed && result.outcome == ScanOutcome::measured) ++totals_.measured;
+  if (delivery == Delivery::kept) ++totals_.kept;
+  show(signal_after(delivery, signal));
+  last_result_at_ = devices_.clock.now();
+  last_tray_ = result.measurement != nullptr ? first_means_ : BlockMeans();
+  result_until_ = last_result_at_ + params_.result_shown;
   devices_.trigger.discard_pending();
   return next;
 }

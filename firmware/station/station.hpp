@@ -54,7 +54,10 @@ struct StationParams {
   // its second view, or opens all devices anew and sends the arm home. Zero: nothing does.
   Nanoseconds long_press = std::chrono::seconds(2);
   HandGuideParams guide;
-  Nanoseconds result_shown = std::chrono::seconds(3);        // then the lamp says ready again
+  Nanoseconds result_shown = std::chrono::seconds(3);  // then the lamp says ready again
+  // Whoever presses again for a tray that has not been touched since its result wants that one measured
+  // again, not two trays booked. Zero: every press counts.
+  Nanoseconds repeat_within = std::chrono::seconds(20);
   Nanoseconds press_wait = std::chrono::milliseconds(500);   // between two looks at the wish to stop
   Nanoseconds first_retry = std::chrono::milliseconds(100);  // of a failed device; doubles up to last_retry
   Nanoseconds last_retry = std::chrono::seconds(5);
@@ -76,6 +79,7 @@ const char* name(StationState state);
 struct StationTotals {
   std::uint64_t scans = 0;
   std::uint64_t measured = 0;
+  std::uint64_t kept = 0;  // of the measured ones: not yet where they belong when they were shown
   std::uint64_t undelivered = 0;
   bool gave_up = false;  // a device did not come back
 
@@ -108,7 +112,9 @@ class Station {
 
   StationState start_devices();
   StationState wait_for_press();
+  StationState refuse_press();
   StationState take_first_view();
+  bool shows_last_tray() const;
   StationState await_second_view();
   StationState await_second_press();
   DeviceStatus guide_hand();
@@ -153,7 +159,11 @@ class Station {
   View first_;
   View second_;
   std::array<BlockMeans, 2> means_;  // of the last two pictures
-  Signal guidance_ = Signal::off;    // for the picture that means_[0] is of
+  BlockMeans first_means_;           // of the first view
+  BlockMeans last_tray_;             // of the first view that the last result is of
+  Instant last_result_at_;
+  bool repeats_last_ = false;
+  Signal guidance_ = Signal::off;  // for the picture that means_[0] is of
   Instant pressed_at_;
   Instant settled_at_;                   // the cameras' exposure
   bool exposure_is_doubtful_ = false;    // the last pictures were too dark or too bright

@@ -20,9 +20,9 @@ namespace fs = std::filesystem;
 
 class Names final : public ResultSink {
  public:
-  bool deliver(const ScanResult& result) override {
+  Delivery deliver(const ScanResult& result) override {
     names.emplace_back(result.outcome == ScanOutcome::measured ? result.tray : "not saved");
-    return true;
+    return Delivery::done;
   }
   void report_fault(const DeviceFailure&) override {}
   void report_restart() override {}

@@ -73,7 +73,7 @@ TEST_F(Printed, ResultsAndFaultsDoNotMix) {
   std::ostringstream out;
   std::ostringstream log;
   ScanPrinter printer(out, log, ScanPrinter::Format::json);
-  EXPECT_TRUE(printer.deliver(result_));
+  EXPECT_EQ(printer.deliver(result_), Delivery::done);
   printer.report_fault({"lamp", DeviceCode::io_error, ""});
   printer.report_recovery("lamp");
   EXPECT_EQ(out.str(), scan_json(result_) + "\n");
@@ -84,7 +84,7 @@ TEST_F(Printed, SaysWhenTheResultCouldNotBeWritten) {
   std::ostringstream out;
   std::ostringstream log;
   out.setstate(std::ios::badbit);
-  EXPECT_FALSE(ScanPrinter(out, log, ScanPrinter::Format::text).deliver(result_));
+  EXPECT_EQ(ScanPrinter(out, log, ScanPrinter::Format::text).deliver(result_), Delivery::failed);
 }
 
 }  // namespace

@@ -99,7 +99,7 @@ class FakeMeasurer final : public Measurer {
 // One line for each call, in order.
 class RecordingSink final : public ResultSink {
  public:
-  bool deliver(const ScanResult& result) override {
+  Delivery deliver(const ScanResult& result) override {
     const char* const outcomes[] = {"measured", "not_measurable", "device_failed", "cancelled"};
     std::string line = std::to_string(result.scan);
     line += std::string(" ").append(outcomes[static_cast<int>(result.outcome)]);
@@ -112,7 +112,8 @@ class RecordingSink final : public ResultSink {
     lines.push_back(line);
     durations.push_back(result.duration);
     if (on_delivery) on_delivery();
-    return accepts;
+    repeats.push_back(result.repeats_last);
+    return delivery;
   }
   void report_fault(const DeviceFailure& failure) override {
     lines.push_back(std::string("fault ").append(text(failure)));
@@ -122,10 +123,18 @@ class RecordingSink final : public ResultSink {
     lines.push_back(std::string("recovery ").append(what));
   }
 
-  bool accepts = true;
+  bool has_room() override { return room; }
+  void attend() override {
+    if (on_attend) on_attend();
+  }
+
+  Delivery delivery = Delivery::done;
+  bool room = true;
   std::function<void()> on_delivery;
+  std::function<void()> on_attend;
   std::vector<std::string> lines;
   std::vector<Nanoseconds> durations;
+  std::vector<bool> repeats;
 
  private:
   static std::string text(const DeviceFailure& failure) {

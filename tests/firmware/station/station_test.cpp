@@ -177,9 +177,55 @@ TEST(Station, TakesNoSecondViewWhenTheFirstIsOfNoUse) {
 
 TEST(Station, ShowsAFaultWhenTheResultGetsLost) {
   StationRig rig(1);
-  rig.sink.accepts = false;
+  rig.sink.delivery = Delivery::failed;
   EXPECT_FALSE(rig.run().all_worked());
   EXPECT_EQ(rig.signals(), (Signals{ready, hold_still, busy, fault}));
+}
+
+TEST(Station, DoesNotSayDoneWhileTheResultWaitsForTheHub) {
+  StationRig rig(1);
+  rig.sink.delivery = Delivery::kept;
+  EXPECT_TRUE(rig.run().all_worked());
+  EXPECT_EQ(rig.station->totals().kept, 1U);
+  EXPECT_EQ(rig.signals(), (Signals{ready, hold_still, busy}));
+}
+
+TEST(Station, MeasuresNothingThatCouldNotBeKept) {
+  StationRig rig(3);
+  rig.sink.on_delivery = [&rig] { rig.sink.room = false; };
+  rig.run();
+  EXPECT_EQ(rig.station->totals().scans, 1U);
+  EXPECT_EQ(rig.sink.lines, Lines{measured(1, 0)});
+  EXPECT_EQ(rig.signals().back(), fault);
+}
+
+TEST(Station, GoesOnOnceThereIsRoomAgain) {
+  StationRig rig(3);
+  rig.sink.room = false;
+  int looks = 0;
+  rig.sink.on_attend = [&] { rig.sink.room = ++looks > 10; };
+  rig.run();
+  EXPECT_FALSE(rig.sink.lines.empty());
+  EXPECT_EQ(rig.signals().front(), fault);
+  EXPECT_EQ(rig.signals().back(), done);
+}
+
+TEST(Station, SaysWhetherTheSameTrayWasPressedForAgain) {
+  for (const bool is_untouched : {true, false}) {
+    StationRig rig(2);
+    // The player lays the next capture under the camera; the same one again is a tray that nobody touched.
+    rig.captures.same_pictures = is_untouched;
+    rig.run();
+    EXPECT_EQ(rig.sink.repeats, (std::vector{false, is_untouched}));
+  }
+}
+
+TEST(Station, ALatePressIsForANewMeal) {
+  StationRig rig(2);
+  rig.captures.same_pictures = true;
+  rig.params.repeat_within = 1ms;
+  rig.run();
+  EXPECT_EQ(rig.sink.repeats, (std::vector{false, false}));
 }
 
 TEST(Station, KeepsTheResultOnTheLampForAWhile) {

@@ -44,7 +44,8 @@ class SyntheticCaptures final : public CaptureSource {
     problem_ = capture.readable ? std::string() : std::string(name_).append("/view_0.jpg: damaged");
     for (int view = 0; view < 2; ++view) {
       const auto i = static_cast<std::size_t>(view);
-      pixels_[i].assign(static_cast<std::size_t>(3 * capture.width * capture.height), gray_of(index, view));
+      const std::uint8_t gray = gray_of(same_pictures ? 0 : index, view);
+      pixels_[i].assign(static_cast<std::size_t>(3 * capture.width * capture.height), gray);
       pair_[i] = {{pixels_[i].data(), capture.width, capture.height, 3 * capture.width, PixelFormat::bgr8},
                   {pixels_[i].data(), capture.width, capture.height},
                   view == 0 ? capture.first_angle_deg : capture.second_angle_deg};
@@ -54,6 +55,8 @@ class SyntheticCaptures final : public CaptureSource {
   std::string_view problem() const override { return problem_; }
   std::string_view capture_name() const override { return name_; }
   const std::array<PlayedView, 2>& pair() const override { return pair_; }
+
+  bool same_pictures = false;  // all captures show what the first shows
 
  private:
   std::vector<SyntheticCapture> captures_;
