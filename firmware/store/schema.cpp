@@ -1,0 +1,124 @@
+#include "firmware/store/schema.hpp"
+
+#include <array>
+#include <cstddef>
+#include <string>
+
+namespace traygauge {
+namespace {
+
+// What lists and filters read stands in `scans`, so that they need not read documents. `seq` counts in the
+// order of arrival: clocks jump, it does not. Numbers of scans are unsigned in documents and signed here.
+constexpr const char* kVersion1 = R"(
+CREATE TABLE scans (
+  seq INTEGER PRIMARY KEY,
+  station TEXT NOT NULL,
+  number INTEGER NOT NULL,
+  taken_ms INTEGER NOT NULL,
+  taken_synchronised INTEGER NOT NULL,
+  received_ms INTEGER NOT NULL,
+  received_synchronised INTEGER NOT NULL,
+  status TEXT NOT NULL,
+  supersedes INTEGER,
+  superseded_by INTEGER,
+  is_corrected INTEGER NOT NULL DEFAULT 0,
+  is_wrong INTEGER NOT NULL DEFAULT 0,
+  foods TEXT NOT NULL,
+  words TEXT NOT NULL,
+  document_bytes INTEGER NOT NULL
+) STRICT;
+CREATE UNIQUE INDEX scans_by_id ON scans (station, number);
+CREATE INDEX scans_by_superseded ON scans (station, supersedes) WHERE supersedes IS NOT NULL;
+
+CREATE TABLE documents (
+  seq INTEGER PRIMARY KEY REFERENCES scans (seq) ON DELETE CASCADE,
+  body TEXT NOT NULL
+) STRICT;
+
+CREATE TABLE corrections (
+  seq INTEGER NOT NULL REFERENCES scans (seq) ON DELETE CASCADE,
+  number INTEGER NOT NULL,
+  made_ms INTEGER NOT NULL,
+  made_synchronised INTEGER NOT NULL,
+  author TEXT NOT NULL,
+  reason TEXT NOT NULL,
+  action TEXT NOT NULL,
+  PRIMARY KEY (seq, number)
+) STRICT, WITHOUT ROWID;
+
+CREATE TABLE destinations (
+  key INTEGER PRIMARY KEY,
+  name TEXT NOT NULL UNIQUE,
+  is_configured INTEGER NOT NULL
+) STRICT;
+
+CREATE TABLE deliveries (
+  destination INTEGER NOT NULL REFERENCES destinations (key),
+  seq INTEGER NOT NULL,
+  attempts INTEGER NOT NULL DEFAULT 0,
+  next_ms INTEGER NOT NULL DEFAULT 0,
+  last_failure TEXT NOT NULL DEFAULT '',
+  PRIMARY KEY (destination, seq)
+) STRICT, WITHOUT ROWID;
+
+CREATE TABLE set_aside (
+  number INTEGER PRIMARY KEY,
+  received_ms INTEGER NOT NULL,
+  received_synchronised INTEGER NOT NULL,
+  why TEXT NOT NULL,
+  digest INTEGER NOT NULL,
+  document BLOB NOT NULL
+) STRICT;
+CREATE INDEX set_aside_by_digest ON set_aside (digest);
+)";
+
+constexpr auto kSteps = std::to_array<const char*>({kVersion1});
+
+constexpr const char* kReadingTables = "the store's tables cannot be read";
+
+Expected<void> run_step(Database& database, const char* step, std::int64_t version) {
+  const std::string attempted = "the store cannot be brought to version " + std::to_string(version);
+  return database.transaction(attempted, [&]() -> Expected<void> {
+    if (Expected<void> done = database.run_script(attempted, step); !done.ok()) return done;
+    const std::string marks = "PRAGMA application_id = " + std::to_string(kStoreApplicationId) +
+                              "; PRAGMA user_version = " + std::to_string(version);
+    return database.run_script(attempted, marks.c_str());
+  });
+}
+
+}  // namespace
+
+std::span<const char* const> schema_steps() {
+  return kSteps;
+}
+
+Expected<void> check_schema(Database& database, std::span<const char* const> steps) {
+  const auto application = database.integer(kReadingTables, "PRAGMA application_id");
+  if (!application.ok()) return Failure{application.failure()};
+  const auto tables = database.integer(kReadingTables, "SELECT count(*) FROM sqlite_schema");
+  if (!tables.ok()) return Failure{tables.failure()};
+  if (*application != kStoreApplicationId && (*application != 0 || *tables > 0)) {
+    return Failure{database.file().string() +
+                   ": this is a database of another program. Name another file for the hub's store."};
+  }
+  const auto version = database.integer(kReadingTables, "PRAGMA user_version");
+  if (!version.ok()) return Failure{version.failure()};
+  if (*version > static_cast<std::int64_t>(steps.size()) || *version < 0) {
+    return Failure{database.file().string() + ": the store has version " + std::to_string(*version) +
+                   ", this program knows versions up to " + std::to_string(steps.size()) +
+                   ". Install the newer program again, or name another file for the hub's store."};
+  }
+  return {};
+}
+
+Expected<std::int64_t> migrate_schema(Database& database, std::span<const char* const> steps) {
+  const auto before = database.integer(kReadingTables, "PRAGMA user_version");
+  if (!before.ok()) return before;
+  for (auto step = static_cast<std::size_t>(*before); step < steps.size(); ++step) {
+    const Expected<void> done = run_step(database, steps[step], static_cast<std::int64_t>(step) + 1);
+    if (!done.ok()) return Failure{done.failure()};
+  }
+  return before;
+}
+
+}  // namespace traygauge

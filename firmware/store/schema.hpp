@@ -1,0 +1,25 @@
+// The tables of the store, and how older ones become today's.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "firmware/store/database.hpp"
+
+namespace traygauge {
+
+// Marks an SQLite file as ours ("TRGY"); see `file --magic-file` and PRAGMA application_id.
+inline constexpr std::int64_t kStoreApplicationId = 0x54524759;
+
+// SQL, one step a version: the first makes version 1 of an empty file. Steps that were released never change.
+std::span<const char* const> schema_steps();
+
+// Fails where the file is another program's or of a newer version of this one.
+Expected<void> check_schema(Database& database, std::span<const char* const> steps = schema_steps());
+
+// Brings a checked file to the newest version, step by step, each whole or not at all. Returns the version
+// that it had, 0 of a new file.
+Expected<std::int64_t> migrate_schema(Database& database,
+                                      std::span<const char* const> steps = schema_steps());
+
+}  // namespace traygauge
