@@ -1,10 +1,12 @@
 #!/bin/bash
 # Unpacks what cross-building for arm64 needs into FOLDER: make_sysroot.sh FOLDER. Debian's packages of another architecture cannot
-# be installed beside this machine's. Does nothing when it is there.
+# be installed beside this machine's. Made anew when the list names other packages, else does nothing.
 set -euo pipefail
 
 folder=$1
-[ -e "$folder/done" ] && exit 0
+# The libraries of config/packages.txt; the compiler and the tools are this machine's.
+wanted=$(sed 's/#.*//' "$(dirname "$0")/../../config/packages.txt" | grep -E '^lib.*-dev$|-dev$')
+[ "$(cat "$folder/done" 2>/dev/null || true)" = "$wanted" ] && exit 0
 rm -rf "$folder"
 mkdir -p "$folder/usr/lib" "$folder/usr/bin" "$folder/usr/sbin"
 folder=$(realpath "$folder")
@@ -14,8 +16,6 @@ for name in lib bin sbin; do ln -s "usr/$name" "$folder/$name"; done
   'APT::Architecture "arm64"; APT::Architectures { "arm64"; }; APT::Install-Recommends "false";'
 echo "sysroot: package lists and packages" >&2
 apt-get -qq update
-# The libraries of config/packages.txt; the compiler and the tools are this machine's.
-wanted=$(sed 's/#.*//' "$(dirname "$0")/../../config/packages.txt" | grep -E '^lib.*-dev$|-dev$')
 apt-get install -y -qq -d libc6-dev libstdc++-12-dev $wanted >/dev/null
 echo "sysroot: unpacking" >&2
 for package in "$apt"/cache/archives/*.deb; do
@@ -31,5 +31,5 @@ for library in blas lapack; do
   ln -sfn "$library/lib$library.so.3" "$folder/usr/lib/aarch64-linux-gnu/lib$library.so.3"
 done
 rm -rf "$apt"
-touch "$folder/done"
+echo "$wanted" >"$folder/done"
 echo "sysroot: $(du -sh "$folder" | cut -f 1)" >&2
