@@ -5,6 +5,7 @@
 #include "firmware/check/check_command.hpp"
 #include "firmware/command/program.hpp"
 #include "firmware/command/sibling_program.hpp"
+#include "firmware/command/stop_signal.hpp"
 #include "firmware/enrol/enrol_command.hpp"
 #include "firmware/evaluate/evaluate_command.hpp"
 #include "firmware/measure/measure_command.hpp"
@@ -13,7 +14,6 @@
 #include "firmware/segment/segment_command.hpp"
 #include "firmware/station/open_captures.hpp"
 #include "firmware/station/station_command.hpp"
-#include "firmware/station/stop_signal.hpp"
 
 namespace traygauge {
 namespace {
@@ -36,6 +36,11 @@ void add_calibrate_command(Program& program) {
   command.take_nothing();
 }
 
+// The same: it holds no device, and nothing of the measurement.
+void add_hub_command(Program& program) {
+  program.add_command("hub", "Store what stations measure").take_nothing();
+}
+
 int run_command(const Program& program, const Options& options, std::ostream& out, std::ostream& error) {
   const std::string command = program.chosen();
   if (command == "measure") return run_measure(options.measure, out, error);
@@ -49,6 +54,7 @@ int run_command(const Program& program, const Options& options, std::ostream& ou
   if (command == "calibrate") {
     return run_sibling_program("traygauge-calibrate", program.remaining());
   }
+  if (command == "hub") return run_sibling_program("traygauge-hub", {});
   if (command == "record") return run_record(options.record, stop_on_signals(), out, error);
   return run_memory(options.memory, out);
 }
@@ -69,6 +75,7 @@ int run_command_line(int argument_count, const char* const* arguments, std::ostr
   add_check_command(program, options.check);
   add_record_command(program, options.record);
   add_calibrate_command(program);
+  add_hub_command(program);
   const auto run = [&] { return run_command(program, options, out, error); };
   return program.run(argument_count, arguments, run, out, error);
 }

@@ -54,6 +54,11 @@ CommandOption Command::add_option(const std::string& name, std::string& value, c
   return CommandOption(*app_->add_option(name, value, text));
 }
 
+CommandOption Command::add_option(const std::string& name, std::filesystem::path& value,
+                                  const std::string& text) {
+  return CommandOption(*app_->add_option(name, value, text));
+}
+
 CommandOption Command::add_option(const std::string& name, std::vector<std::string>& value,
                                   const std::string& text) {
   return CommandOption(*app_->add_option(name, value, text));

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <iosfwd>
 #include <memory>
@@ -43,6 +44,7 @@ class Command {
   explicit Command(CLI::App& app) : app_(&app) {}
 
   CommandOption add_option(const std::string& name, std::string& value, const std::string& text);
+  CommandOption add_option(const std::string& name, std::filesystem::path& value, const std::string& text);
   CommandOption add_option(const std::string& name, std::vector<std::string>& value, const std::string& text);
   CommandOption add_option(const std::string& name, int& value, const std::string& text);
   CommandOption add_option(const std::string& name, std::uint64_t& value, const std::string& text);

@@ -311,7 +311,7 @@ StationFile read_station_file(const fs::path& file) {
   const JsonDocument document = read_toml(file, kMaxFileBytes, "a station in TOML");
   const JsonNode root = document.root();
   expect(root, {"camera", "second_camera", "button", "lamp", "arm", "arm_geometry", "lens", "second_lens",
-                "card", "trays"});
+                "card", "trays", "station", "hub"});
   const fs::path folder = file.parent_path();
   StationFile station;
   station.file = file;
@@ -335,6 +335,8 @@ StationFile read_station_file(const fs::path& file) {
   }
   if (const auto card = root.find("card")) station.card = read_card(*card, folder);
   if (const auto trays = root.find("trays")) read_trays(*trays, folder, station);
+  if (const auto handover = root.find("station")) station.handover = read_handover_table(*handover, folder);
+  if (const auto hub = root.find("hub")) read_hub_table(*hub, folder);
   return station;
 }
 

@@ -13,6 +13,7 @@
 #include "drivers/gpio/stepper_arm.hpp"
 #include "drivers/serial/serial_arm.hpp"
 #include "drivers/v4l2/v4l2_camera.hpp"
+#include "firmware/config/hub_tables.hpp"
 #include "simulator/capture/capture.hpp"
 
 namespace traygauge {
@@ -69,7 +70,8 @@ struct StationFile {
   std::optional<std::array<InputFile, 2>> labels;
   // Which dishes stand on every tray, by style, of those known; none: one, whichever it is.
   std::vector<std::string> dishes;
-  int items = 0;  // on every tray; 0: not known
+  int items = 0;                           // on every tray; 0: not known
+  std::optional<HandoverConfig> handover;  // none: results are printed alone
 };
 
 // Unknown keys are errors: they are typing mistakes. Paths in the file are relative to it. Throws InputError.

@@ -19,14 +19,6 @@ std::string text_of(const Json& json, const char* key) {
   return found != json.end() && found->is_string() ? found->get<std::string>() : std::string();
 }
 
-std::optional<int> count_of(const Json& json, const char* key) {
-  constexpr int kMaxCount = 100;
-  const auto found = json.find(key);
-  if (found == json.end() || !found->is_number_integer()) return std::nullopt;
-  const auto count = found->get<std::int64_t>();
-  return count >= 0 && count <= kMaxCount ? std::optional(static_cast<int>(count)) : std::nullopt;
-}
-
 std::optional<HubAnswer> answer_of(MessageType type) {
   switch (type) {
     case MessageType::stored:
@@ -110,7 +102,7 @@ void HubLink::disconnect() {
   reader_ = MessageReader();
 }
 
-// The first answer about `id`; other messages are taken on and passed over. None when `timeout` passes.
+// The first answer about `id`; other messages are passed over. None when `timeout` passes.
 Expected<std::optional<HubReply>> HubLink::read_reply(std::string_view id, Milliseconds timeout) {
   const Expected<std::string> received = connection_.receive_some(timeout);
   if (!received.ok()) return Failure{received.failure()};
@@ -121,20 +113,11 @@ Expected<std::optional<HubReply>> HubLink::read_reply(std::string_view id, Milli
     if (!*next) return std::optional<HubReply>();
     const Message& message = **next;
     const auto answer = answer_of(message.type);
-    if (!answer) {
-      take_on(message);
-      continue;
-    }
+    if (!answer) continue;
     const Json json = object_of(message.text);
     if (!id.empty() && text_of(json, "id") == id)
       return std::optional(HubReply{*answer, text_of(json, "why")});
   }
-}
-
-void HubLink::take_on(const Message& message) {
-  if (message.type != MessageType::next_tray) return;
-  const Json json = object_of(message.text);
-  next_tray_ = NextTray{count_of(json, "items"), count_of(json, "dishes"), SteadyClock::now()};
 }
 
 }  // namespace traygauge

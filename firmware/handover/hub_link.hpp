@@ -38,13 +38,6 @@ struct HubReply {
   bool is_kept_there() const { return answer == HubAnswer::stored || answer == HubAnswer::set_aside; }
 };
 
-// What a till said of the next tray.
-struct NextTray {
-  std::optional<int> items;
-  std::optional<int> dishes;
-  std::chrono::steady_clock::time_point said_at;
-};
-
 // Connects by itself, and again after a failure. Used by one thread.
 class HubLink {
  public:
@@ -60,8 +53,6 @@ class HubLink {
   bool is_connected() const { return connection_.is_open(); }
   // Since the last call: a connection was made, and the hub knows nothing of this station yet.
   bool take_is_new() { return std::exchange(is_new_, false); }
-  // What was said last, once.
-  std::optional<NextTray> take_next_tray() { return std::exchange(next_tray_, std::nullopt); }
 
  private:
   using SteadyClock = std::chrono::steady_clock;
@@ -69,7 +60,6 @@ class HubLink {
   Expected<void> connect();
   void disconnect();
   Expected<std::optional<HubReply>> read_reply(std::string_view id, Milliseconds timeout);
-  void take_on(const Message& message);
 
   HubLinkParams params_;
   LocalConnection connection_;
@@ -78,7 +68,6 @@ class HubLink {
   SteadyClock::time_point tried_at_;
   bool was_tried_ = false;
   bool is_new_ = false;
-  std::optional<NextTray> next_tray_;
 };
 
 }  // namespace traygauge

@@ -16,20 +16,18 @@ enum class MessageType : std::uint8_t {
   hello,  // first on every connection: {"station","program","version"}
   scan,   // {"id"} and, as bytes, the scan's document, to be stored; answered by stored, set_aside or refused
   state,  // what the station does now: {"state",…}; not answered
-  shapes,  // of the scan just stored: {"id"} and the bytes of its height maps and outlines; not answered
   // from the hub
   welcome,    // {"version"}
   stored,     // {"id"}: the scan is on disk, now or since an earlier delivery
   set_aside,  // {"id","why"}: kept on disk, but it is no scan that can be booked
   refused,    // {"id","why"}: not on disk; try again later
-  next_tray,  // what a till says of the next tray: {"items","dishes"}, null where it says nothing
 };
 const char* name(MessageType type);
 
 struct Message {
   MessageType type = MessageType::hello;
   std::string text;   // JSON, at most kMaxTextBytes
-  std::string bytes;  // at most kMaxBodyBytes; of scan and shapes alone
+  std::string bytes;  // at most kMaxBodyBytes; of scan alone
 
   friend bool operator==(const Message&, const Message&) = default;
 };

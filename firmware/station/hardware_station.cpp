@@ -4,6 +4,7 @@
 #include "firmware/config/config_folder.hpp"
 #include "firmware/config/dish_choice.hpp"
 #include "firmware/config/dish_library.hpp"
+#include "firmware/handover/result_route.hpp"
 #include "firmware/station/hardware.hpp"
 #include "firmware/station/scan_printer.hpp"
 #include "firmware/station/site_scene.hpp"
@@ -24,6 +25,10 @@ std::vector<DishDescription> read_dishes(const std::filesystem::path& file) {
 int run_hardware_station(const StationCommand& command, const std::filesystem::path& file,
                          const std::atomic<bool>& stop, std::ostream& out, std::ostream& log) {
   if (!command.faults.empty()) throw UsageError("--faults: only simulated devices fail as a script says");
+  if (!command.hub.socket.empty()) {
+    throw UsageError("--hub: for played captures; a station's hub is in " + file.string() +
+                     ", under [station]");
+  }
   if (!command.labels.source.empty() || command.labels.items > 0) {
     throw UsageError("--labels, --items: for played captures; a station's are in " + file.string() +
                      ", under [trays]");
@@ -36,11 +41,13 @@ int run_hardware_station(const StationCommand& command, const std::filesystem::p
   SiteScene scene(station_file, choose_tray_dishes(station_file, read_dishes(file)));
   EstimatorMeasurer measurer(scene, scene.limits(), command.seed);
   ScanPrinter printer(out, log, command.json ? ScanPrinter::Format::json : ScanPrinter::Format::text);
+  const ResultRoute route(station_file.handover, printer, log);
   Hardware hardware(station_file);
   warn_of_changed_lenses(station_file, hardware, log);
   StationParams params = hardware_params(station_file);
   params.max_scans = command.scans;
-  Station station(hardware.devices(), measurer, printer, stop, params);
+  if (station_file.handover) params.repeat_within = repeat_time(*station_file.handover);
+  Station station(hardware.devices(), measurer, route.sink(), stop, params);
   return station.run().all_worked() ? kExitMeasured : kExitNotMeasurable;
 }
 

@@ -18,15 +18,6 @@ std::string_view status_name(const ScanResult& result) {
   return name(result.measurement->status.code());
 }
 
-std::string failure_text(const DeviceFailure& failure) {
-  std::string text = std::string(failure.device) + ": " + sentence(failure.status.code());
-  if (!failure.detail.empty()) text += " (" + std::string(failure.detail) + ")";
-  if (failure.status.error_number() != 0) {
-    text += " [" + std::string(std::strerror(failure.status.error_number())) + "]";
-  }
-  return text;
-}
-
 std::string message(const ScanResult& result) {
   switch (result.outcome) {
     case ScanOutcome::cancelled:
@@ -48,6 +39,15 @@ std::string item_text(const ItemResult& item) {
   return text.data();
 }
 
+void add_identity(const ScanIdentity& identity, Json& json) {
+  json["id"] = scan_id_text(identity.id);
+  json["station"] = identity.id.station;
+  json["number"] = identity.id.number;
+  json["taken_at"] = utc_text(identity.taken_at.unix_ms);
+  json["clock_synchronised"] = identity.taken_at.synchronised;
+  json["supersedes"] = identity.supersedes ? Json(scan_id_text(*identity.supersedes)) : Json();
+}
+
 void add_measurement(const Measurement& measurement, Json& json) {
   for (const ItemResult& item : measurement.items) json["items"].push_back(item_document(item));
   if (measurement.has_pose) json["relative_angle_deg"] = measurement.relative_angle_deg;
@@ -62,6 +62,15 @@ void add_measurement(const Measurement& measurement, Json& json) {
 }
 
 }  // namespace
+
+std::string failure_text(const DeviceFailure& failure) {
+  std::string text = std::string(failure.device) + ": " + sentence(failure.status.code());
+  if (!failure.detail.empty()) text += " (" + std::string(failure.detail) + ")";
+  if (failure.status.error_number() != 0) {
+    text += " [" + std::string(std::strerror(failure.status.error_number())) + "]";
+  }
+  return text;
+}
 
 std::string scan_text(const ScanResult& result) {
   std::string text = "Scan " + std::to_string(result.scan);
@@ -86,9 +95,10 @@ std::string scan_text(const ScanResult& result) {
   return text + "\n";
 }
 
-std::string scan_json(const ScanResult& result) {
-  Json json = {{"version", kMeasureVersion},
-               {"scan", result.scan},
+std::string scan_json(const ScanResult& result, const ScanIdentity* identity) {
+  Json json = {{"version", kMeasureVersion}};
+  if (identity != nullptr) add_identity(*identity, json);
+  json.update({{"scan", result.scan},
                {"tray", result.tray.empty() ? Json() : Json(result.tray)},
                {"status", status_name(result)},
                {"message", message(result)},
@@ -96,7 +106,7 @@ std::string scan_json(const ScanResult& result) {
                {"relative_angle_deg", nullptr},
                {"duration_ms", std::chrono::duration<double, std::milli>(result.duration).count()},
                {"timing_ms", nullptr},
-               {"warnings", Json::array()}};
+               {"warnings", Json::array()}});
   if (result.measurement != nullptr) add_measurement(*result.measurement, json);
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }

@@ -10,8 +10,12 @@ namespace traygauge {
 
 // "Scan 1 (soup): rice 120 ml …" in lines of text; ends with a line feed.
 std::string scan_text(const ScanResult& result);
-// The same as JSON in one line, without a line feed. What was not measured is null.
-std::string scan_json(const ScanResult& result);
+// The same as JSON in one line, without a line feed. What was not measured is null. With an identity, it is
+// the document that is stored.
+std::string scan_json(const ScanResult& result, const ScanIdentity* identity = nullptr);
+
+// "button: The device reported an error. (detail)"
+std::string failure_text(const DeviceFailure& failure);
 
 // Results go to `out`, what is wrong with devices to `log`; neither is buffered.
 class ScanPrinter final : public ResultSink {

@@ -2,10 +2,13 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string_view>
 
 #include "drivers/clock.hpp"
 #include "drivers/device_status.hpp"
+#include "firmware/base/scan_id.hpp"
+#include "firmware/base/wall_clock.hpp"
 
 namespace traygauge {
 
@@ -36,6 +39,13 @@ struct ScanResult {
   Nanoseconds duration{0};                   // from the press to this result, by the station's clock
 };
 
+// What a result is called where it is stored.
+struct ScanIdentity {
+  ScanId id;
+  WallTime taken_at;
+  std::optional<ScanId> supersedes;  // the same tray's result, which is not booked any more
+};
+
 // Where a result got.
 enum class Delivery : std::uint8_t {
   done,    // where it belongs
@@ -57,6 +67,8 @@ class ResultSink {
   [[nodiscard]] virtual bool has_room() { return true; }
   // Between two looks at the button, every half second at least: may take some tens of milliseconds.
   virtual void attend() {}
+  // The station's state has changed; its name.
+  virtual void report_state(std::string_view /*state*/) {}
   // A device failed outside a scan; told once, until it works again.
   virtual void report_fault(const DeviceFailure& failure) = 0;
   // The button was held: the devices are opened anew.

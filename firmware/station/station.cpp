@@ -63,6 +63,7 @@ const StationTotals& Station::run() {
 }
 
 StationState Station::step() {
+  const StationState before = state_;
   switch (state_) {
     case StationState::starting:
       state_ = start_devices();
@@ -86,6 +87,7 @@ StationState Station::step() {
       break;
   }
   if (state_ == StationState::finished) close_all();
+  if (state_ != before) sink_.report_state(name(state_));
   return state_;
 }
 

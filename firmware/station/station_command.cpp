@@ -4,7 +4,9 @@
 #include <string_view>
 
 #include "firmware/base/exit_status.hpp"
+#include "firmware/base/scan_id.hpp"
 #include "firmware/command/program.hpp"
+#include "firmware/handover/result_route.hpp"
 #include "firmware/measure/measure_choices.hpp"
 #include "firmware/station/hardware_station.hpp"
 #include "firmware/station/played_scene.hpp"
@@ -30,6 +32,17 @@ std::uint64_t scan_count(const StationCommand& command, const CaptureSource& cap
   return command.scans > 0 ? command.scans : captures.capture_count();
 }
 
+std::optional<HandoverConfig> handover_of(const StationCommand& command) {
+  const HandoverConfig& hub = command.hub;
+  if (hub.socket.empty() && hub.folder.empty()) return std::nullopt;
+  if (hub.socket.empty() || hub.folder.empty())
+    throw UsageError(
+        "--hub, --keep: expected both: the hub's socket, and a folder where results wait for it");
+  if (!is_station_name(hub.name))
+    throw UsageError("--name: expected 1 to 32 of a-z, 0-9 and '-', found " + printable(hub.name));
+  return hub;
+}
+
 int play(const StationCommand& command, const FaultPlan& faults, MeasurableCaptures& captures,
          const std::atomic<bool>& stop, std::ostream& out, std::ostream& log) {
   SimulatedClock clock;
@@ -50,7 +63,9 @@ int play(const StationCommand& command, const FaultPlan& faults, MeasurableCaptu
   PlayedScene scene(captures, player);
   EstimatorMeasurer measurer(scene, captures.limits(), command.seed);
   ScanPrinter printer(out, log, command.json ? ScanPrinter::Format::json : ScanPrinter::Format::text);
+  const ResultRoute route(handover_of(command), printer, log);
   StationParams params;
+  if (!command.hub.socket.empty()) params.repeat_within = repeat_time(command.hub);
   params.second_view_deg = command.second_view_deg;
   params.max_scans = scans;
   params.max_retries = kMaxRetries;
@@ -58,8 +73,8 @@ int play(const StationCommand& command, const FaultPlan& faults, MeasurableCaptu
     throw UsageError("--second-view: expected " + std::to_string(arm.limits().min_deg) + " to " +
                      std::to_string(arm.limits().max_deg) + " degrees, where the arm can go");
   }
-  Station station({camera, trigger, command.by_hand ? nullptr : &arm, lamp, clock}, measurer, printer, stop,
-                  params);
+  Station station({camera, trigger, command.by_hand ? nullptr : &arm, lamp, clock}, measurer, route.sink(),
+                  stop, params);
   const StationTotals& totals = station.run();
   const bool is_complete = totals.scans >= scans || stop;
   if (!is_complete) {
@@ -100,6 +115,10 @@ void add_station_command(Program& program, StationCommand& command) {
       "Where played captures are outlined: given (label pictures) or auto (found in the pictures); default: "
       "given where a capture has label pictures. A real station's are in its station file");
   add_items_option(station, command.labels.items);
+  station.add_option("--hub", command.hub.socket,
+                     "Hand results to the hub that listens at this socket; a real station's is in its file");
+  station.add_option("--keep", command.hub.folder, "The folder where results wait for the hub");
+  station.add_option("--name", command.hub.name, "What the station is called in the hub").show_default();
   station.add_option("--seed", command.seed, "Seed of the random samples").show_default();
 }
 

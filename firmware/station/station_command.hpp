@@ -6,6 +6,7 @@
 #include <iosfwd>
 #include <string>
 
+#include "firmware/config/hub_tables.hpp"
 #include "firmware/station/open_captures.hpp"
 #include "firmware/station/station.hpp"
 
@@ -22,6 +23,7 @@ struct StationCommand {
   double second_view_deg = StationParams{}.second_view_deg;
   std::uint64_t seed = 0;
   LabelChoice labels;  // of captures
+  HandoverConfig hub;  // of played captures; without a socket there is none
 };
 
 // Adds the command; when it is given, parsing fills `command`.

@@ -4,9 +4,9 @@
 #include <iostream>
 
 #include "firmware/command/program.hpp"
+#include "firmware/command/stop_signal.hpp"
 #include "firmware/station/open_captures.hpp"
 #include "firmware/station/station_command.hpp"
-#include "firmware/station/stop_signal.hpp"
 
 namespace {
 

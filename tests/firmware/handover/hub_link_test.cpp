@@ -85,7 +85,7 @@ TEST_F(HubLinkTest, EndsWithinItsTimeWhateverTheHubDoes) {
         if (message.type != MessageType::scan || behaviour == "silent") return {};
         if (behaviour == "hangs up") return {{MessageType::stored, kHangUp, {}}};
         if (behaviour == "talks nonsense") return {{MessageType::hello, "?", {}}};
-        return std::vector<Message>(100, {MessageType::next_tray, "{}", {}});
+        return std::vector<Message>(100, {MessageType::welcome, "{}", {}});
       });
     HubLink link(params());
     const auto begin = std::chrono::steady_clock::now();
@@ -119,39 +119,6 @@ TEST_F(HubLinkTest, DoesNotKnockWithoutAPause) {
   const FakeHub hub(socket(), store_all);
   EXPECT_EQ(link.deliver("kitchen-1", document("kitchen-1")).answer, HubAnswer::absent);
   EXPECT_FALSE(link.is_connected());
-}
-
-TEST_F(HubLinkTest, HearsWhatTheNextTrayCarries) {
-  const FakeHub hub(socket(), [](const Message& message) -> std::vector<Message> {
-    if (message.type != MessageType::state) return {};
-    return {{MessageType::next_tray, R"({"items":3,"dishes":null})", {}}};
-  });
-  HubLink link(params());
-  std::optional<NextTray> heard;
-  link.tell({MessageType::state, "{}", {}});
-  for (int i = 0; i < 200 && !heard; ++i) {
-    link.attend();
-    heard = link.take_next_tray();
-    std::this_thread::sleep_for(Milliseconds(5));
-  }
-  ASSERT_TRUE(heard);
-  EXPECT_EQ(heard->items, 3);
-  EXPECT_FALSE(heard->dishes);
-  EXPECT_FALSE(link.take_next_tray());
-}
-
-TEST_F(HubLinkTest, BelievesNoImpossibleTray) {
-  const FakeHub hub(socket(), [](const Message& message) -> std::vector<Message> {
-    if (message.type != MessageType::scan) return {};
-    return {{MessageType::next_tray, R"({"items":-1,"dishes":"two"})", {}},
-            {MessageType::stored, R"({"id":"kitchen-1"})", {}}};
-  });
-  HubLink link(params());
-  ASSERT_EQ(link.deliver("kitchen-1", document("kitchen-1")).answer, HubAnswer::stored);
-  const auto heard = link.take_next_tray();
-  ASSERT_TRUE(heard);
-  EXPECT_FALSE(heard->items);
-  EXPECT_FALSE(heard->dishes);
 }
 
 }  // namespace

@@ -20,7 +20,7 @@ std::string random_bytes(std::mt19937& random, std::size_t max_bytes) {
 }
 
 Message random_message(std::mt19937& random) {
-  constexpr int kLastType = static_cast<int>(MessageType::next_tray);
+  constexpr int kLastType = static_cast<int>(MessageType::refused);
   const auto type = static_cast<MessageType>(std::uniform_int_distribution<int>(0, kLastType)(random));
   return {type, random_bytes(random, 300), random_bytes(random, 300)};
 }
@@ -79,7 +79,7 @@ TEST(MessageReader, RefusesLengthsBeyondTheLimits) {
     reader.append(huge);
     EXPECT_FALSE(reader.next().ok()) << first_length_byte;
   }
-  Message largest{MessageType::shapes, std::string(kMaxTextBytes, 'x'), std::string(kMaxBodyBytes, 'y')};
+  Message largest{MessageType::scan, std::string(kMaxTextBytes, 'x'), std::string(kMaxBodyBytes, 'y')};
   MessageReader reader;
   reader.append(encode(largest));
   const auto next = reader.next();

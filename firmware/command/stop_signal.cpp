@@ -1,4 +1,4 @@
-#include "firmware/station/stop_signal.hpp"
+#include "firmware/command/stop_signal.hpp"
 
 #include <csignal>
 

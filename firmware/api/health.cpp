@@ -1,0 +1,110 @@
+#include "firmware/api/health.hpp"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "firmware/api/scan_answer.hpp"
+
+namespace traygauge {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// A station says something every two seconds; five such messages lost are a station that hangs.
+constexpr std::chrono::seconds kSilentAfter{10};
+// No result was ever measured before this program was written: 2026-01-01.
+constexpr std::int64_t kEarliestTimeMs = 1767225600000;
+
+HealthPart examine_disk(HubStore& store) {
+  if (store.store() != nullptr) return {"disk", HealthState::ok, {}};
+  return {"disk", HealthState::failing, store.problem()};
+}
+
+HealthPart examine_clock(const WallTime& now) {
+  if (now.unix_ms < kEarliestTimeMs)
+    return {"clock", HealthState::failing, "The clock says " + utc_text(now.unix_ms) + "; set it."};
+  if (!now.synchronised)
+    return {"clock", HealthState::warning,
+            "Nothing synchronises the clock; times of scans may be wrong. Connect the hub to a time server."};
+  return {"clock", HealthState::ok, {}};
+}
+
+// Of what the station said last; absent or strange parts say nothing.
+void examine_state(const std::string& station, const Json& state, std::vector<HealthPart>& parts) {
+  if (!state.is_object()) return;
+  if (state.contains("faults") && state["faults"].is_array()) {
+    for (const Json& fault : state["faults"]) {
+      if (!fault.is_object()) continue;
+      parts.push_back({fault.value("device", "a device") + " of " + station, HealthState::failing,
+                       fault.value("message", "")});
+    }
+  }
+  if (state.contains("disk") && state["disk"].is_string())
+    parts.push_back({"disk of " + station, HealthState::failing, state["disk"].get<std::string>()});
+  const auto waiting = state.find("waiting_results");
+  if (waiting != state.end() && waiting->is_number_unsigned() && *waiting > 0)
+    parts.push_back({"queue of " + station, HealthState::warning,
+                     waiting->dump() + " results wait at the station to be stored."});
+}
+
+void examine_station(const std::string& name, const LiveStation& live, std::vector<HealthPart>& parts) {
+  const auto silent = std::chrono::steady_clock::now() - live.heard_at;
+  const std::string seconds =
+      std::to_string(std::chrono::duration_cast<std::chrono::seconds>(silent).count()) + " s";
+  HealthPart station{"station " + name, HealthState::ok, {}};
+  if (!live.is_connected) {
+    station.state = HealthState::failing;
+    station.message = "Station " + name + " went " + seconds + " ago; look whether it is switched on.";
+  } else if (silent > kSilentAfter) {
+    station.state = HealthState::failing;
+    station.message = "Station " + name + " has said nothing for " + seconds + "; restart it.";
+  }
+  parts.push_back(station);
+  if (station.state == HealthState::ok) examine_state(name, Json::parse(live.state, nullptr, false), parts);
+}
+
+HttpResponse answer_health(const HubSite& site) {
+  const Health health = examine_health(site);
+  Json json = {{"status", name(health.worst())}, {"parts", Json::array()}};
+  for (const HealthPart& part : health.parts) {
+    json["parts"].push_back({{"name", part.name},
+                             {"status", name(part.state)},
+                             {"message", part.message.empty() ? Json() : Json(part.message)}});
+  }
+  return json_answer(json, health.worst() == HealthState::failing ? 503 : 200);
+}
+
+}  // namespace
+
+const char* name(HealthState state) {
+  switch (state) {
+    case HealthState::warning:
+      return "warning";
+    case HealthState::failing:
+      return "failing";
+    case HealthState::ok:
+      break;
+  }
+  return "ok";
+}
+
+HealthState Health::worst() const {
+  HealthState worst = HealthState::ok;
+  for (const HealthPart& part : parts) worst = std::max(worst, part.state);
+  return worst;
+}
+
+Health examine_health(const HubSite& site) {
+  Health health;
+  health.parts.push_back(examine_disk(site.store));
+  health.parts.push_back(examine_clock(site.wall_clock()));
+  for (const auto& [name, live] : site.inbox.stations()) examine_station(name, live, health.parts);
+  return health;
+}
+
+void add_health_routes(Router& router, const HubSite& site) {
+  // Without a token: who watches over a site has none, and the answer names no food and no person.
+  router.add({"GET", "/health", Role::none, 0, [&site](const HttpRequest&) { return answer_health(site); }});
+}
+
+}  // namespace traygauge

@@ -1,0 +1,33 @@
+// What the hub's API answers from. All of it outlives the routes.
+#pragma once
+
+#include <chrono>
+#include <functional>
+
+#include "firmware/base/wall_clock.hpp"
+#include "firmware/hub/hub_store.hpp"
+#include "firmware/hub/station_inbox.hpp"
+#include "firmware/web/event_streams.hpp"
+#include "firmware/web/http_server.hpp"
+#include "firmware/web/router.hpp"
+
+namespace traygauge {
+
+struct HubSite {
+  HubStore& store;
+  StationInbox& inbox;
+  EventStreams& events;
+  std::function<HttpCounts()> http;
+  std::function<WallTime()> wall_clock = read_wall_clock;
+  std::chrono::steady_clock::time_point started_at = std::chrono::steady_clock::now();
+};
+
+// Everything below /api/v1, /health and /metrics; firmware/README.md lists it.
+void add_scan_routes(Router& router, const HubSite& site);
+void add_correction_routes(Router& router, const HubSite& site);
+void add_export_routes(Router& router, const HubSite& site);
+void add_station_routes(Router& router, const HubSite& site);
+void add_health_routes(Router& router, const HubSite& site);
+void add_metrics_route(Router& router, const HubSite& site);
+
+}  // namespace traygauge

@@ -1,0 +1,91 @@
+// Figures for Prometheus, in its text format.
+#include <string>
+
+#include "firmware/api/health.hpp"
+#include "firmware/api/hub_site.hpp"
+#include "firmware/base/text.hpp"
+
+namespace traygauge {
+namespace {
+
+class Metrics {
+ public:
+  void declare(const char* name, const char* type, const char* help) {
+    text_ += std::string("# HELP ") + name + " " + help + "\n# TYPE " + name + " " + type + "\n";
+  }
+  void add(const std::string& name, double value) { text_ += name + " " + fixed(value, 3) + "\n"; }
+  void add(const std::string& name, std::uint64_t value) {
+    text_ += name + " " + std::to_string(value) + "\n";
+  }
+  template <class Value>
+  void one(const char* name, const char* type, const char* help, Value value) {
+    declare(name, type, help);
+    add(name, value);
+  }
+  const std::string& text() const { return text_; }
+
+ private:
+  std::string text_;
+};
+
+void add_store(Store& store, Metrics& metrics) {
+  const Expected<StoreTotals> totals = store.scans().totals();
+  if (!totals.ok()) return;
+  const auto count = [](std::int64_t value) { return static_cast<std::uint64_t>(value); };
+  metrics.one("traygauge_stored_scans", "gauge", "Scans in the store.", count(totals->scans));
+  metrics.one("traygauge_superseded_scans", "gauge", "Of these, superseded by a second try.",
+              count(totals->superseded));
+  metrics.one("traygauge_corrected_scans", "gauge", "Of these, corrected by a person.",
+              count(totals->corrected));
+  metrics.one("traygauge_wrong_scans", "gauge", "Of these, marked as wrong.", count(totals->wrong));
+  metrics.one("traygauge_set_aside_documents", "gauge", "Documents that could not be booked.",
+              count(totals->set_aside));
+  metrics.one("traygauge_store_bytes", "gauge", "Size of the store's file.", count(totals->file_bytes));
+  metrics.one("traygauge_store_written_bytes_total", "counter",
+              "Bytes written to the store since the hub started; memory cards wear out by them.",
+              store.disk().bytes_written);
+  metrics.one("traygauge_store_syncs_total", "counter",
+              "Times the store waited for the disk since the start.", store.disk().syncs);
+}
+
+void add_stations(const HubSite& site, Metrics& metrics) {
+  metrics.declare("traygauge_station_connected", "gauge", "Whether the station is connected to the hub.");
+  for (const auto& [name, live] : site.inbox.stations())
+    metrics.add("traygauge_station_connected{station=\"" + name + "\"}", std::uint64_t{live.is_connected});
+  metrics.declare("traygauge_station_silent_seconds", "gauge", "Since the station said something.");
+  const auto now = std::chrono::steady_clock::now();
+  for (const auto& [name, live] : site.inbox.stations()) {
+    const std::chrono::duration<double> silent = now - live.heard_at;
+    metrics.add("traygauge_station_silent_seconds{station=\"" + name + "\"}", silent.count());
+  }
+}
+
+HttpResponse answer_metrics(const HubSite& site) {
+  Metrics metrics;
+  const std::chrono::duration<double> up = std::chrono::steady_clock::now() - site.started_at;
+  metrics.one("traygauge_hub_up_seconds", "gauge", "Since the hub started.", up.count());
+  metrics.one("traygauge_healthy", "gauge", "1 while no part of hub and stations fails.",
+              std::uint64_t{examine_health(site).worst() != HealthState::failing});
+  if (Store* const store = site.store.store()) add_store(*store, metrics);
+  add_stations(site, metrics);
+  const HttpCounts http = site.http();
+  metrics.one("traygauge_http_requests_total", "counter", "Requests answered since the start.",
+              http.requests);
+  metrics.one("traygauge_http_refused_total", "counter", "Requests refused before they were read.",
+              http.refused_requests);
+  metrics.one("traygauge_http_connections", "gauge", "Connections that are open.", http.open);
+  metrics.one("traygauge_event_streams", "gauge", "Pages that listen.", std::uint64_t{site.events.count()});
+  HttpResponse response;
+  response.content_type = "text/plain; version=0.0.4; charset=utf-8";
+  response.body = metrics.text();
+  return response;
+}
+
+}  // namespace
+
+void add_metrics_route(Router& router, const HubSite& site) {
+  router.add(
+      {"GET", "/metrics", Role::view, 0, [&site](const HttpRequest&) { return answer_metrics(site); }});
+}
+
+}  // namespace traygauge

@@ -1,0 +1,26 @@
+// Scans as the API writes them.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+#include "firmware/base/expected.hpp"
+#include "firmware/store/open_store.hpp"
+#include "firmware/web/http_message.hpp"
+
+namespace traygauge {
+
+// A scan with its corrections applied; the measured volumes stand beside the corrected ones.
+Expected<nlohmann::ordered_json> scan_answer(Store& store, const StoredScan& scan);
+
+// In one line; what is not UTF-8 is replaced.
+HttpResponse json_answer(const nlohmann::ordered_json& json, int status = 200);
+
+// 503 with the store's failure.
+HttpResponse store_failure(const std::string& text);
+// 400 about a parameter or a key.
+HttpResponse wrong_request(const std::string& text);
+HttpResponse no_such_scan(const std::string& id);
+
+}  // namespace traygauge

@@ -1,0 +1,82 @@
+#include "firmware/config/hub_tables.hpp"
+
+#include <string_view>
+
+#include "firmware/base/scan_id.hpp"
+#include "simulator/capture/toml_file.hpp"
+
+namespace traygauge {
+namespace {
+
+constexpr std::size_t kMaxFileBytes = std::size_t{1} << 16U;
+constexpr int kMaxMib = 1024;
+constexpr int kMaxFreeMib = 1024 * 1024;
+constexpr int kMaxDays = 36'500;
+
+template <std::size_t N>
+void expect(const JsonNode& table, const std::string_view (&keys)[N]) {
+  expect_keys(table, keys);
+}
+
+std::vector<std::string> read_texts(const JsonNode& node) {
+  constexpr std::size_t kMaxEntries = 32;
+  std::vector<std::string> texts;
+  for (const JsonNode& entry : node.elements(0, kMaxEntries)) texts.push_back(entry.text());
+  return texts;
+}
+
+WebConfig read_web(const JsonNode& table, const std::filesystem::path& folder) {
+  WebConfig web;
+  if (const auto listen = table.find("listen")) web.listen = read_texts(*listen);
+  const auto take_file = [&](const char* key, std::optional<std::filesystem::path>& file) {
+    if (const auto node = table.find(key)) file = folder / node->text();
+  };
+  take_file("view_tokens", web.view_tokens);
+  take_file("kiosk_tokens", web.kiosk_tokens);
+  take_file("manage_tokens", web.manage_tokens);
+  if (const auto local = table.find("local_needs_token")) web.local_needs_token = local->truth();
+  if (const auto names = table.find("host_names")) web.host_names = read_texts(*names);
+  if (const auto proxies = table.find("trusted_proxies")) web.trusted_proxies = read_texts(*proxies);
+  if (const auto base = table.find("base_path")) web.base_path = base->text();
+  return web;
+}
+
+}  // namespace
+
+HandoverConfig read_handover_table(const JsonNode& table, const std::filesystem::path& folder) {
+  expect(table, {"name", "socket", "folder", "waiting_mib", "repeat_within_s"});
+  HandoverConfig config;
+  const JsonNode name = table.member("name");
+  config.name = name.text();
+  if (!is_station_name(config.name)) {
+    name.fail("1 to 32 of a-z, 0-9 and '-', with no '-' at either end",
+              "other programs use it in addresses and topics");
+  }
+  config.socket = folder / table.member("socket").text();
+  config.folder = folder / table.member("folder").text();
+  if (const auto waiting = table.find("waiting_mib")) config.waiting_mib = waiting->integer(1, kMaxMib);
+  if (const auto repeat = table.find("repeat_within_s"))
+    config.repeat_within_s = repeat->number({0.0, 600.0});
+  return config;
+}
+
+HubConfig read_hub_table(const JsonNode& table, const std::filesystem::path& folder) {
+  expect(table, {"store", "keep_days", "keep_free_mib", "listen", "view_tokens", "kiosk_tokens",
+                 "manage_tokens", "local_needs_token", "host_names", "trusted_proxies", "base_path"});
+  HubConfig config;
+  config.store = folder / table.member("store").text();
+  if (const auto days = table.find("keep_days")) config.keep_days = days->integer(1, kMaxDays);
+  if (const auto free = table.find("keep_free_mib")) config.keep_free_mib = free->integer(0, kMaxFreeMib);
+  config.web = read_web(table, folder);
+  return config;
+}
+
+HubFile read_hub_file(const std::filesystem::path& file) {
+  const JsonDocument document = read_toml(file, kMaxFileBytes, "a station in TOML");
+  const JsonNode root = document.root();
+  const std::filesystem::path folder = file.parent_path();
+  return {read_handover_table(root.member("station"), folder).socket,
+          read_hub_table(root.member("hub"), folder)};
+}
+
+}  // namespace traygauge

@@ -1,0 +1,55 @@
+// The tables of a station file that say where results go: [station] and [hub].
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "simulator/capture/json_node.hpp"
+
+namespace traygauge {
+
+// How a station hands its results over.
+struct HandoverConfig {
+  std::string name = "station";   // see is_station_name()
+  std::filesystem::path socket;   // the hub's
+  std::filesystem::path folder;   // where results wait, and where the last scan's number stands
+  int waiting_mib = 16;           // about 4,000 results
+  double repeat_within_s = 20.0;  // 0: every press counts
+};
+
+// Where the hub serves its API, and to whom.
+struct WebConfig {
+  std::vector<std::string> listen;  // addresses, see parse_listen_address(); none: nothing is served
+  // Files of tokens, by role; none: only who is on this machine is served.
+  std::optional<std::filesystem::path> view_tokens;
+  std::optional<std::filesystem::path> kiosk_tokens;
+  std::optional<std::filesystem::path> manage_tokens;
+  bool local_needs_token = false;            // where a proxy on this machine lets others in
+  std::vector<std::string> host_names;       // of the hub, beside localhost and literal addresses
+  std::vector<std::string> trusted_proxies;  // addresses whose X-Forwarded-For is believed
+  std::string base_path;                     // under which a proxy shows the hub
+};
+
+struct HubConfig {
+  std::filesystem::path store;   // a file
+  std::optional<int> keep_days;  // none: as long as there is space
+  int keep_free_mib = 500;       // of the file system
+  WebConfig web;
+};
+
+// Both read a table whose unknown keys are errors. Relative paths are relative to `folder`, the file's.
+HandoverConfig read_handover_table(const JsonNode& table, const std::filesystem::path& folder);
+HubConfig read_hub_table(const JsonNode& table, const std::filesystem::path& folder);
+
+// What a hub needs of a station file.
+struct HubFile {
+  std::filesystem::path socket;
+  HubConfig hub;
+};
+
+// Throws InputError where the file cannot be read, and where [hub] or the key station.socket is absent.
+HubFile read_hub_file(const std::filesystem::path& file);
+
+}  // namespace traygauge

@@ -1,0 +1,153 @@
+#include "firmware/handover/scan_handover.hpp"
+
+#include <nlohmann/json.hpp>
+#include <ostream>
+#include <utility>
+
+#include "firmware/station/scan_printer.hpp"
+
+namespace traygauge {
+
+ScanHandover::ScanHandover(ResultSink& printer, HubLink& link, KeptResults& kept, std::ostream& log,
+                           ScanHandoverParams params)
+    : printer_(printer), link_(link), kept_(kept), log_(log), params_(params) {
+  log_notices();
+}
+
+Delivery ScanHandover::deliver(const ScanResult& result) {
+  const Delivery printed = printer_.deliver(result);
+  if (result.outcome == ScanOutcome::cancelled) return printed;
+  const Expected<ScanId> id = kept_.next_id();
+  if (!id.ok()) {
+    note_disk(id.failure());
+    return Delivery::failed;
+  }
+  ScanIdentity identity{*id, pressed_at_, std::nullopt};
+  if (result.repeats_last) identity.supersedes = last_id_;
+  if (result.measurement != nullptr) last_id_ = *id;
+  const std::string document = scan_json(result, &identity);
+  const std::string text = scan_id_text(*id);
+  // In the order in which they were measured: what waits goes first.
+  const bool waits_already = kept_.waiting_count() > 0;
+  if (!waits_already && hand_over(text, document)) return Delivery::done;
+  const Delivery kept = keep(text, document);
+  return kept == Delivery::kept && waits_already && hand_over_kept() ? Delivery::done : kept;
+}
+
+Delivery ScanHandover::keep(const std::string& id, const std::string& document) {
+  const Expected<void> kept = kept_.keep(id, document);
+  note_disk(kept.ok() ? std::string() : kept.failure());
+  return kept.ok() ? Delivery::kept : Delivery::failed;
+}
+
+// False when the hub does not have it.
+bool ScanHandover::hand_over(const std::string& id, const std::string& document) {
+  const HubReply reply = link_.deliver(id, document);
+  was_refused_ = !reply.is_kept_there();
+  if (was_refused_) asked_at_ = SteadyClock::now();
+  note_hub(reply);
+  if (reply.answer == HubAnswer::set_aside)
+    log_ << "The hub has set scan " << id << " aside: " << reply.text << std::endl;
+  return !was_refused_;
+}
+
+// False when something still waits.
+bool ScanHandover::hand_over_kept() {
+  const auto end = SteadyClock::now() + params_.longest_attention;
+  while (kept_.waiting_count() > 0) {
+    if (was_refused_ && SteadyClock::now() - asked_at_ < params_.retry_after) return false;
+    const Expected<std::optional<KeptResult>> oldest = kept_.oldest();
+    log_notices();
+    if (!oldest.ok()) {
+      note_disk(oldest.failure());
+      return false;
+    }
+    if (!*oldest) return true;
+    if (!hand_over((*oldest)->id, (*oldest)->document)) return false;
+    if (const Expected<void> removed = kept_.remove_oldest(**oldest); !removed.ok()) {
+      note_disk(removed.failure());
+      return false;
+    }
+    if (SteadyClock::now() > end) return kept_.waiting_count() == 0;
+  }
+  return true;
+}
+
+bool ScanHandover::has_room() {
+  const bool has_room = kept_.has_room();
+  if (!has_room)
+    note_disk("no room for a further result: " + std::to_string(kept_.waiting_count()) +
+              " wait for the hub, and nothing is measured until it takes them; start the hub, or look at its "
+              "disk");
+  else if (disk_problem_.starts_with("no room"))
+    note_disk({});
+  return has_room;
+}
+
+void ScanHandover::attend() {
+  link_.attend();
+  hand_over_kept();
+  if (link_.take_is_new() || SteadyClock::now() - told_at_ >= params_.heartbeat) tell_state();
+}
+
+void ScanHandover::report_state(std::string_view state) {
+  if (state == "taking_first_view") pressed_at_ = read_wall_clock();
+  state_ = state;
+  tell_state();
+}
+
+void ScanHandover::report_fault(const DeviceFailure& failure) {
+  printer_.report_fault(failure);
+  faults_.insert_or_assign(std::string(failure.device), failure_text(failure));
+  tell_state();
+}
+
+void ScanHandover::report_restart() {
+  printer_.report_restart();
+}
+
+void ScanHandover::report_recovery(std::string_view what) {
+  printer_.report_recovery(what);
+  if (const auto found = faults_.find(what); found != faults_.end()) {
+    faults_.erase(found);
+  } else {
+    faults_.clear();
+  }
+  tell_state();
+}
+
+void ScanHandover::tell_state() {
+  using Json = nlohmann::json;
+  Json faults = Json::array();
+  for (const auto& [device, text] : faults_) faults.push_back({{"device", device}, {"message", text}});
+  const Json json = {{"state", state_},
+                     {"waiting_results", kept_.waiting_count()},
+                     {"disk", disk_problem_.empty() ? Json() : Json(disk_problem_)},
+                     {"faults", faults}};
+  link_.tell({MessageType::state, json.dump(-1, ' ', false, Json::error_handler_t::replace), {}});
+  told_at_ = SteadyClock::now();
+}
+
+void ScanHandover::log_notices() {
+  for (const std::string& notice : kept_.take_notices()) log_ << notice << std::endl;
+}
+
+// A hub that is away is told once, and once that it is back.
+void ScanHandover::note_hub(const HubReply& reply) {
+  if (reply.is_kept_there() && !hub_problem_.empty()) log_ << "The hub takes results again." << std::endl;
+  if (!reply.is_kept_there() && hub_problem_.empty())
+    log_ << "The hub does not take results, which wait on this disk: " << reply.text << std::endl;
+  hub_problem_ = reply.is_kept_there() ? std::string() : reply.text;
+}
+
+void ScanHandover::note_disk(const std::string& problem) {
+  if (problem == disk_problem_) return;
+  if (problem.empty()) {
+    log_ << "Results can be kept again." << std::endl;
+  } else if (disk_problem_.empty()) {
+    log_ << problem << std::endl;
+  }
+  disk_problem_ = problem;
+}
+
+}  // namespace traygauge

@@ -1,0 +1,70 @@
+// Hands every result to the hub; what the hub does not take waits on the station's disk.
+#pragma once
+
+#include <chrono>
+#include <iosfwd>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "firmware/base/scan_id.hpp"
+#include "firmware/base/wall_clock.hpp"
+#include "firmware/handover/hub_link.hpp"
+#include "firmware/handover/kept_results.hpp"
+#include "firmware/station/scan_result.hpp"
+
+namespace traygauge {
+
+struct ScanHandoverParams {
+  // Presses wait while kept results are handed over.
+  Milliseconds longest_attention{300};
+  // A hub that refuses or hangs is asked again so much later.
+  Milliseconds retry_after{2000};
+  // The hub calls a station silent that says nothing for longer: see its health.
+  Milliseconds heartbeat{2000};
+};
+
+// Prints what it hands over. Used by one thread.
+class ScanHandover final : public ResultSink {
+ public:
+  ScanHandover(ResultSink& printer, HubLink& link, KeptResults& kept, std::ostream& log,
+               ScanHandoverParams params = {});
+
+  Delivery deliver(const ScanResult& result) override;
+  bool has_room() override;
+  void attend() override;
+  void report_state(std::string_view state) override;
+  void report_fault(const DeviceFailure& failure) override;
+  void report_restart() override;
+  void report_recovery(std::string_view what) override;
+
+ private:
+  using SteadyClock = std::chrono::steady_clock;
+
+  Delivery keep(const std::string& id, const std::string& document);
+  bool hand_over(const std::string& id, const std::string& document);
+  bool hand_over_kept();
+  void tell_state();
+  void log_notices();
+  void note_hub(const HubReply& reply);
+  void note_disk(const std::string& problem);
+
+  ResultSink& printer_;
+  HubLink& link_;
+  KeptResults& kept_;
+  std::ostream& log_;
+  ScanHandoverParams params_;
+
+  std::string state_ = "starting";
+  WallTime pressed_at_;
+  std::optional<ScanId> last_id_;                           // of the last result with a measurement
+  std::map<std::string, std::string, std::less<>> faults_;  // sentences by device
+  std::string hub_problem_;                                 // empty while the hub takes what it is given
+  std::string disk_problem_;                                // empty while results can be kept
+  SteadyClock::time_point asked_at_;                        // of the last attempt that failed
+  bool was_refused_ = false;
+  SteadyClock::time_point told_at_;
+};
+
+}  // namespace traygauge

@@ -1,0 +1,66 @@
+#include "firmware/hub/hub.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace traygauge {
+
+Expected<std::unique_ptr<Hub>> Hub::start(HubParams params, HubLog log) {
+  // The socket first: who has it is the only hub, and waits for no other one's file.
+  Expected<LocalListener> listener = LocalListener::open(params.socket);
+  if (!listener.ok()) return Failure{listener.failure()};
+  Expected<HubStore> store = HubStore::open(params.store);
+  if (!store.ok()) return Failure{store.failure()};
+  for (const std::string& notice : store->notices()) log(notice);
+  std::unique_ptr<Hub> hub(new Hub(std::move(*store), std::move(*listener), params, std::move(log)));
+  if (params.web.listen.empty()) return hub;
+  Expected<std::unique_ptr<HubWeb>> web = HubWeb::start(params.web, hub->store_, hub->inbox_);
+  if (!web.ok()) return Failure{web.failure()};
+  hub->web_ = std::move(*web);
+  return hub;
+}
+
+Hub::Hub(HubStore store, LocalListener listener, const HubParams& params, HubLog log)
+    : log_(std::move(log)),
+      store_(std::move(store)),
+      inbox_(std::move(listener), store_, listener_for_inbox(), params.inbox) {}
+
+void Hub::run(const std::atomic<bool>& stop) {
+  // A signal interrupts the wait, but for one that comes just before it.
+  constexpr std::chrono::milliseconds kLongestWait{500};
+  while (!stop) step(kLongestWait);
+}
+
+void Hub::step(std::chrono::milliseconds longest_wait) {
+  std::vector<pollfd> descriptors;
+  inbox_.add_descriptors(descriptors);
+  if (web_ != nullptr) {
+    descriptors.push_back({web_->descriptor(), POLLIN, 0});
+    if (const auto timeout = web_->timeout()) longest_wait = std::min(longest_wait, *timeout);
+  }
+  ::poll(descriptors.data(), descriptors.size(), static_cast<int>(longest_wait.count()));
+  inbox_.attend();
+  if (web_ != nullptr) web_->run();
+  for (const std::string& sentence : store_.tend(std::chrono::steady_clock::now())) log_(sentence);
+}
+
+StationListener Hub::listener_for_inbox() {
+  StationListener listener;
+  listener.on_stored = [this](const ScanId& id) {
+    last_problem_.clear();
+    if (web_ != nullptr) web_->tell_scan(id);
+  };
+  listener.on_state = [this](const std::string& station) {
+    if (web_ != nullptr) web_->tell_station(station);
+  };
+  listener.on_problem = [this](const std::string& problem) { log_problem(problem); };
+  return listener;
+}
+
+// A station asks again every few seconds: the same answer is told once.
+void Hub::log_problem(const std::string& problem) {
+  if (problem != last_problem_) log_(problem);
+  last_problem_ = problem;
+}
+
+}  // namespace traygauge

@@ -1,0 +1,56 @@
+// The hub: stores what stations measure, on one thread.
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <filesystem>
+#include <functional>
+#include <string>
+
+#include "firmware/base/expected.hpp"
+#include "firmware/hub/hub_store.hpp"
+#include "firmware/hub/hub_web.hpp"
+#include "firmware/hub/station_inbox.hpp"
+
+namespace traygauge {
+
+struct HubParams {
+  std::filesystem::path socket;
+  HubStoreParams store;
+  StationInboxParams inbox;
+  WebConfig web;  // without addresses nothing is served
+};
+
+// One sentence for each thing that happened.
+using HubLog = std::function<void(const std::string&)>;
+
+class Hub {
+ public:
+  // Fails where the socket, the store's file or an address of the API cannot be had.
+  static Expected<std::unique_ptr<Hub>> start(HubParams params, HubLog log);
+  Hub(const Hub&) = delete;
+  Hub& operator=(const Hub&) = delete;
+
+  // Until somebody, a signal handler say, sets `stop`.
+  void run(const std::atomic<bool>& stop);
+  // Waits for at most so long for something to do, and does it.
+  void step(std::chrono::milliseconds longest_wait);
+
+  HubStore& store() { return store_; }
+  StationInbox& inbox() { return inbox_; }
+  // Null where nothing is served.
+  HubWeb* web() { return web_.get(); }
+
+ private:
+  Hub(HubStore store, LocalListener listener, const HubParams& params, HubLog log);
+  StationListener listener_for_inbox();
+  void log_problem(const std::string& problem);
+
+  HubLog log_;
+  std::string last_problem_;
+  HubStore store_;
+  StationInbox inbox_;
+  std::unique_ptr<HubWeb> web_;
+};
+
+}  // namespace traygauge

@@ -1,0 +1,61 @@
+#include "firmware/hub/hub_command.hpp"
+
+#include <chrono>
+#include <ostream>
+
+#include "firmware/base/exit_status.hpp"
+#include "firmware/command/program.hpp"
+#include "firmware/config/hub_tables.hpp"
+#include "firmware/hub/hub.hpp"
+
+namespace traygauge {
+namespace {
+
+// What is said on the command line counts; the rest is the file's.
+HubFile choose(const HubCommand& command) {
+  HubFile chosen;
+  if (!command.config.empty()) chosen = read_hub_file(command.config);
+  if (!command.socket.empty()) chosen.socket = command.socket;
+  if (!command.store.empty()) chosen.hub.store = command.store;
+  if (!command.listen.empty()) chosen.hub.web.listen = command.listen;
+  if (chosen.socket.empty() || chosen.hub.store.empty())
+    throw UsageError("expected --config FILE, or --socket PATH and --store FILE");
+  return chosen;
+}
+
+HubParams params_of(const HubFile& file) {
+  constexpr std::int64_t kBytesPerMib = 1024 * 1024;
+  HubParams params;
+  params.socket = file.socket;
+  params.web = file.hub.web;
+  params.store.options.file = file.hub.store;
+  if (file.hub.keep_days) params.store.retention.max_age = std::chrono::days(*file.hub.keep_days);
+  params.store.retention.min_free_bytes = file.hub.keep_free_mib * kBytesPerMib;
+  return params;
+}
+
+}  // namespace
+
+void add_hub_options(Program& program, HubCommand& command) {
+  Command hub = program.add_command("hub", "Store what stations measure");
+  hub.add_option("--config", command.config, "A station file with [station] and [hub] (config/station.toml)");
+  hub.add_option("--socket", command.socket, "Where stations find the hub: a path for a Unix socket");
+  hub.add_option("--store", command.store, "The file that results are stored in; made where there is none");
+  hub.add_option("--listen", command.listen,
+                 "Where the API is served, such as 127.0.0.1:8080; may be given several times");
+}
+
+int run_hub(const HubCommand& command, const std::atomic<bool>& stop, std::ostream& out, std::ostream& log) {
+  const HubFile file = choose(command);
+  const auto write = [&log](const std::string& sentence) { log << sentence << std::endl; };
+  const Expected<std::unique_ptr<Hub>> hub = Hub::start(params_of(file), write);
+  if (!hub.ok()) throw UsageError(hub.failure());
+  out << "The hub stores results in " << file.hub.store.string() << " and listens at " << file.socket.string()
+      << "." << std::endl;
+  if ((*hub)->web() != nullptr)
+    out << "The API is served at " << (*hub)->web()->addresses() << "." << std::endl;
+  (*hub)->run(stop);
+  return kExitMeasured;
+}
+
+}  // namespace traygauge

@@ -1,0 +1,17 @@
+// `traygauge hub` as a program of its own: it holds no device and nothing of the measurement.
+#include <iostream>
+
+#include "firmware/command/program.hpp"
+#include "firmware/command/stop_signal.hpp"
+#include "firmware/hub/hub_command.hpp"
+
+// NOLINTNEXTLINE(bugprone-exception-escape): options that contradict each other end the program at once
+int main(int argument_count, char** arguments) {
+  traygauge::Program program("Stores what stations measure.", "traygauge");
+  traygauge::HubCommand command;
+  traygauge::add_hub_options(program, command);
+  const auto run = [&] {
+    return traygauge::run_hub(command, traygauge::stop_on_signals(), std::cout, std::cerr);
+  };
+  return program.run(argument_count, arguments, run, std::cout, std::cerr);
+}

@@ -1,0 +1,102 @@
+#include "firmware/hub/hub_web.hpp"
+
+#include <nlohmann/json.hpp>
+#include <utility>
+#include <vector>
+
+#include "firmware/web/login.hpp"
+
+namespace traygauge {
+namespace {
+
+template <class Value>
+Failure of_key(const char* key, const Expected<Value>& failed) {
+  return {std::string("hub.") + key + ": " + failed.failure()};
+}
+
+Expected<AccessParams> access_params(const WebConfig& config) {
+  AccessParams params;
+  if (config.view_tokens) params.token_files.push_back({*config.view_tokens, Role::view});
+  if (config.kiosk_tokens) params.token_files.push_back({*config.kiosk_tokens, Role::kiosk});
+  if (config.manage_tokens) params.token_files.push_back({*config.manage_tokens, Role::manage});
+  if (config.local_needs_token) params.local = LocalRule::tokens;
+  for (const std::string& proxy : config.trusted_proxies) {
+    const auto range = AddressRange::parse(proxy);
+    if (!range)
+      return Failure{"hub.trusted_proxies: expected an address or a range such as 192.0.2.0/24, found " +
+                     proxy};
+    params.trusted_proxies.push_back(*range);
+  }
+  return params;
+}
+
+Expected<std::vector<ListenAddress>> listen_addresses(const WebConfig& config) {
+  std::vector<ListenAddress> addresses;
+  for (const std::string& text : config.listen) {
+    const Expected<ListenAddress> address = parse_listen_address(text);
+    if (!address.ok()) return of_key("listen", address);
+    addresses.push_back(*address);
+  }
+  return addresses;
+}
+
+}  // namespace
+
+Expected<std::unique_ptr<HubWeb>> HubWeb::start(const WebConfig& config, HubStore& store,
+                                                StationInbox& inbox) {
+  Expected<AccessParams> access = access_params(config);
+  if (!access.ok()) return Failure{access.failure()};
+  const Expected<std::vector<ListenAddress>> addresses = listen_addresses(config);
+  if (!addresses.ok()) return Failure{addresses.failure()};
+  Expected<std::vector<std::string>> base = parse_base_path(config.base_path);
+  if (!base.ok()) return of_key("base_path", base);
+  std::unique_ptr<HubWeb> web(
+      new HubWeb(std::move(*access), {config.host_names, std::move(*base)}, store, inbox));
+  if (const Expected<void> may = web->access_.check_listen(*addresses); !may.ok())
+    return of_key("listen", may);
+  std::vector<Listener> listeners;
+  for (const ListenAddress& address : *addresses) {
+    Expected<Listener> listener = Listener::open(address);
+    if (!listener.ok()) return of_key("listen", listener);
+    listeners.push_back(std::move(*listener));
+  }
+  Expected<HttpServer> server = HttpServer::start({}, std::move(listeners), *web->site_);
+  if (!server.ok()) return of_key("listen", server);
+  web->server_.emplace(std::move(*server));
+  return web;
+}
+
+HubWeb::HubWeb(AccessParams access, SiteParams site, HubStore& store, StationInbox& inbox)
+    : access_(std::move(access)), events_(EventStreamLimits{}), hub_site_{store, inbox, events_, [this] {
+                                                                            return server_->counts();
+                                                                          }} {
+  add_login_routes(router_, access_);
+  add_scan_routes(router_, hub_site_);
+  add_correction_routes(router_, hub_site_);
+  add_export_routes(router_, hub_site_);
+  add_station_routes(router_, hub_site_);
+  add_health_routes(router_, hub_site_);
+  add_metrics_route(router_, hub_site_);
+  site_.emplace(std::move(site), access_, router_, files_, events_);
+}
+
+void HubWeb::tell_scan(const ScanId& id) {
+  events_.broadcast({"scan", nlohmann::json{{"id", scan_id_text(id)}}.dump(), {}});
+}
+
+void HubWeb::tell_station(const std::string& station) {
+  events_.broadcast({"station", nlohmann::json{{"name", station}}.dump(), {}});
+}
+
+std::string HubWeb::addresses() const {
+  std::string text;
+  for (const Listener& listener : server_->listeners()) {
+    const ListenAddress& address = listener.address();
+    if (!text.empty()) text += ", ";
+    if (address.path.empty()) text += "http://";
+    text += address.text();
+  }
+  return text;
+}
+
+}  // namespace traygauge

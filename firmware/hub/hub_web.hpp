@@ -1,0 +1,53 @@
+// The hub's API over HTTP.
+#pragma once
+
+#include <chrono>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "firmware/api/hub_site.hpp"
+#include "firmware/base/expected.hpp"
+#include "firmware/config/hub_tables.hpp"
+#include "firmware/web/access.hpp"
+#include "firmware/web/event_streams.hpp"
+#include "firmware/web/http_server.hpp"
+#include "firmware/web/router.hpp"
+#include "firmware/web/site.hpp"
+#include "firmware/web/static_files.hpp"
+
+namespace traygauge {
+
+// Served by the hub's loop: descriptor(), timeout(), run().
+class HubWeb {
+ public:
+  // Fails, with the key, where an address or a token file is of no use, and where others than this machine
+  // would be served without a token.
+  static Expected<std::unique_ptr<HubWeb>> start(const WebConfig& config, HubStore& store,
+                                                 StationInbox& inbox);
+  HubWeb(const HubWeb&) = delete;
+  HubWeb& operator=(const HubWeb&) = delete;
+
+  int descriptor() const { return server_->descriptor(); }
+  std::optional<std::chrono::milliseconds> timeout() const { return server_->timeout(); }
+  void run() { server_->run(); }
+
+  void tell_scan(const ScanId& id);
+  void tell_station(const std::string& station);
+  // "http://127.0.0.1:8080"; with the ports that were taken.
+  std::string addresses() const;
+
+ private:
+  HubWeb(AccessParams access, SiteParams site, HubStore& store, StationInbox& inbox);
+
+  Access access_;
+  Router router_;
+  StaticFiles files_;
+  EventStreams events_;
+  HubSite hub_site_;
+  std::optional<Site> site_;
+  std::optional<HttpServer> server_;
+};
+
+}  // namespace traygauge

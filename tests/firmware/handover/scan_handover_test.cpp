@@ -1,0 +1,213 @@
+#include "firmware/handover/scan_handover.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <chrono>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "core/pipeline/measurement.hpp"
+#include "firmware/journal/posix_file_system.hpp"
+#include "firmware/station/scan_printer.hpp"
+#include "tests/firmware/handover/fake_hub.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+namespace traygauge::test {
+namespace {
+
+using Json = nlohmann::json;
+
+class Handover : public ::testing::Test {
+ protected:
+  Handover() {
+    item_.label = 2;
+    item_.volume_ml = 100.0;
+    measurement_.items = {&item_, 1};
+    result_.measurement = &measurement_;
+    result_.outcome = ScanOutcome::measured;
+  }
+
+  std::filesystem::path socket() const { return folder_.path() / "hub"; }
+
+  // A program's life: opens what is on disk, and closes it.
+  struct Run {
+    Run(const std::filesystem::path& folder, std::ostream& out, std::ostream& log)
+        : printer(out, log, ScanPrinter::Format::text), kept(opened(folder)), link(link_params(folder)) {
+      params.retry_after = Milliseconds(0);
+      sink.emplace(printer, link, kept, log, params);
+    }
+    static KeptResults opened(const std::filesystem::path& folder) {
+      return std::move(
+          *KeptResults::open(posix_file_system(), {folder, "kitchen", std::uint64_t{512} * 1024}));
+    }
+    static HubLinkParams link_params(const std::filesystem::path& folder) {
+      HubLinkParams params;
+      params.socket = folder / "hub";
+      params.station = "kitchen";
+      params.answer_timeout = Milliseconds(200);
+      params.retry_after = Milliseconds(0);
+      return params;
+    }
+    ScanPrinter printer;
+    KeptResults kept;
+    HubLink link;
+    ScanHandoverParams params;
+    std::optional<ScanHandover> sink;
+  };
+
+  static std::vector<Json> scans(const FakeHub& hub) {
+    std::vector<Json> documents;
+    for (const Message& message : hub.received(MessageType::scan))
+      documents.push_back(Json::parse(message.bytes));
+    return documents;
+  }
+
+  TemporaryFolder folder_;
+  std::ostringstream out_;
+  std::ostringstream log_;
+  ItemResult item_;
+  Measurement measurement_;
+  ScanResult result_;
+};
+
+TEST_F(Handover, IsDoneOnceTheHubHasStored) {
+  const FakeHub hub(socket(), store_all);
+  Run run(folder_.path(), out_, log_);
+  EXPECT_EQ(run.sink->deliver(result_), Delivery::done);
+  EXPECT_EQ(run.kept.waiting_count(), 0U);
+  const auto documents = scans(hub);
+  ASSERT_EQ(documents.size(), 1U);
+  EXPECT_EQ(documents[0]["id"], "kitchen-1");
+  EXPECT_EQ(documents[0]["station"], "kitchen");
+  EXPECT_EQ(documents[0]["items"][0]["volume_ml"], 100.0);
+  EXPECT_TRUE(documents[0]["supersedes"].is_null());
+  EXPECT_NE(out_.str().find("100.0 ml"), std::string::npos);
+}
+
+TEST_F(Handover, IsKeptWhileTheHubIsAwayAndHandedOverInOrder) {
+  {
+    Run run(folder_.path(), out_, log_);
+    for (int i = 0; i < 3; ++i) EXPECT_EQ(run.sink->deliver(result_), Delivery::kept);
+    EXPECT_EQ(run.kept.waiting_count(), 3U);
+  }
+  // Told once, not at each scan.
+  const std::string log = log_.str();
+  EXPECT_EQ(log.find("does not take results"), log.rfind("does not take results"));
+  EXPECT_NE(log.find("does not take results"), std::string::npos);
+  const FakeHub hub(socket(), store_all);
+  Run run(folder_.path(), out_, log_);
+  EXPECT_EQ(run.sink->deliver(result_), Delivery::done);
+  EXPECT_EQ(run.kept.waiting_count(), 0U);
+  std::vector<std::string> ids;
+  for (const Json& document : scans(hub)) ids.push_back(document["id"]);
+  ASSERT_EQ(ids.size(), 4U);
+  EXPECT_TRUE(std::is_sorted(ids.begin(), ids.end()));
+}
+
+TEST_F(Handover, WhatWaitsLeavesBetweenScans) {
+  Run run(folder_.path(), out_, log_);
+  for (int i = 0; i < 3; ++i) EXPECT_EQ(run.sink->deliver(result_), Delivery::kept);
+  const FakeHub hub(socket(), store_all);
+  run.sink->attend();
+  EXPECT_EQ(run.kept.waiting_count(), 0U);
+  EXPECT_EQ(scans(hub).size(), 3U);
+  EXPECT_NE(log_.str().find("takes results again"), std::string::npos);
+}
+
+// A hub that stores and dies before it answers: the same document comes again, never another one of its id.
+TEST_F(Handover, RepeatsTheVeryDocumentThatWasNotAnswered) {
+  int refused = 0;
+  const FakeHub hub(socket(), [&refused](const Message& message) -> std::vector<Message> {
+    if (message.type == MessageType::scan && refused++ == 0) return {{MessageType::stored, kHangUp, {}}};
+    return store_all(message);
+  });
+  Run run(folder_.path(), out_, log_);
+  EXPECT_EQ(run.sink->deliver(result_), Delivery::kept);
+  run.sink->attend();
+  EXPECT_EQ(run.kept.waiting_count(), 0U);
+  const auto received = hub.received(MessageType::scan);
+  ASSERT_EQ(received.size(), 2U);
+  EXPECT_EQ(received[0].bytes, received[1].bytes);
+}
+
+TEST_F(Handover, AFullHubKeepsResultsHere) {
+  const FakeHub hub(socket(), [](const Message& message) -> std::vector<Message> {
+    if (message.type != MessageType::scan) return {};
+    const std::string id = Json::parse(message.text)["id"];
+    return {{MessageType::refused, Json{{"id", id}, {"why", "results.db: the disk is full"}}.dump(), {}}};
+  });
+  Run run(folder_.path(), out_, log_);
+  EXPECT_EQ(run.sink->deliver(result_), Delivery::kept);
+  EXPECT_EQ(run.kept.waiting_count(), 1U);
+  EXPECT_NE(log_.str().find("the disk is full"), std::string::npos);
+}
+
+TEST_F(Handover, WhatTheHubSetAsideIsNotSentForEver) {
+  const FakeHub hub(socket(), [](const Message& message) -> std::vector<Message> {
+    if (message.type != MessageType::scan) return {};
+    const std::string id = Json::parse(message.text)["id"];
+    return {{MessageType::set_aside, Json{{"id", id}, {"why", "another document has this id"}}.dump(), {}}};
+  });
+  Run run(folder_.path(), out_, log_);
+  EXPECT_EQ(run.sink->deliver(result_), Delivery::done);
+  EXPECT_NE(log_.str().find("another document has this id"), std::string::npos);
+}
+
+TEST_F(Handover, SaysThatThereIsNoRoomAndThatThereIsAgain) {
+  Run run(folder_.path(), out_, log_);
+  int kept = 0;
+  while (run.sink->has_room() && kept < 1000) {
+    EXPECT_EQ(run.sink->deliver(result_), Delivery::kept);
+    ++kept;
+  }
+  EXPECT_GT(kept, 50);
+  EXPECT_LT(kept, 200);
+  EXPECT_NE(log_.str().find("no room for a further result"), std::string::npos) << log_.str();
+  const FakeHub hub(socket(), store_all);
+  for (int i = 0; i < 100 && !run.sink->has_room(); ++i) run.sink->attend();
+  EXPECT_TRUE(run.sink->has_room());
+  EXPECT_NE(log_.str().find("can be kept again"), std::string::npos) << log_.str();
+}
+
+TEST_F(Handover, ARepeatedScanSupersedesTheLastOne) {
+  const FakeHub hub(socket(), store_all);
+  Run run(folder_.path(), out_, log_);
+  ASSERT_EQ(run.sink->deliver(result_), Delivery::done);
+  result_.repeats_last = true;
+  ASSERT_EQ(run.sink->deliver(result_), Delivery::done);
+  ASSERT_EQ(run.sink->deliver(result_), Delivery::done);
+  const auto documents = scans(hub);
+  ASSERT_EQ(documents.size(), 3U);
+  EXPECT_EQ(documents[1]["supersedes"], "kitchen-1");
+  EXPECT_EQ(documents[2]["supersedes"], "kitchen-2");
+}
+
+TEST_F(Handover, ACancelledScanIsNoResult) {
+  const FakeHub hub(socket(), store_all);
+  Run run(folder_.path(), out_, log_);
+  ScanResult cancelled;
+  cancelled.outcome = ScanOutcome::cancelled;
+  EXPECT_EQ(run.sink->deliver(cancelled), Delivery::done);
+  EXPECT_TRUE(hub.received(MessageType::scan).empty());
+}
+
+TEST_F(Handover, TellsTheHubWhatTheStationDoesAndWhatFails) {
+  const FakeHub hub(socket(), store_all);
+  Run run(folder_.path(), out_, log_);
+  run.sink->report_state("waiting");
+  run.sink->report_fault({"camera", DeviceCode::device_gone, "unplugged"});
+  run.sink->report_recovery("all devices");
+  run.sink->deliver(result_);  // its answer comes after everything before it was read
+  const auto states = hub.received(MessageType::state);
+  ASSERT_EQ(states.size(), 3U);
+  EXPECT_EQ(Json::parse(states[0].text)["state"], "waiting");
+  EXPECT_EQ(Json::parse(states[1].text)["faults"][0]["device"], "camera");
+  EXPECT_TRUE(Json::parse(states[2].text)["faults"].empty());
+}
+
+}  // namespace
+}  // namespace traygauge::test
