@@ -32,14 +32,14 @@ void add_store(Store& store, Metrics& metrics) {
   const Expected<StoreTotals> totals = store.scans().totals();
   if (!totals.ok()) return;
   const auto count = [](std::int64_t value) { return static_cast<std::uint64_t>(value); };
-  metrics.one("traygauge_stored_scans", "gauge", "Scans in the store.", count(totals->scans));
+  metrics.one("traygauge_stored_scans", "gauge", "Scans in the store.", count(totals->counts.scans));
   metrics.one("traygauge_superseded_scans", "gauge", "Of these, superseded by a second try.",
-              count(totals->superseded));
+              count(totals->counts.superseded));
   metrics.one("traygauge_corrected_scans", "gauge", "Of these, corrected by a person.",
-              count(totals->corrected));
-  metrics.one("traygauge_wrong_scans", "gauge", "Of these, marked as wrong.", count(totals->wrong));
+              count(totals->counts.corrected));
+  metrics.one("traygauge_wrong_scans", "gauge", "Of these, marked as wrong.", count(totals->counts.wrong));
   metrics.one("traygauge_set_aside_documents", "gauge", "Documents that could not be booked.",
-              count(totals->set_aside));
+              count(totals->counts.set_aside));
   metrics.one("traygauge_store_bytes", "gauge", "Size of the store's file.", count(totals->file_bytes));
   metrics.one("traygauge_store_written_bytes_total", "counter",
               "Bytes written to the store since the hub started; memory cards wear out by them.",

@@ -11,7 +11,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr std::size_t kMaxBytes = 64 * 1024;
+constexpr std::size_t kMaxBytes = 65'536;
 
 Json document(const RenameItem& action) {
   return {{"action", "rename"}, {"item", action.item}, {"food", action.food}};
@@ -57,9 +57,9 @@ struct ActionReader {
     if (problem.empty()) problem = std::string("key ") + key + ": expected " + expected;
   }
   const Json& find(const char* key) const {
-    static const Json kNothing;
+    static const Json nothing;
     const auto found = json.find(key);
-    return found == json.end() ? kNothing : *found;
+    return found == json.end() ? nothing : *found;
   }
   int whole_number(const char* key) {
     const std::optional<int> number = as_int(find(key));
@@ -100,10 +100,10 @@ std::string correction_json(const CorrectionAction& action) {
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
-Expected<CorrectionAction> parse_correction(std::string_view text) {
-  const Json json = text.size() > kMaxBytes ? Json() : Json::parse(text, nullptr, false);
-  if (!json.is_object()) return Failure{"a correction is a JSON object of at most 65536 bytes"};
-  ActionReader read{json, {}};
+Expected<CorrectionAction> parse_correction(std::string_view json) {
+  const Json action_json = json.size() > kMaxBytes ? Json() : Json::parse(json, nullptr, false);
+  if (!action_json.is_object()) return Failure{"a correction is a JSON object of at most 65536 bytes"};
+  ActionReader read{action_json, {}};
   const std::string kind = read.text("action");
   CorrectionAction action;
   if (kind == "rename") {

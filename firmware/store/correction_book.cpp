@@ -61,7 +61,12 @@ Expected<BookedCorrection> CorrectionBook::add(const ScanId& id, const Correctio
     booked.refusal = std::move(*refusal);
     return {};
   });
-  scans_.forget_totals();
+  ScanCounts change;
+  if (booked.refusal.empty()) {
+    change.corrected = int{booked.scan.is_corrected} - int{(*stored)->is_corrected};
+    change.wrong = int{holds_wrong(booked.scan)} - int{(*stored)->is_wrong};
+  }
+  scans_.note_change(done, change);
   if (!done.ok()) return Failure{done.failure()};
   return booked;
 }
@@ -93,13 +98,12 @@ Expected<void> CorrectionBook::write(std::int64_t seq, const Correction& correct
       kWritingCorrection,
       "INSERT INTO corrections (seq, number, made_ms, made_synchronised, author, reason, action)"
       " VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7)",
-      seq, std::int64_t{correction.number}, correction.made.unix_ms,
-      std::int64_t{correction.made.synchronised}, correction.author, correction.reason,
-      correction_json(correction.action));
+      seq, std::int64_t{correction.number}, correction.made.unix_ms, correction.made.synchronised,
+      correction.author, correction.reason, correction_json(correction.action));
   if (!done.ok()) return done;
-  return database_.execute(
-      kWritingCorrection, "UPDATE scans SET foods = ?2, is_corrected = ?3, is_wrong = ?4 WHERE seq = ?1", seq,
-      foods_of(after), std::int64_t{after.is_corrected}, std::int64_t{holds_wrong(after)});
+  return database_.execute(kWritingCorrection,
+                           "UPDATE scans SET foods = ?2, is_corrected = ?3, is_wrong = ?4 WHERE seq = ?1",
+                           seq, foods_of(after), after.is_corrected, holds_wrong(after));
 }
 
 Expected<std::vector<Correction>> CorrectionBook::list(const ScanId& id) {

@@ -1,6 +1,7 @@
 // A thin layer over SQLite: statements with typed values, transactions, errors as sentences.
 #pragma once
 
+#include <concepts>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
@@ -23,6 +24,10 @@ class Database;
 class Statement {
  public:
   void bind(int index, std::int64_t value);
+  template <std::same_as<bool> Flag>  // a text must not become one
+  void bind(int index, Flag flag) {
+    bind(index, flag ? std::int64_t{1} : std::int64_t{0});
+  }
   void bind(int index, double value);
   void bind(int index, std::string_view text);
   void bind(int index, std::nullopt_t);

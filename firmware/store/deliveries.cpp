@@ -21,7 +21,7 @@ std::string_view shorten(std::string_view text) {
 Expected<void> Deliveries::configure(std::span<const std::string> names) {
   // Most starts change nothing and write nothing.
   std::vector<std::string> before;
-  const Expected<void> read =
+  Expected<void> read =
       database_.each(kReadingDeliveries, "SELECT name FROM destinations WHERE is_configured ORDER BY name",
                      [&](const Statement& row) { before.push_back(row.text(0)); });
   if (!read.ok()) return read;

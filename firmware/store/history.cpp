@@ -27,10 +27,6 @@ std::string page_sql(HistoryOrder order) {
          (order == HistoryOrder::newest_first ? "DESC" : "ASC") + " LIMIT ?12";
 }
 
-std::optional<std::int64_t> as_integer(const std::optional<bool>& flag) {
-  return flag ? std::optional<std::int64_t>(*flag ? 1 : 0) : std::nullopt;
-}
-
 }  // namespace
 
 std::string history_cursor_text(const HistoryCursor& cursor) {
@@ -91,8 +87,8 @@ Expected<HistoryPage> History::read(const HistoryFilter& filter, const Range& wa
       kReadingHistory, page_sql(order).c_str(),
       [&](const Statement& row) { page.scans.push_back(read_stored_scan(row)); }, walk.first, walk.last,
       filter.from_ms, filter.to_ms, filter.station, filter.status, fold_case(filter.food),
-      fold_case(filter.text), as_integer(filter.is_corrected), as_integer(filter.is_wrong),
-      std::int64_t{filter.with_superseded}, static_cast<std::int64_t>(max_scans));
+      fold_case(filter.text), filter.is_corrected, filter.is_wrong, filter.with_superseded,
+      static_cast<std::int64_t>(max_scans));
   if (!done.ok()) return Failure{done.failure()};
   return page;
 }

@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::size_t kHeaderBytes = 28;
 // To delete a scan takes some 15 pages.
-constexpr sqlite3_int64 kReservedBytes = 64 * 1024;
+constexpr sqlite3_int64 kReservedBytes = 65'536;
 
 struct FreeFilename {
   void operator()(const char* name) const { sqlite3_free_filename(const_cast<char*>(name)); }

@@ -15,12 +15,12 @@ struct RetentionCandidate {
   std::int64_t seq = 0;
   std::int64_t received_ms = 0;
   bool has_trusted_time = false;
-  std::int64_t bytes = 0;
   bool is_pending = false;
+  ScanCounts counts;  // of this one
 };
 
 struct RetentionPlan {
-  std::vector<std::int64_t> doomed;  // those of age come first
+  std::vector<RetentionCandidate> doomed;  // those of age come first
   std::size_t by_age = 0;
   std::int64_t examined = 0;  // up to this scan
   bool was_last_candidate = false;
@@ -92,8 +92,8 @@ RetentionPlan make_plan(const std::vector<RetentionCandidate>& candidates, std::
     }
     plan.examined = candidate.seq;
     if (candidate.is_pending) continue;
-    plan.doomed.push_back(candidate.seq);
-    freed += candidate.bytes + kOverheadBytes;
+    plan.doomed.push_back(candidate);
+    freed += candidate.counts.document_bytes + kOverheadBytes;
     if (goes_by_age) ++plan.by_age;
   }
   plan.was_last_candidate = next == candidates.size();
@@ -149,9 +149,9 @@ Expected<RetentionReport> Retention::carry_out(const RetentionPlan& plan, const 
 // Pages that are free in the store's own file count: the next scans use them, and the file never shrinks.
 Expected<std::int64_t> Retention::missing_bytes(const RetentionRules& rules) {
   if (rules.min_free_bytes <= 0) return std::int64_t{0};
-  const Expected<std::int64_t> outside = free_space_(database_.file().parent_path());
+  Expected<std::int64_t> outside = free_space_(database_.file().parent_path());
   if (!outside.ok()) return outside;
-  const auto inside = database_.integer(
+  auto inside = database_.integer(
       kDeletingScans, "SELECT freelist_count * page_size FROM pragma_freelist_count, pragma_page_size");
   if (!inside.ok()) return inside;
   return std::max(std::int64_t{0}, rules.min_free_bytes - *outside - *inside);
@@ -163,7 +163,7 @@ Expected<double> Retention::allow_by_age(const RetentionRules& rules,
   const Expected<StoreTotals> totals = scans_.totals();
   if (!totals.ok()) return Failure{totals.failure()};
   const double scans_an_hour =
-      kPace * static_cast<double>(totals->scans) / static_cast<double>(rules.max_age->count());
+      kPace * static_cast<double>(totals->counts.scans) / static_cast<double>(rules.max_age->count());
   const Hours elapsed = last_run_ ? Hours(steady_now - *last_run_) : Hours(0.0);
   last_run_ = steady_now;
   const double burst = std::max(kMinBurst, scans_an_hour * kDay.count());
@@ -175,13 +175,16 @@ Expected<std::vector<RetentionCandidate>> Retention::next_candidates(const Reten
   std::vector<RetentionCandidate> candidates;
   const Expected<void> read = database_.each(
       kDeletingScans,
-      "SELECT seq, received_ms, received_synchronised, document_bytes, EXISTS (SELECT 1 FROM destinations"
-      " CROSS JOIN deliveries ON deliveries.destination = key AND deliveries.seq = scans.seq)"
-      " FROM scans WHERE seq > ?1"
+      "SELECT seq, received_ms, received_synchronised, EXISTS (SELECT 1 FROM destinations"
+      " CROSS JOIN deliveries ON deliveries.destination = key AND deliveries.seq = scans.seq),"
+      " superseded_by IS NOT NULL, is_corrected, is_wrong, document_bytes FROM scans WHERE seq > ?1"
       " AND seq < (SELECT seq FROM scans ORDER BY seq DESC LIMIT 1 OFFSET ?2) ORDER BY seq LIMIT ?3",
       [&](const Statement& row) {
-        candidates.push_back(
-            {row.integer(0), row.integer(1), row.integer(2) != 0, row.integer(3), row.integer(4) != 0});
+        candidates.push_back({row.integer(0),
+                              row.integer(1),
+                              row.integer(2) != 0,
+                              row.integer(3) != 0,
+                              {1, row.integer(4), row.integer(5), row.integer(6), 0, row.integer(7)}});
       },
       examined_, std::max<std::int64_t>(1, rules.keep_newest) - 1, static_cast<std::int64_t>(kExaminedACall));
   if (!read.ok()) return Failure{read.failure()};
@@ -190,22 +193,23 @@ Expected<std::vector<RetentionCandidate>> Retention::next_candidates(const Reten
 
 // Gives how many of them, the first, were deleted: a full disk may have room for the journal of a smaller
 // change.
-Expected<std::size_t> Retention::erase(const std::vector<std::int64_t>& seqs) {
-  if (seqs.empty()) return std::size_t{0};
-  scans_.forget_totals();
-  std::size_t count = seqs.size();
-  for (;;) {
+Expected<std::size_t> Retention::erase(const std::vector<RetentionCandidate>& doomed) {
+  for (std::size_t count = doomed.size(); count > 0;) {
+    ScanCounts change;
     const Expected<void> done = database_.transaction(kDeletingScans, [&]() -> Expected<void> {
       Expected<void> deleted;
       for (std::size_t i = 0; i < count && deleted.ok(); ++i) {
-        deleted = database_.execute(kDeletingScans, "DELETE FROM scans WHERE seq = ?1", seqs[i]);
+        deleted = database_.execute(kDeletingScans, "DELETE FROM scans WHERE seq = ?1", doomed[i].seq);
+        change -= doomed[i].counts;
       }
       return deleted;
     });
+    scans_.note_change(done, change);
     if (done.ok()) return count;
     if (!database_.was_full() || count == 1) return Failure{done.failure()};
     count = (count + 3) / 4;
   }
+  return std::size_t{0};
 }
 
 }  // namespace traygauge

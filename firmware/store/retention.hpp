@@ -60,7 +60,7 @@ class Retention {
   Expected<double> allow_by_age(const RetentionRules& rules,
                                 std::chrono::steady_clock::time_point steady_now);
   Expected<RetentionReport> carry_out(const RetentionPlan& plan, const RetentionRules& rules);
-  Expected<std::size_t> erase(const std::vector<std::int64_t>& seqs);
+  Expected<std::size_t> erase(const std::vector<RetentionCandidate>& doomed);
 
   Database& database_;
   ScanStore& scans_;

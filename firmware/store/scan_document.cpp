@@ -39,10 +39,8 @@ std::size_t depth_of(std::string_view text) {
 
 // Discarded where the text is no JSON, or too large to be a scan's.
 Json parse(std::string_view text) {
-  if (text.size() > kMaxScanDocumentBytes || depth_of(text) > kMaxDepth) {
-    return Json(Json::value_t::discarded);
-  }
-  return Json::parse(text, nullptr, false);
+  const bool may_be_one = text.size() <= kMaxScanDocumentBytes && depth_of(text) <= kMaxDepth;
+  return Json::parse(may_be_one ? text : std::string_view(), nullptr, false);
 }
 
 // Reads keys of one object and remembers the first that is not as expected.
@@ -161,7 +159,7 @@ std::optional<ScanId> read_superseded(Reader& scan, const ScanId& own) {
   const Json* const found = scan.find("supersedes");
   if (found == nullptr || found->is_null()) return std::nullopt;
   const std::string text = scan.text("supersedes");
-  const std::optional<ScanId> id = parse_scan_id(text);
+  std::optional<ScanId> id = parse_scan_id(text);
   if (!id || id->station != own.station || id->number >= own.number) {
     scan.refuse("supersedes", "an earlier scan of the same station, or null", found);
   }

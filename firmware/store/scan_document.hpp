@@ -14,7 +14,7 @@
 namespace traygauge {
 
 inline constexpr int kScanDocumentVersion = 2;
-inline constexpr std::size_t kMaxScanDocumentBytes = 1024 * 1024;
+inline constexpr std::size_t kMaxScanDocumentBytes = 1'048'576;
 
 struct MeasuredItem {
   int label = 0;  // unlike all others of its scan

@@ -27,43 +27,48 @@ std::string words_of(const ScanDocument& document) {
 
 }  // namespace
 
-Expected<PutResult> ScanStore::put(std::string_view text, const WallTime& now) {
-  const Expected<ScanDocument> document = read_scan_document(text);
-  if (document.ok()) return put_readable(text, *document, now);
-  const Expected<void> kept = set_aside(text, document.failure(), now);
+Expected<PutResult> ScanStore::put(std::string_view document, const WallTime& now) {
+  const Expected<ScanDocument> read = read_scan_document(document);
+  if (read.ok()) return put_readable(document, *read, now);
+  const Expected<void> kept = set_aside(document, read.failure(), now);
   if (!kept.ok()) return Failure{kept.failure()};
-  return PutResult{PutOutcome::set_aside, 0, document.failure()};
+  return PutResult{PutOutcome::set_aside, 0, read.failure()};
 }
 
 Expected<PutResult> ScanStore::put_readable(std::string_view text, const ScanDocument& document,
                                             const WallTime& now) {
-  const std::string attempted = attempt_to_store(document);
   PutResult result;
-  const Expected<void> done = database_.transaction(attempted, [&]() -> Expected<void> {
-    const auto there =
-        database_.integer(attempted, "SELECT seq FROM scans WHERE station = ?1 AND number = ?2",
-                          document.id.station, stored_number(document.id.number));
-    if (!there.ok()) return Failure{there.failure()};
-    if (*there != 0) {
-      const Expected<PutResult> compared = compare(*there, text, document);
-      if (!compared.ok()) return Failure{compared.failure()};
-      result = *compared;
-      return result.outcome == PutOutcome::set_aside ? insert_set_aside(text, result.why, now)
-                                                     : Expected<void>();
-    }
-    const Expected<std::int64_t> seq = insert(text, document, now);
-    if (!seq.ok()) return Failure{seq.failure()};
-    result.seq = *seq;
-    return book_one(document);
+  ScanCounts change;
+  const Expected<void> done = database_.transaction(attempt_to_store(document), [&]() -> Expected<void> {
+    const Expected<PutResult> put = put_once(text, document, now, change);
+    if (!put.ok()) return Failure{put.failure()};
+    result = *put;
+    return {};
   });
-  const bool counts_hold = done.ok() && result.outcome != PutOutcome::set_aside && !document.supersedes;
-  if (!counts_hold) counts_.reset();
+  note_change(done, change);
   if (!done.ok()) return Failure{done.failure()};
-  if (counts_ && result.outcome == PutOutcome::stored) {
-    ++counts_->scans;
-    counts_->document_bytes += static_cast<std::int64_t>(text.size());
-  }
   return result;
+}
+
+Expected<PutResult> ScanStore::put_once(std::string_view text, const ScanDocument& document,
+                                        const WallTime& now, ScanCounts& change) {
+  const auto there = database_.integer(attempt_to_store(document),
+                                       "SELECT seq FROM scans WHERE station = ?1 AND number = ?2",
+                                       document.id.station, stored_number(document.id.number));
+  if (!there.ok()) return Failure{there.failure()};
+  if (*there != 0) {
+    Expected<PutResult> compared = compare(*there, text, document);
+    if (!compared.ok() || compared->outcome != PutOutcome::set_aside) return compared;
+    const Expected<void> kept = insert_set_aside(text, compared->why, now, change);
+    return kept.ok() ? compared : Failure{kept.failure()};
+  }
+  const Expected<std::int64_t> seq = insert(text, document, now);
+  if (!seq.ok()) return Failure{seq.failure()};
+  change.scans = 1;
+  change.document_bytes = static_cast<std::int64_t>(text.size());
+  const Expected<void> booked = book_one(document, change);
+  if (!booked.ok()) return Failure{booked.failure()};
+  return PutResult{PutOutcome::stored, *seq, {}};
 }
 
 Expected<PutResult> ScanStore::compare(std::int64_t seq, std::string_view text,
@@ -92,9 +97,9 @@ Expected<std::int64_t> ScanStore::insert(std::string_view text, const ScanDocume
       "INSERT INTO scans (station, number, taken_ms, taken_synchronised, received_ms, received_synchronised,"
       " status, supersedes, foods, words, document_bytes) VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, ?10, "
       "?11)",
-      document.id.station, stored_number(document.id.number), document.taken_ms,
-      std::int64_t{document.clock_synchronised}, now.unix_ms, std::int64_t{now.synchronised}, document.status,
-      supersedes, foods, words_of(document), static_cast<std::int64_t>(text.size()));
+      document.id.station, stored_number(document.id.number), document.taken_ms, document.clock_synchronised,
+      now.unix_ms, now.synchronised, document.status, supersedes, foods, words_of(document),
+      static_cast<std::int64_t>(text.size()));
   if (!done.ok()) return Failure{done.failure()};
   const std::int64_t seq = database_.last_row();
   done = database_.execute(attempted, "INSERT INTO documents (seq, body) VALUES (?1, ?2)", seq, text);
@@ -108,32 +113,41 @@ Expected<std::int64_t> ScanStore::insert(std::string_view text, const ScanDocume
 }
 
 // Whichever of the two arrives first.
-Expected<void> ScanStore::book_one(const ScanDocument& document) {
+Expected<void> ScanStore::book_one(const ScanDocument& document, ScanCounts& change) {
   const std::string attempted = attempt_to_store(document);
   const std::int64_t number = stored_number(document.id.number);
-  Expected<void> done =
-      database_.execute(attempted,
-                        "UPDATE scans SET superseded_by = (SELECT max(later.number) FROM scans AS later WHERE"
-                        " later.station = ?1 AND later.supersedes = ?2) WHERE station = ?1 AND number = ?2"
-                        " AND EXISTS (SELECT 1 FROM scans AS later WHERE later.station = ?1 AND"
-                        " later.supersedes = ?2)",
-                        document.id.station, number);
-  if (database_.changed_rows() > 0) counts_.reset();
+  Expected<void> done = database_.execute(
+      attempted,
+      "UPDATE scans SET superseded_by = later.number FROM (SELECT max(number) AS number FROM"
+      " scans WHERE station = ?1 AND supersedes = ?2) AS later WHERE station = ?1 AND"
+      " scans.number = ?2 AND later.number IS NOT NULL",
+      document.id.station, number);
+  change.superseded += database_.changed_rows();
   if (!done.ok() || !document.supersedes) return done;
-  return database_.execute(attempted,
-                           "UPDATE scans SET superseded_by = max(?3, ifnull(superseded_by, ?3))"
-                           " WHERE station = ?1 AND number = ?2",
-                           document.id.station, stored_number(document.supersedes->number), number);
+  const std::int64_t earlier = stored_number(document.supersedes->number);
+  done = database_.execute(attempted,
+                           "UPDATE scans SET superseded_by = max(superseded_by, ?3)"
+                           " WHERE station = ?1 AND number = ?2 AND superseded_by IS NOT NULL",
+                           document.id.station, earlier, number);
+  if (!done.ok()) return done;
+  done = database_.execute(attempted,
+                           "UPDATE scans SET superseded_by = ?3"
+                           " WHERE station = ?1 AND number = ?2 AND superseded_by IS NULL",
+                           document.id.station, earlier, number);
+  change.superseded += database_.changed_rows();
+  return done;
 }
 
 Expected<void> ScanStore::set_aside(std::string_view document, std::string_view why, const WallTime& now) {
-  counts_.reset();
-  return database_.transaction("a document cannot be set aside",
-                               [&] { return insert_set_aside(document, why, now); });
+  ScanCounts change;
+  Expected<void> done = database_.transaction("a document cannot be set aside",
+                                              [&] { return insert_set_aside(document, why, now, change); });
+  note_change(done, change);
+  return done;
 }
 
 Expected<void> ScanStore::insert_set_aside(std::string_view document, std::string_view why,
-                                           const WallTime& now) {
+                                           const WallTime& now, ScanCounts& change) {
   Expected<Statement> insert =
       database_.prepare("a document cannot be set aside",
                         "INSERT INTO set_aside (received_ms, received_synchronised, why, digest, document)"
@@ -141,31 +155,33 @@ Expected<void> ScanStore::insert_set_aside(std::string_view document, std::strin
                         " WHERE NOT EXISTS (SELECT 1 FROM set_aside WHERE digest = ?4 AND document = ?5)");
   if (!insert.ok()) return Failure{insert.failure()};
   insert->bind(1, now.unix_ms);
-  insert->bind(2, std::int64_t{now.synchronised});
+  insert->bind(2, now.synchronised);
   insert->bind(3, why);
   insert->bind(4, digest_of(document));
   insert->bind_bytes(5, document);
-  return Database::for_each_row(*insert, [](const Statement&) {});
+  Expected<void> done = Database::for_each_row(*insert, [](const Statement&) {});
+  change.set_aside += database_.changed_rows();
+  return done;
 }
 
 Expected<std::optional<StoredScan>> ScanStore::find(const ScanId& id) {
-  static const std::string kSql = std::string("SELECT ") + kStoredScanColumns +
-                                  " FROM scans JOIN documents USING (seq) WHERE station = ?1 AND number = ?2";
+  static const std::string sql = std::string("SELECT ") + kStoredScanColumns +
+                                 " FROM scans JOIN documents USING (seq) WHERE station = ?1 AND number = ?2";
   std::optional<StoredScan> scan;
   const Expected<void> read = database_.each(
-      kReadingScans, kSql.c_str(), [&](const Statement& row) { scan = read_stored_scan(row); }, id.station,
+      kReadingScans, sql.c_str(), [&](const Statement& row) { scan = read_stored_scan(row); }, id.station,
       stored_number(id.number));
   if (!read.ok()) return Failure{read.failure()};
   return scan;
 }
 
 Expected<std::optional<StoredScan>> ScanStore::latest() {
-  static const std::string kSql = std::string("SELECT ") + kStoredScanColumns +
-                                  " FROM scans JOIN documents USING (seq)"
-                                  " WHERE scans.seq = (SELECT max(seq) FROM scans)";
+  static const std::string sql = std::string("SELECT ") + kStoredScanColumns +
+                                 " FROM scans JOIN documents USING (seq)"
+                                 " WHERE scans.seq = (SELECT max(seq) FROM scans)";
   std::optional<StoredScan> scan;
-  const Expected<void> read = database_.each(kReadingScans, kSql.c_str(),
-                                             [&](const Statement& row) { scan = read_stored_scan(row); });
+  const Expected<void> read =
+      database_.each(kReadingScans, sql.c_str(), [&](const Statement& row) { scan = read_stored_scan(row); });
   if (!read.ok()) return Failure{read.failure()};
   return scan;
 }
@@ -193,34 +209,61 @@ Expected<bool> ScanStore::discard_set_aside(std::int64_t number) {
     was_there = database_.changed_rows() > 0;
     return deleted;
   });
-  counts_.reset();
+  ScanCounts change;
+  change.set_aside = was_there ? -1 : 0;
+  note_change(done, change);
   if (!done.ok()) return Failure{done.failure()};
   return was_there;
 }
 
+ScanCounts& ScanCounts::operator+=(const ScanCounts& other) {
+  scans += other.scans;
+  superseded += other.superseded;
+  corrected += other.corrected;
+  wrong += other.wrong;
+  set_aside += other.set_aside;
+  document_bytes += other.document_bytes;
+  return *this;
+}
+
+ScanCounts& ScanCounts::operator-=(const ScanCounts& other) {
+  scans -= other.scans;
+  superseded -= other.superseded;
+  corrected -= other.corrected;
+  wrong -= other.wrong;
+  set_aside -= other.set_aside;
+  document_bytes -= other.document_bytes;
+  return *this;
+}
+
+// What failed may have been done all the same.
+void ScanStore::note_change(const Expected<void>& done, const ScanCounts& change) {
+  if (!done.ok()) counts_.reset();
+  if (counts_) *counts_ += change;
+}
+
+Expected<ScanCounts> ScanStore::count_all() {
+  ScanCounts counts;
+  const Expected<void> read =
+      database_.each(kReadingScans,
+                     "SELECT count(*), count(superseded_by), total(is_corrected), total(is_wrong),"
+                     " (SELECT count(*) FROM set_aside), total(document_bytes) FROM scans",
+                     [&](const Statement& row) {
+                       counts = {row.integer(0), row.integer(1), row.integer(2),
+                                 row.integer(3), row.integer(4), row.integer(5)};
+                     });
+  if (!read.ok()) return Failure{read.failure()};
+  return counts;
+}
+
 Expected<StoreTotals> ScanStore::totals() {
   if (!counts_) {
-    Counts counts;
-    Expected<void> read = database_.each(
-        kReadingScans,
-        "SELECT count(*), count(superseded_by), total(is_corrected), total(is_wrong), total(document_bytes)"
-        " FROM scans",
-        [&](const Statement& row) {
-          counts = {row.integer(0), row.integer(1), row.integer(2), row.integer(3), 0, row.integer(4)};
-        });
-    if (!read.ok()) return Failure{read.failure()};
-    const auto aside = database_.integer(kReadingScans, "SELECT count(*) FROM set_aside");
-    if (!aside.ok()) return Failure{aside.failure()};
-    counts.set_aside = *aside;
-    counts_ = counts;
+    const Expected<ScanCounts> counted = count_all();
+    if (!counted.ok()) return Failure{counted.failure()};
+    counts_ = *counted;
   }
   StoreTotals totals;
-  totals.scans = counts_->scans;
-  totals.superseded = counts_->superseded;
-  totals.corrected = counts_->corrected;
-  totals.wrong = counts_->wrong;
-  totals.set_aside = counts_->set_aside;
-  totals.document_bytes = counts_->document_bytes;
+  totals.counts = *counts_;
   const Expected<void> read =
       database_.each(kReadingScans,
                      "SELECT page_count * page_size, freelist_count * page_size,"

@@ -36,13 +36,21 @@ struct SetAsideDocument {
   std::string document;  // any bytes
 };
 
-struct StoreTotals {
+struct ScanCounts {
   std::int64_t scans = 0;
   std::int64_t superseded = 0;
   std::int64_t corrected = 0;
   std::int64_t wrong = 0;
   std::int64_t set_aside = 0;
-  std::int64_t document_bytes = 0;
+  std::int64_t document_bytes = 0;  // of the scans
+
+  ScanCounts& operator+=(const ScanCounts& other);
+  ScanCounts& operator-=(const ScanCounts& other);
+  friend bool operator==(const ScanCounts&, const ScanCounts&) = default;
+};
+
+struct StoreTotals {
+  ScanCounts counts;
   std::int64_t file_bytes = 0;  // without the journal
   std::int64_t free_bytes = 0;  // of the file, for the next scans
   std::optional<std::int64_t> oldest_received_ms;
@@ -69,23 +77,24 @@ class ScanStore {
   // For who has looked at it. False where there is none of this number.
   Expected<bool> discard_set_aside(std::int64_t number);
 
-  // From memory, apart from the sizes; after a failed change and at first they are counted anew.
+  // The counts come from memory; at first and after a failed change all scans are counted.
   Expected<StoreTotals> totals();
-  // Whoever changes scans by other ways has to call this.
-  void forget_totals() { counts_.reset(); }
+  // Whoever changes scans by other ways has to tell how that ended, and what it changed.
+  void note_change(const Expected<void>& done, const ScanCounts& change);
 
  private:
-  struct Counts {
-    std::int64_t scans = 0, superseded = 0, corrected = 0, wrong = 0, set_aside = 0, document_bytes = 0;
-  };
   Expected<PutResult> put_readable(std::string_view text, const ScanDocument& document, const WallTime& now);
+  Expected<PutResult> put_once(std::string_view text, const ScanDocument& document, const WallTime& now,
+                               ScanCounts& change);
   Expected<PutResult> compare(std::int64_t seq, std::string_view text, const ScanDocument& document);
   Expected<std::int64_t> insert(std::string_view text, const ScanDocument& document, const WallTime& now);
-  Expected<void> book_one(const ScanDocument& document);
-  Expected<void> insert_set_aside(std::string_view document, std::string_view why, const WallTime& now);
+  Expected<void> book_one(const ScanDocument& document, ScanCounts& change);
+  Expected<void> insert_set_aside(std::string_view document, std::string_view why, const WallTime& now,
+                                  ScanCounts& change);
+  Expected<ScanCounts> count_all();
 
   Database& database_;
-  std::optional<Counts> counts_;
+  std::optional<ScanCounts> counts_;
 };
 
 }  // namespace traygauge

@@ -112,7 +112,7 @@ Expected<void> check_schema(Database& database, std::span<const char* const> ste
 }
 
 Expected<std::int64_t> migrate_schema(Database& database, std::span<const char* const> steps) {
-  const auto before = database.integer(kReadingTables, "PRAGMA user_version");
+  auto before = database.integer(kReadingTables, "PRAGMA user_version");
   if (!before.ok()) return before;
   for (auto step = static_cast<std::size_t>(*before); step < steps.size(); ++step) {
     const Expected<void> done = run_step(database, steps[step], static_cast<std::int64_t>(step) + 1);

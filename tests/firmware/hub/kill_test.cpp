@@ -163,7 +163,7 @@ TEST(Kill, NothingShownIsLostOrDoubled) {
   }
   const Expected<StoreTotals> totals = opened->store->scans().totals();
   ASSERT_TRUE(totals.ok());
-  EXPECT_EQ(totals->set_aside, 0);
+  EXPECT_EQ(totals->counts.set_aside, 0);
   std::cout << kills << " kills: " << shown.done.size() << " shown as done, " << shown.kept.size()
             << " as kept, " << stored.size() << " stored" << std::endl;
   EXPECT_GT(shown.done.size(), 0U);

@@ -73,9 +73,9 @@ class Inbox : public ::testing::Test {
     params.retry_after = Milliseconds(0);
     return HubLink(params);
   }
-  StoreTotals totals() {
+  ScanCounts totals() {
     end();
-    return hub_->store().store()->scans().totals().value();
+    return hub_->store().store()->scans().totals().value().counts;
   }
 
   TemporaryFolder folder_;
@@ -112,7 +112,7 @@ TEST_F(Inbox, AnotherDocumentOfTheSameIdIsSetAside) {
   const HubReply reply = link.deliver("kitchen-1", document("kitchen", 1, 200.0));
   EXPECT_EQ(reply.answer, HubAnswer::set_aside);
   EXPECT_FALSE(reply.text.empty());
-  const StoreTotals found = totals();
+  const ScanCounts found = totals();
   EXPECT_EQ(found.scans, 1);
   EXPECT_EQ(found.set_aside, 1);
 }

@@ -43,12 +43,12 @@ TEST_F(CorrectionBookTest, UndoIsAddedAndTakesMarksBack) {
   put(sample_document(1));
   const int number = add(MarkItemWrong{2}).number;
   EXPECT_TRUE(stored().is_corrected && stored().is_wrong);
-  EXPECT_EQ(store_->scans().totals()->wrong, 1);
+  EXPECT_EQ(store_->scans().totals()->counts.wrong, 1);
   const BookedCorrection undone = add(UndoCorrection{number});
   EXPECT_EQ(undone.refusal, "");
   EXPECT_FALSE(undone.scan.is_corrected);
   EXPECT_FALSE(stored().is_corrected || stored().is_wrong);
-  EXPECT_EQ(store_->scans().totals()->wrong, 0);
+  EXPECT_EQ(store_->scans().totals()->counts.wrong, 0);
   EXPECT_EQ(store_->corrections().list(kScan)->size(), 2U);
   // Numbers go on, so that labels of parts are never given twice.
   ASSERT_EQ(add(SplitItem{2, 10.0, "peas"}).number, 3);

@@ -166,10 +166,10 @@ TEST(StoreFault, AFullDiskIsToldInASentence) {
   }
   EXPECT_FALSE(*opened->store->scans().find({"kitchen", 1}));
   EXPECT_FALSE(opened->store->is_damaged());
-  EXPECT_EQ(opened->store->scans().totals()->scans, 0);
+  EXPECT_EQ(opened->store->scans().totals()->counts.scans, 0);
   is_full = false;
   EXPECT_TRUE(opened->store->scans().put(sample_document(1), at(kMorningMs)).ok());
-  EXPECT_EQ(opened->store->scans().totals()->scans, 1);
+  EXPECT_EQ(opened->store->scans().totals()->counts.scans, 1);
 }
 
 // Nothing more fits on the disk, but what is there can be overwritten: old scans still make room.

@@ -117,7 +117,7 @@ TEST_F(OpenStoreTest, OpensAfterAHubWasKilled) {
   ::close(pipe[0]);
   const std::unique_ptr<Store> store = open_or_fail(options_);
   ASSERT_NE(store, nullptr);
-  const auto scans = static_cast<std::uint64_t>(store->scans().totals()->scans);
+  const auto scans = static_cast<std::uint64_t>(store->scans().totals()->counts.scans);
   EXPECT_TRUE(scans == confirmed || scans == confirmed + 1) << scans << " of " << confirmed;
 }
 
@@ -164,7 +164,7 @@ TEST_F(OpenStoreTest, WhateverIsDamagedIsNoticedOrHarmless) {
     (void)store.corrections().corrected({"kitchen", 7}).ok();
     if (!opened->notices.empty()) {
       ++aside;
-      EXPECT_EQ(store.scans().totals()->scans, 0);
+      EXPECT_EQ(store.scans().totals()->counts.scans, 0);
       EXPECT_EQ(list_damaged_files(options_.file)->size(), 1U);
       EXPECT_EQ(read_files(folder_.path()).at("results.db.damaged-20261127T074000Z"), damaged);
       EXPECT_TRUE(store.scans().put(sample_document(1), at(kMorningMs)).ok());
@@ -183,7 +183,7 @@ TEST_F(OpenStoreTest, AStrangeJournalDoesNoHarm) {
     write_files(folder_.path(), {{"results.db", sound}, {"results.db-journal", journal}});
     const std::unique_ptr<Store> store = open_or_fail(options_);
     ASSERT_NE(store, nullptr);
-    ASSERT_EQ(store->scans().totals()->scans, 5);
+    ASSERT_EQ(store->scans().totals()->counts.scans, 5);
     ASSERT_TRUE(store->scans().put(sample_document(6), at(kMorningMs)).ok());
   }
 }

@@ -51,7 +51,7 @@ class RetentionTest : public StoreTest {
       return true;
     });
     EXPECT_TRUE(read.ok());
-    EXPECT_EQ(static_cast<std::int64_t>(numbers.size()), store_->scans().totals()->scans);
+    EXPECT_EQ(static_cast<std::int64_t>(numbers.size()), store_->scans().totals()->counts.scans);
     return numbers;
   }
 

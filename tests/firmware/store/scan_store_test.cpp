@@ -9,6 +9,7 @@
 #include <set>
 
 #include "tests/firmware/store/open_sample.hpp"
+#include "tests/firmware/store/sample_work.hpp"
 #include "tests/support/random_seed.hpp"
 
 namespace traygauge::test {
@@ -34,7 +35,7 @@ class ScanStoreTest : public StoreTest {
   }
   // As they are counted when nothing is remembered.
   StoreTotals counted_anew() {
-    store_->scans().forget_totals();
+    store_->scans().note_change(Failure{"forget"}, {});
     return totals();
   }
 };
@@ -63,8 +64,8 @@ TEST_F(ScanStoreTest, TheSameDocumentIsStoredOnce) {
   EXPECT_EQ(outcome(nlohmann::json::parse(sample_document(1)).dump(4)), PutOutcome::already_stored);
   reopen();
   EXPECT_EQ(outcome(sample_document(1)), PutOutcome::already_stored);
-  EXPECT_EQ(totals().scans, 1);
-  EXPECT_EQ(totals().set_aside, 0);
+  EXPECT_EQ(totals().counts.scans, 1);
+  EXPECT_EQ(totals().counts.set_aside, 0);
 }
 
 TEST_F(ScanStoreTest, AnotherDocumentOfTheSameIdIsSetAsideOnce) {
@@ -78,7 +79,7 @@ TEST_F(ScanStoreTest, AnotherDocumentOfTheSameIdIsSetAsideOnce) {
   ASSERT_EQ(aside->size(), 1U);
   EXPECT_EQ(aside->front().document, sample_document(other));
   EXPECT_NE(aside->front().why.find("kitchen-1"), std::string::npos) << aside->front().why;
-  EXPECT_EQ(totals().set_aside, 1);
+  EXPECT_EQ(totals().counts.set_aside, 1);
 }
 
 TEST_F(ScanStoreTest, WhatCannotBeReadIsSetAsideAsItIs) {
@@ -95,7 +96,7 @@ TEST_F(ScanStoreTest, WhatCannotBeReadIsSetAsideAsItIs) {
   EXPECT_EQ((*aside)[1].document, "");
   EXPECT_EQ((*aside)[2].why, "its check sum is wrong");
   EXPECT_EQ((*aside)[2].received, at(7));
-  EXPECT_EQ(totals().set_aside, 3);
+  EXPECT_EQ(totals().counts.set_aside, 3);
 
   const auto rest = store_->scans().set_aside_documents((*aside)[0].number, 1);
   ASSERT_TRUE(rest.ok());
@@ -105,7 +106,7 @@ TEST_F(ScanStoreTest, WhatCannotBeReadIsSetAsideAsItIs) {
   ASSERT_TRUE(discarded.ok());
   EXPECT_TRUE(*discarded);
   EXPECT_FALSE(*store_->scans().discard_set_aside((*aside)[0].number));
-  EXPECT_EQ(totals().set_aside, 2);
+  EXPECT_EQ(totals().counts.set_aside, 2);
 }
 
 TEST_F(ScanStoreTest, TheLatestIsTheOneThatArrivedLast) {
@@ -147,13 +148,13 @@ TEST_F(ScanStoreTest, OneOfAChainIsBookedInWhateverOrderItArrives) {
   std::shuffle(documents.begin(), documents.end(), random);
   for (const std::string& document : documents) {
     outcome(document);
-    ASSERT_EQ(totals().superseded, counted_anew().superseded);
+    ASSERT_EQ(totals().counts.superseded, counted_anew().counts.superseded);
   }
   for (std::uint64_t number = 1; number <= 40; ++number) {
     EXPECT_EQ(!find(number)->superseded_by, booked.count(number) == 1) << number;
   }
-  EXPECT_EQ(totals().scans, 40);
-  EXPECT_EQ(totals().superseded, 40 - static_cast<std::int64_t>(booked.size()));
+  EXPECT_EQ(totals().counts.scans, 40);
+  EXPECT_EQ(totals().counts.superseded, 40 - static_cast<std::int64_t>(booked.size()));
 }
 
 TEST_F(ScanStoreTest, TwoThatSupersedeOneAreBothBooked) {
@@ -173,16 +174,31 @@ TEST_F(ScanStoreTest, TotalsFollowWhatIsStored) {
   for (std::uint64_t number = 1; number <= 5; ++number) {
     put(sample_document(number), at(kMorningMs + static_cast<std::int64_t>(number)));
     bytes += static_cast<std::int64_t>(sample_document(number).size());
-    ASSERT_EQ(totals().scans, static_cast<std::int64_t>(number));
+    ASSERT_EQ(totals().counts.scans, static_cast<std::int64_t>(number));
   }
   for (const StoreTotals& now : {totals(), counted_anew()}) {
-    EXPECT_EQ(now.scans, 5);
-    EXPECT_EQ(now.document_bytes, bytes);
+    EXPECT_EQ(now.counts.scans, 5);
+    EXPECT_EQ(now.counts.document_bytes, bytes);
     EXPECT_EQ(now.oldest_received_ms, kMorningMs + 1);
     EXPECT_EQ(now.newest_received_ms, kMorningMs + 5);
     EXPECT_GT(now.file_bytes, bytes);
     EXPECT_GE(now.free_bytes, 0);
   }
+}
+
+// Whatever is done, by whichever part of the store.
+TEST_F(ScanStoreTest, CountsThatAreKeptAreThoseThatAreCounted) {
+  std::mt19937_64 random(random_seed());
+  options_ = options_for_work(folder_.path());
+  reopen();
+  totals();
+  for (const WorkStep& step : sample_work(400, random)) {
+    const Expected<void> done = do_step(*store_, step);
+    ASSERT_TRUE(done.ok()) << done.failure();
+    const ScanCounts kept = totals().counts;
+    ASSERT_EQ(kept, counted_anew().counts) << kept.scans << " scans, " << static_cast<int>(step.kind);
+  }
+  EXPECT_GT(totals().counts.set_aside, 0);
 }
 
 }  // namespace

@@ -34,7 +34,7 @@ fs::path frozen(std::size_t version) {
 
 // Each version's store was frozen with the same content: see frozen/README.md.
 void expect_frozen_content(Store& store) {
-  EXPECT_EQ(store.scans().totals()->scans, 3);
+  EXPECT_EQ(store.scans().totals()->counts.scans, 3);
   const auto superseded = store.scans().find({"kitchen", 1});
   ASSERT_TRUE(superseded.ok() && *superseded);
   EXPECT_EQ((*superseded)->superseded_by, (ScanId{"kitchen", 2}));
