@@ -119,11 +119,14 @@ class HttpServer::Daemon {
 };
 
 Expected<void> HttpServer::Daemon::start() {
-  constexpr unsigned kFlags = MHD_USE_EPOLL | MHD_USE_NO_LISTEN_SOCKET | MHD_ALLOW_SUSPEND_RESUME;
-#if MHD_VERSION >= 0x00097601
+  constexpr unsigned kEveryVersion = MHD_USE_EPOLL | MHD_USE_NO_LISTEN_SOCKET | MHD_ALLOW_SUSPEND_RESUME;
+#if MHD_VERSION >= 0x01000000
   constexpr auto kStrictness = MHD_OPTION_CLIENT_DISCIPLINE_LVL;
+  // Else version 1 keeps an added connection for its next run, and take_on() would miss it.
+  constexpr unsigned kFlags = kEveryVersion | MHD_USE_NO_THREAD_SAFETY;
 #else
   constexpr auto kStrictness = MHD_OPTION_STRICT_FOR_CLIENT;
+  constexpr unsigned kFlags = kEveryVersion;
 #endif
   // is_overdue() comes first; this ends what it does not see, such as an error that libmicrohttpd answers.
   using std::chrono::seconds;
