@@ -30,6 +30,12 @@ bool holds_wrong(const CorrectedScan& scan) {
                                       [](const CorrectedItem& item) { return item.is_wrong; });
 }
 
+// By how much a count of what holds changes.
+std::int64_t step_between(bool before, bool after) {
+  if (before == after) return 0;
+  return after ? 1 : -1;
+}
+
 std::string refuse_texts(const Correction& correction) {
   if (correction.author.empty() || !is_plain_text(correction.author, kMaxAuthorBytes)) {
     return "The author is plain text of 1 to 200 bytes.";
@@ -63,8 +69,8 @@ Expected<BookedCorrection> CorrectionBook::add(const ScanId& id, const Correctio
   });
   ScanCounts change;
   if (booked.refusal.empty()) {
-    change.corrected = int{booked.scan.is_corrected} - int{(*stored)->is_corrected};
-    change.wrong = int{holds_wrong(booked.scan)} - int{(*stored)->is_wrong};
+    change.corrected = step_between((*stored)->is_corrected, booked.scan.is_corrected);
+    change.wrong = step_between((*stored)->is_wrong, holds_wrong(booked.scan));
   }
   scans_.note_change(done, change);
   if (!done.ok()) return Failure{done.failure()};

@@ -145,6 +145,14 @@ Expected<std::unique_ptr<Database>> Database::open(const std::filesystem::path& 
   return database;
 }
 
+Expected<std::unique_ptr<Database>> Database::open_in_memory() {
+  sqlite3* handle = nullptr;
+  const int result = sqlite3_open(":memory:", &handle);
+  std::unique_ptr<Database> database(new Database("memory", "", handle));
+  if (result != SQLITE_OK) return database->failure("a database in memory cannot be made", result);
+  return database;
+}
+
 Expected<void> Database::apply_settings() {
   constexpr const char* kAttempted = "the file cannot be used";
   if (Expected<void> set = run_script(kAttempted, kSettings); !set.ok()) return set;
@@ -209,6 +217,14 @@ std::int64_t Database::changed_rows() const {
   return sqlite3_changes64(handle_.get());
 }
 
+bool Database::was_full() const {
+  return last_code_ == SQLITE_FULL;
+}
+
+bool Database::was_senseless() const {
+  return last_code_ == SQLITE_ERROR || last_code_ == SQLITE_TOOBIG;
+}
+
 Expected<void> Database::reserve_journal() {
   const int result = traygauge::reserve_journal(vfs_name_.c_str(), file_.string());
   if (result == SQLITE_OK || result == SQLITE_FULL) return {};
@@ -222,7 +238,7 @@ Failure Database::note_damage(std::string_view damage) {
 
 Failure Database::failure(std::string_view attempted, int result) {
   const int code = result & 0xff;
-  was_full_ = code == SQLITE_FULL;
+  last_code_ = code;
   const int last = handle_ == nullptr ? SQLITE_OK : sqlite3_extended_errcode(handle_.get());
   std::string text = last == result ? sqlite3_errmsg(handle_.get()) : sqlite3_errstr(result);
   if (code == SQLITE_CORRUPT || code == SQLITE_NOTADB) {

@@ -71,6 +71,8 @@ class Database {
  public:
   // Makes an empty file where there is none. Nothing has been read yet.
   static Expected<std::unique_ptr<Database>> open(const std::filesystem::path& file, const char* vfs_name);
+  // A database that is no file, for comparison.
+  static Expected<std::unique_ptr<Database>> open_in_memory();
   Database(const Database&) = delete;
   Database& operator=(const Database&) = delete;
 
@@ -83,7 +85,10 @@ class Database {
   const std::string& damage() const { return damage_; }
   Failure note_damage(std::string_view damage);
   // The last failure was a full disk.
-  bool was_full() const { return was_full_; }
+  bool was_full() const;
+  // The last failure came neither from the disk nor from another process: where a sound statement was to
+  // read, the file makes no sense.
+  bool was_senseless() const;
 
   Expected<Statement> prepare(std::string_view attempted, const char* sql);
   // Statements separated by semicolons, without values.
@@ -147,7 +152,7 @@ class Database {
   std::string vfs_name_;
   std::unique_ptr<sqlite3, Close> handle_;
   std::string damage_;
-  bool was_full_ = false;
+  int last_code_ = 0;
   bool is_in_doubt_ = true;
 };
 

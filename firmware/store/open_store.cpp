@@ -28,10 +28,17 @@ Expected<void> check_content(Database& database) {
   return checked;
 }
 
-Expected<void> make_ready(Database& database) {
+Expected<void> check_all(Database& database) {
   if (Expected<void> set = database.apply_settings(); !set.ok()) return set;
   if (Expected<void> checked = check_schema(database); !checked.ok()) return checked;
   if (Expected<void> checked = check_content(database); !checked.ok()) return checked;
+  return check_tables(database);
+}
+
+Expected<void> make_ready(Database& database) {
+  Expected<void> checked = check_all(database);
+  if (!checked.ok() && database.was_senseless()) database.note_damage(checked.failure());
+  if (!checked.ok()) return checked;
   const Expected<std::int64_t> migrated = migrate_schema(database);
   if (!migrated.ok()) return Failure{migrated.failure()};
   return database.reserve_journal();

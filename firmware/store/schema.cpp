@@ -1,7 +1,10 @@
 #include "firmware/store/schema.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
+#include <memory>
+#include <set>
 #include <string>
 
 namespace traygauge {
@@ -86,6 +89,17 @@ Expected<void> run_step(Database& database, const char* step, std::int64_t versi
   });
 }
 
+Expected<std::set<std::string>> definitions(Database& database) {
+  std::set<std::string> found;
+  const Expected<void> read =
+      database.each(kReadingTables,
+                    "SELECT type || ' ' || name || ' ' || tbl_name || ' ' || sql FROM sqlite_schema"
+                    " WHERE sql IS NOT NULL",
+                    [&](const Statement& row) { found.insert(row.text(0)); });
+  if (!read.ok()) return Failure{read.failure()};
+  return found;
+}
+
 }  // namespace
 
 std::span<const char* const> schema_steps() {
@@ -93,22 +107,39 @@ std::span<const char* const> schema_steps() {
 }
 
 Expected<void> check_schema(Database& database, std::span<const char* const> steps) {
+  // The marks are read first: they need not understand tables that a newer program made.
   const auto application = database.integer(kReadingTables, "PRAGMA application_id");
   if (!application.ok()) return Failure{application.failure()};
-  const auto tables = database.integer(kReadingTables, "SELECT count(*) FROM sqlite_schema");
-  if (!tables.ok()) return Failure{tables.failure()};
-  if (*application != kStoreApplicationId && (*application != 0 || *tables > 0)) {
+  const auto version = database.integer(kReadingTables, "PRAGMA user_version");
+  if (!version.ok()) return Failure{version.failure()};
+  if (*application != kStoreApplicationId) {
+    const auto tables = database.integer(kReadingTables, "SELECT count(*) FROM sqlite_schema");
+    if (!tables.ok()) return Failure{tables.failure()};
+    if (*application == 0 && *version == 0 && *tables == 0) return {};
     return Failure{database.file().string() +
                    ": this is a database of another program. Name another file for the hub's store."};
   }
+  if (*version >= 0 && *version <= static_cast<std::int64_t>(steps.size())) return {};
+  return Failure{database.file().string() + ": the store has version " + std::to_string(*version) +
+                 ", this program knows versions up to " + std::to_string(steps.size()) +
+                 ". Install the newer program again, or name another file for the hub's store."};
+}
+
+Expected<void> check_tables(Database& database, std::span<const char* const> steps) {
   const auto version = database.integer(kReadingTables, "PRAGMA user_version");
   if (!version.ok()) return Failure{version.failure()};
-  if (*version > static_cast<std::int64_t>(steps.size()) || *version < 0) {
-    return Failure{database.file().string() + ": the store has version " + std::to_string(*version) +
-                   ", this program knows versions up to " + std::to_string(steps.size()) +
-                   ". Install the newer program again, or name another file for the hub's store."};
+  const Expected<std::unique_ptr<Database>> sample = Database::open_in_memory();
+  if (!sample.ok()) return Failure{sample.failure()};
+  for (const char* const step : steps.first(static_cast<std::size_t>(*version))) {
+    if (Expected<void> made = (*sample)->run_script(kReadingTables, step); !made.ok()) return made;
   }
-  return {};
+  const Expected<std::set<std::string>> expected = definitions(**sample);
+  if (!expected.ok()) return Failure{expected.failure()};
+  const Expected<std::set<std::string>> found = definitions(database);
+  if (!found.ok()) return Failure{found.failure()};
+  if (std::includes(found->begin(), found->end(), expected->begin(), expected->end())) return {};
+  return database.note_damage("the definition of a table is not what version " + std::to_string(*version) +
+                              " has");
 }
 
 Expected<std::int64_t> migrate_schema(Database& database, std::span<const char* const> steps) {

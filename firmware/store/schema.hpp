@@ -12,10 +12,15 @@ namespace traygauge {
 inline constexpr std::int64_t kStoreApplicationId = 0x54524759;
 
 // SQL, one step a version: the first makes version 1 of an empty file. Steps that were released never change.
+// They make new tables instead of altering old ones, because check_tables() compares how tables were made.
 std::span<const char* const> schema_steps();
 
 // Fails where the file is another program's or of a newer version of this one.
 Expected<void> check_schema(Database& database, std::span<const char* const> steps = schema_steps());
+
+// Finds damage in the definitions of tables, which SQLite may take for another, sound definition: they have
+// to be those that the steps up to the file's version make. Others beside them do no harm.
+Expected<void> check_tables(Database& database, std::span<const char* const> steps = schema_steps());
 
 // Brings a checked file to the newest version, step by step, each whole or not at all. Returns the version
 // that it had, 0 of a new file.

@@ -62,11 +62,19 @@ TEST(StoreCrash, APowerCutTakesNothingThatWasConfirmed) {
   std::cout << wanted << " power cuts in " << traces << " runs of " << kSteps << " steps" << std::endl;
 }
 
+// Any, or the worst: when the journal's header is zero and not yet synced, which is the last thing a step
+// does.
+std::size_t moment_to_kill(const StoreTrace& trace, std::mt19937_64& random) {
+  const std::size_t opened_at = trace.confirmed_at.front();
+  const std::size_t confirmed_at = trace.confirmed_at[random() % trace.confirmed_at.size()];
+  if (random() % 2 == 0 && confirmed_at > opened_at) return confirmed_at - 1;
+  return opened_at + random() % (trace.operations.size() - opened_at + 1);
+}
+
 // The process is killed, which leaves all that it wrote in memory; the next one confirms the scan under way,
 // goes on, and then the power is cut.
 std::string kill_and_cut(const MemoryFolder& folder, const StoreTrace& trace, std::mt19937_64& random) {
-  const std::size_t opened_at = trace.confirmed_at.front();
-  const std::size_t killed_at = opened_at + random() % (trace.operations.size() - opened_at + 1);
+  const std::size_t killed_at = moment_to_kill(trace, random);
   const std::size_t confirmed = trace.confirmed_steps(killed_at);
   UncertainDisk disk(trace.before);
   for (std::size_t i = 0; i < killed_at; ++i) disk.apply(trace.operations[i]);

@@ -36,12 +36,6 @@ int error_of(const DiskOperation& operation, bool is_full) {
   return SQLITE_IOERR;
 }
 
-Expected<void> change_nothing(Store& store) {
-  constexpr std::int64_t kNoSuchNumber = 1'000'000;
-  const Expected<bool> discarded = store.scans().discard_set_aside(kNoSuchNumber);
-  return discarded.ok() ? Expected<void>() : Failure{discarded.failure()};
-}
-
 // Fails at one operation, or from there on until it is mended.
 class FaultyRun {
  public:

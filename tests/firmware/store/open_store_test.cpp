@@ -140,7 +140,7 @@ TEST_F(OpenStoreTest, WhateverIsDamagedIsNoticedOrHarmless) {
   make_store(20);
   const FileBytes sound = bytes();
   int aside = 0;
-  for (int run = 0; run < 300; ++run) {
+  for (int run = 0; run < 500; ++run) {
     FileBytes damaged = sound;
     const std::size_t kind = random() % 3;
     if (kind == 0) damaged.resize(random() % damaged.size());
@@ -226,6 +226,19 @@ TEST_F(OpenStoreTest, AnotherProgramsDatabaseIsRefusedAndLeft) {
   const FileBytes before = bytes();
   expect_failure("database of another program");
   EXPECT_EQ(bytes(), before);
+}
+
+TEST_F(OpenStoreTest, ATableThatIsDefinedOtherwiseIsDamage) {
+  make_store(3);
+  run_sql("CREATE VIEW mine AS SELECT * FROM scans");
+  EXPECT_NE(open_or_fail(options_), nullptr) << "what somebody added does no harm";
+  run_sql(
+      "PRAGMA writable_schema = ON; UPDATE sqlite_schema SET sql = replace(sql, 'attempts', 'attemptz')"
+      " WHERE name = 'deliveries'");
+  const Expected<OpenedStore> opened = open_store(options_, at(kMorningMs));
+  ASSERT_TRUE(opened.ok()) << opened.failure();
+  ASSERT_EQ(opened->notices.size(), 1U);
+  EXPECT_NE(opened->notices[0].find("the definition of a table"), std::string::npos) << opened->notices[0];
 }
 
 TEST_F(OpenStoreTest, AFileInAnotherJournalModeIsTakenOver) {

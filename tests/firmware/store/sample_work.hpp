@@ -20,7 +20,10 @@ struct WorkStep {
 // Puts are half of it; the others are about scans that were put before.
 std::vector<WorkStep> sample_work(std::size_t steps, std::mt19937_64& random);
 
-// Ok where the store confirmed it.
+// A transaction without content: what can be read has to stay from then on.
+Expected<void> change_nothing(Store& store);
+
+// Ok where the store confirmed it, by a transaction.
 Expected<void> do_step(Store& store, const WorkStep& step);
 
 // All that the store holds, each row on a line; without what may differ between equal stores. A failure is

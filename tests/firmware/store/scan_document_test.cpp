@@ -124,7 +124,9 @@ TEST(ScanDocument, TheSameIsTheSameHoweverItIsWritten) {
   EXPECT_FALSE(is_same_document(text, sample_document(18)));
   EXPECT_FALSE(is_same_document("no JSON", "nor this"));
   EXPECT_TRUE(is_same_document("no JSON", "no JSON"));
-  EXPECT_FALSE(is_same_document(std::string(400'000, '['), std::string(500'000, '[')));
+  // Comparing it would need as many levels of the stack.
+  const std::string deep = std::string(100'000, '[') + std::string(100'000, ']');
+  EXPECT_FALSE(is_same_document(deep, deep + " "));
 }
 
 TEST(PlainText, IsShortUtf8WithoutControlCharacters) {
