@@ -14,8 +14,8 @@ std::string one_line(std::string_view text) {
 }
 
 const std::string& heartbeat_text() {
-  static const std::string kText = event_text({"heartbeat", "{}", {}});
-  return kText;
+  static const std::string text = event_text({"heartbeat", "{}", {}});
+  return text;
 }
 
 }  // namespace

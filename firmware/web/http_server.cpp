@@ -79,6 +79,9 @@ class HttpServer::Daemon {
 
   // What an answer is read from.
   struct Answer {
+    Answer(Connection& sender, std::unique_ptr<ByteStream> body)
+        : connection(sender), stream(std::move(body)) {}
+
     Connection& connection;
     std::unique_ptr<ByteStream> stream;
   };
@@ -104,7 +107,7 @@ class HttpServer::Daemon {
   MHD_Result finish(Connection& connection);
   static MHD_Result send(Connection& connection, HttpResponse response, bool then_close);
   void take_on(const AcceptedSocket& socket);
-  void notice_ends();
+  void notice_ends() const;
   void sweep(SteadyTime now);
 
   HttpLimits limits_;
@@ -119,15 +122,15 @@ class HttpServer::Daemon {
 };
 
 Expected<void> HttpServer::Daemon::start() {
-  constexpr unsigned kEveryVersion = MHD_USE_EPOLL | MHD_USE_NO_LISTEN_SOCKET | MHD_ALLOW_SUSPEND_RESUME;
-#if MHD_VERSION >= 0x01000000
+#if MHD_VERSION >= 0x00097707
   constexpr auto kStrictness = MHD_OPTION_CLIENT_DISCIPLINE_LVL;
-  // Else version 1 keeps an added connection for its next run, and take_on() would miss it.
-  constexpr unsigned kFlags = kEveryVersion | MHD_USE_NO_THREAD_SAFETY;
+  constexpr unsigned kOneThread = MHD_USE_NO_THREAD_SAFETY;  // else added connections are taken on later
 #else
   constexpr auto kStrictness = MHD_OPTION_STRICT_FOR_CLIENT;
-  constexpr unsigned kFlags = kEveryVersion;
+  constexpr unsigned kOneThread = 0;
 #endif
+  constexpr unsigned kFlags =
+      MHD_USE_EPOLL | MHD_USE_NO_LISTEN_SOCKET | MHD_ALLOW_SUSPEND_RESUME | kOneThread;
   // is_overdue() comes first; this ends what it does not see, such as an error that libmicrohttpd answers.
   using std::chrono::seconds;
   const auto longest = std::max({limits_.max_head_time, limits_.max_body_time, limits_.max_stall});
@@ -184,7 +187,7 @@ void HttpServer::Daemon::run() {
 
 // libmicrohttpd 0.9.75 overlooks an end that comes together with data, and does not look at suspended
 // connections.
-void HttpServer::Daemon::notice_ends() {
+void HttpServer::Daemon::notice_ends() const {
   std::array<epoll_event, 64> events{};
   const int count = ::epoll_wait(epoll_, events.data(), static_cast<int>(events.size()), 0);
   for (int i = 0; i < count; ++i) {
@@ -288,7 +291,7 @@ MHD_Result HttpServer::Daemon::send(Connection& connection, HttpResponse respons
   SizedStream body = stream_of(std::move(response.body));
   body.stream->attach(connection);
   connection.progress.is_live = body.stream->is_live();
-  auto answer = std::unique_ptr<Answer>(new Answer{connection, std::move(body.stream)});
+  auto answer = std::make_unique<Answer>(connection, std::move(body.stream));
   constexpr std::size_t kBlockBytes = 16UL * 1024;
   MHD_Response* const reply = MHD_create_response_from_callback(
       body.bytes.value_or(MHD_SIZE_UNKNOWN), kBlockBytes, &on_read, answer.get(), &on_answer_over);
@@ -309,12 +312,11 @@ MHD_Result HttpServer::Daemon::send(Connection& connection, HttpResponse respons
   return queued;
 }
 
-ssize_t HttpServer::Daemon::on_read(void* self, std::uint64_t, char* into, std::size_t size) noexcept {
-  Answer& answer = *static_cast<Answer*>(self);
-  Connection& connection = answer.connection;
+ssize_t HttpServer::Daemon::on_read(void* answer, std::uint64_t, char* into, std::size_t size) noexcept {
+  Connection& connection = static_cast<Answer*>(answer)->connection;
   if (connection.daemon.is_stopping_ || connection.is_cut()) return MHD_CONTENT_READER_END_WITH_ERROR;
   try {
-    const ByteStream::Piece piece = answer.stream->read({into, size});
+    const ByteStream::Piece piece = static_cast<Answer*>(answer)->stream->read({into, size});
     connection.progress.read_at = Clock::now();
     connection.progress.sent_bytes += piece.bytes;
     switch (piece.state) {

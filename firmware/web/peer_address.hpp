@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <tuple>
 #include <vector>
 
 struct sockaddr;
@@ -35,7 +36,10 @@ class PeerAddress {
   PeerAddress neighbourhood() const;
   std::string text() const;
 
-  friend auto operator<=>(const PeerAddress&, const PeerAddress&) = default;
+  friend bool operator==(const PeerAddress&, const PeerAddress&) = default;
+  friend bool operator<(const PeerAddress& a, const PeerAddress& b) {
+    return std::tie(a.is_local_socket_, a.bytes_) < std::tie(b.is_local_socket_, b.bytes_);
+  }
 
  private:
   Bytes bytes_{};

@@ -6,6 +6,7 @@
 #include <fstream>
 #include <string>
 
+#include "tests/firmware/web/known_tokens.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace traygauge::test {
@@ -13,13 +14,11 @@ namespace {
 
 using std::chrono::seconds;
 
-const std::string kView = "view-token-0123456789";
-const std::string kManage = "manage-token-0123456789";
-
 class WebAccess : public ::testing::Test {
  protected:
   WebAccess() {
-    with_tokens_.token_files = {write("view", kView, Role::view), write("manage", kManage, Role::manage)};
+    with_tokens_.token_files = {write("view", kViewToken, Role::view),
+                                write("manage", kManageToken, Role::manage)};
   }
   TokenFile write(const char* name, const std::string& text, Role role) const {
     const auto path = folder_.path() / name;
@@ -87,9 +86,9 @@ TEST_F(WebAccess, DemandsTokensEverywhereOnceTheyAreNamed) {
   for (const char* const peer : {"127.0.0.1", "unix", "192.0.2.1"}) {
     EXPECT_EQ(ask(access, request_from(peer)), 401) << peer;
     EXPECT_EQ(ask(access, request_from(peer), Role::none), 200) << peer;
-    EXPECT_EQ(ask(access, request_from(peer, bearer(kView))), 200) << peer;
-    EXPECT_EQ(ask(access, request_from(peer, bearer(kView)), Role::manage), 403) << peer;
-    EXPECT_EQ(ask(access, request_from(peer, bearer(kManage)), Role::manage), 200) << peer;
+    EXPECT_EQ(ask(access, request_from(peer, bearer(kViewToken))), 200) << peer;
+    EXPECT_EQ(ask(access, request_from(peer, bearer(kViewToken)), Role::manage), 403) << peer;
+    EXPECT_EQ(ask(access, request_from(peer, bearer(kManageToken)), Role::manage), 200) << peer;
     EXPECT_EQ(ask(access, request_from(peer, bearer("wrong"))), 401) << peer;
   }
   with_tokens_.local = LocalRule::open;
@@ -101,16 +100,18 @@ TEST_F(WebAccess, DemandsTokensEverywhereOnceTheyAreNamed) {
 
 TEST_F(WebAccess, TakesTheTokenFromHeaderOrCookieAndNowhereElse) {
   Access access(with_tokens_);
-  HttpRequest request = request_from("192.0.2.1", {{"cookie", "a=b; traygauge_token=" + kView + "; c=d"}});
+  HttpRequest request =
+      request_from("192.0.2.1", {{"cookie", "a=b; traygauge_token=" + kViewToken + "; c=d"}});
   EXPECT_FALSE(access.admit(request, Role::view, SteadyTime(seconds(10))));
   EXPECT_EQ(request.role, Role::view);
   EXPECT_EQ(request.token_name, "view");
-  EXPECT_EQ(ask(access, request_from("192.0.2.1", {{"authorization", "bearer  " + kView}})), 200);
-  EXPECT_EQ(ask(access, request_from("192.0.2.1", {{"authorization", "Basic " + kView}})), 401);
-  EXPECT_EQ(ask(access, request_from("192.0.2.1", {{"cookie", "traygauge_token_2=" + kView + ";x"}})), 401);
+  EXPECT_EQ(ask(access, request_from("192.0.2.1", {{"authorization", "bearer  " + kViewToken}})), 200);
+  EXPECT_EQ(ask(access, request_from("192.0.2.1", {{"authorization", "Basic " + kViewToken}})), 401);
+  EXPECT_EQ(ask(access, request_from("192.0.2.1", {{"cookie", "traygauge_token_2=" + kViewToken + ";x"}})),
+            401);
   EXPECT_EQ(ask(access, request_from("192.0.2.1", {{"cookie", "=;;traygauge_token"}})), 401);
   HttpRequest in_address = request_from("192.0.2.1");
-  in_address.query = {{"token", kView}, {"access_token", kView}, {"traygauge_token", kView}};
+  in_address.query = {{"token", kViewToken}, {"access_token", kViewToken}, {"traygauge_token", kViewToken}};
   EXPECT_EQ(ask(access, in_address), 401);
 }
 
@@ -122,7 +123,7 @@ TEST_F(WebAccess, LimitsAttemptsWhateverHeadersSay) {
     forged.emplace_back("x-forwarded-for", "198.51.100." + std::to_string(i));
     ASSERT_EQ(ask(access, request_from("192.0.2.1", forged), Role::view, now), 401) << i;
   }
-  NamedTexts right = bearer(kView);
+  NamedTexts right = bearer(kViewToken);
   EXPECT_EQ(ask(access, request_from("192.0.2.1", right), Role::view, now), 429) << "not even looked at";
   right.emplace_back("x-forwarded-for", "203.0.113.7");
   EXPECT_EQ(ask(access, request_from("192.0.2.1", right), Role::view, now), 429);
@@ -158,7 +159,7 @@ TEST_F(WebAccess, BelievesTrustedProxiesAlone) {
     forged.emplace_back("x-forwarded-for", "198.51.100." + std::to_string(i) + ", 192.0.2.7");
     ASSERT_EQ(ask(access, request_from("127.0.0.1", forged), Role::view, now), 401);
   }
-  NamedTexts right = bearer(kView);
+  NamedTexts right = bearer(kViewToken);
   right.emplace_back("x-forwarded-for", "192.0.2.7");
   EXPECT_EQ(ask(access, request_from("127.0.0.1", right), Role::view, now), 429);
   right.back().second = "192.0.2.8";

@@ -42,8 +42,8 @@ TEST_F(WebServer, AnswersWithPathAndQueryDecodedOnce) {
 TEST_F(WebServer, KeepsTheConnection) {
   WebClient one = client();
   for (int i = 0; i < 50; ++i) {
-    const std::string target = std::string("/").append(std::to_string(i));
-    ASSERT_EQ(one.ask("GET", target)->body, std::string("GET ").append(target).append(" []"));
+    const std::string target = "/a" + std::to_string(i);
+    ASSERT_EQ(one.ask("GET", target)->body, "GET " + target + " []");
   }
   EXPECT_EQ(server_.counts().connections, 1U);
   ASSERT_EQ(one.ask("GET", "/", {"Connection: close"})->status, 200);

@@ -28,15 +28,18 @@ HttpServer start_server(RequestHandler& handler, HttpLimits limits, const std::s
 ServerThread::ServerThread(RequestHandler& handler, HttpLimits limits, const std::string& address)
     : server_(start_server(handler, std::move(limits), address)),
       port_(server_.listeners().front().address().port),
-      wake_(::eventfd(0, EFD_CLOEXEC)),
+      wake_(::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)),
       thread_([this] { loop(); }) {}
 
 ServerThread::~ServerThread() {
   is_over_ = true;
-  const std::uint64_t one = 1;
-  EXPECT_EQ(::write(wake_, &one, sizeof(one)), static_cast<ssize_t>(sizeof(one)));
+  wake();
   thread_.join();
   ::close(wake_);
+}
+
+void ServerThread::wake() const {
+  EXPECT_EQ(::eventfd_write(wake_, 1), 0);
 }
 
 HttpCounts ServerThread::counts() {
@@ -53,6 +56,8 @@ void ServerThread::loop() {
     }
     std::array<pollfd, 2> waiting{pollfd{server_.descriptor(), POLLIN, 0}, pollfd{wake_, POLLIN, 0}};
     ::poll(waiting.data(), waiting.size(), timeout_ms);
+    eventfd_t woken = 0;
+    ::eventfd_read(wake_, &woken);
     ++rounds_;
     const std::scoped_lock lock(mutex_);
     server_.run();

@@ -29,11 +29,13 @@ class ServerThread {
   template <class Function>
   auto between_rounds(Function function) {
     const std::scoped_lock lock(mutex_);
+    wake();  // as in the hub's loop, timeout() is asked again after whatever happens
     return function();
   }
 
  private:
   void loop();
+  void wake() const;
 
   std::mutex mutex_;
   HttpServer server_;

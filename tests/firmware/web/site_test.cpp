@@ -10,6 +10,7 @@
 #include <thread>
 
 #include "firmware/web/login.hpp"
+#include "tests/firmware/web/known_tokens.hpp"
 #include "tests/firmware/web/server_thread.hpp"
 #include "tests/firmware/web/web_client.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -19,10 +20,6 @@ namespace {
 
 using std::chrono::milliseconds;
 using std::chrono::seconds;
-
-const std::string kViewToken = "view-token-0123456789";
-const std::string kKiosk = "kiosk-token-0123456789";
-const std::string kManageToken = "manage-token-0123456789";
 
 HttpLimits quick_limits() {
   HttpLimits limits;
@@ -78,7 +75,7 @@ class WebSite : public ::testing::Test {
   }
 
   TemporaryFolder folder_;
-  Access access_{{{write("view", kViewToken + " hall", Role::view), write("kiosk", kKiosk, Role::kiosk),
+  Access access_{{{write("view", kViewToken + " hall", Role::view), write("kiosk", kKioskToken, Role::kiosk),
                    write("manage", kManageToken, Role::manage)},
                   LocalRule::open_without_tokens,
                   {},
@@ -118,7 +115,7 @@ TEST_F(WebSite, AnswersByPathMethodAndRole) {
   EXPECT_EQ(unknown->status, 401);
   EXPECT_EQ(unknown->header("www-authenticate"), "Bearer realm=\"traygauge\"");
   EXPECT_EQ(status_of("POST", "/api/v1/next-tray", {bearer(kViewToken)}, "{}"), 403);
-  EXPECT_EQ(status_of("POST", "/api/v1/next-tray", {bearer(kKiosk)}, "{}"), 403);
+  EXPECT_EQ(status_of("POST", "/api/v1/next-tray", {bearer(kKioskToken)}, "{}"), 403);
   EXPECT_EQ(ask("POST", "/api/v1/next-tray", {bearer(kManageToken)}, "{}")->body, "{}");
   EXPECT_EQ(status_of("POST", "/api/v1/next-tray", {bearer(kManageToken)}, std::string(101, 'x')), 413);
   const auto wrong_method = ask("DELETE", "/api/v1/scans/a-1", {bearer(kManageToken)});
@@ -146,20 +143,20 @@ TEST_F(WebSite, RefusesOtherSites) {
 }
 
 TEST_F(WebSite, LogsInByACookie) {
-  const WebReply kiosk = log_in(kKiosk);
+  const WebReply kiosk = log_in(kKioskToken);
   ASSERT_EQ(kiosk.status, 200);
   EXPECT_EQ(kiosk.body, R"({"role":"kiosk","name":""})");
   EXPECT_EQ(kiosk.header("set-cookie"),
-            "traygauge_token=" + kKiosk + "; HttpOnly; SameSite=Strict; Max-Age=34560000");
+            "traygauge_token=" + kKioskToken + "; HttpOnly; SameSite=Strict; Max-Age=34560000");
   EXPECT_EQ(log_in(kManageToken).header("set-cookie"),
             "traygauge_token=" + kManageToken + "; HttpOnly; SameSite=Strict");
-  const std::string cookie = "Cookie: traygauge_token=" + kKiosk;
+  const std::string cookie = "Cookie: traygauge_token=" + kKioskToken;
   EXPECT_EQ(status_of("GET", "/api/v1/scans/a-1", {cookie}), 200);
   const auto session = ask("GET", "/api/v1/session", {cookie});
   EXPECT_EQ(session->body, kiosk.body);
   EXPECT_EQ(session->header("set-cookie"), kiosk.header("set-cookie")) << "renewed, so that it does not end";
   EXPECT_EQ(ask("GET", "/api/v1/session", {bearer(kViewToken)})->body, R"({"role":"view","name":"hall"})");
-  EXPECT_EQ(ask("GET", "/api/v1/session", {bearer(kKiosk)})->header("set-cookie"), "");
+  EXPECT_EQ(ask("GET", "/api/v1/session", {bearer(kKioskToken)})->header("set-cookie"), "");
   EXPECT_EQ(status_of("GET", "/api/v1/session"), 401);
   EXPECT_NE(ask("POST", "/api/v1/logout", {cookie})->header("set-cookie").find("traygauge_token=; "),
             std::string::npos);

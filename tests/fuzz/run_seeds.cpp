@@ -1,0 +1,40 @@
+// Runs a fuzz target over each file of the folders named, and over each beginning of it: for compilers
+// without libFuzzer, and as a test that the seeds still pass.
+#include <cstdio>
+#include <exception>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+#include <vector>
+
+#include "tests/fuzz/fuzz_target.hpp"
+
+namespace {
+
+int run_folder(const std::filesystem::path& folder) {
+  int runs = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    std::ifstream file(entry.path(), std::ios::binary);
+    const std::vector<char> bytes{std::istreambuf_iterator<char>(file), {}};
+    for (std::size_t size = 0; size <= bytes.size(); ++size, ++runs) {
+      const std::vector<std::uint8_t> input(bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(size));
+      LLVMFuzzerTestOneInput(input.data(), input.size());
+    }
+  }
+  return runs;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    int runs = 0;
+    for (int i = 1; i < argc; ++i) runs += run_folder(argv[i]);
+    std::printf("%d runs\n", runs);
+    return runs > 0 ? 0 : 1;
+  } catch (const std::exception& failure) {
+    std::fprintf(stderr, "%s\n", failure.what());
+    return 1;
+  }
+}
