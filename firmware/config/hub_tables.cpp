@@ -34,7 +34,7 @@ WebConfig read_web(const JsonNode& table, const std::filesystem::path& folder) {
   take_file("view_tokens", web.view_tokens);
   take_file("kiosk_tokens", web.kiosk_tokens);
   take_file("manage_tokens", web.manage_tokens);
-  if (const auto local = table.find("local_needs_token")) web.local_needs_token = local->truth();
+  if (const auto local = table.find("local_without_token")) web.local_without_token = local->truth();
   if (const auto names = table.find("host_names")) web.host_names = read_texts(*names);
   if (const auto proxies = table.find("trusted_proxies")) web.trusted_proxies = read_texts(*proxies);
   if (const auto base = table.find("base_path")) web.base_path = base->text();
@@ -62,7 +62,7 @@ HandoverConfig read_handover_table(const JsonNode& table, const std::filesystem:
 
 HubConfig read_hub_table(const JsonNode& table, const std::filesystem::path& folder) {
   expect(table, {"store", "keep_days", "keep_free_mib", "listen", "view_tokens", "kiosk_tokens",
-                 "manage_tokens", "local_needs_token", "host_names", "trusted_proxies", "base_path"});
+                 "manage_tokens", "local_without_token", "host_names", "trusted_proxies", "base_path"});
   HubConfig config;
   config.store = folder / table.member("store").text();
   if (const auto days = table.find("keep_days")) config.keep_days = days->integer(1, kMaxDays);

@@ -26,7 +26,7 @@ struct WebConfig {
   std::optional<std::filesystem::path> view_tokens;
   std::optional<std::filesystem::path> kiosk_tokens;
   std::optional<std::filesystem::path> manage_tokens;
-  bool local_needs_token = false;            // where a proxy on this machine lets others in
+  bool local_without_token = false;          // though there are tokens: no proxy may stand beside the hub
   std::vector<std::string> host_names;       // of the hub, beside localhost and literal addresses
   std::vector<std::string> trusted_proxies;  // addresses whose X-Forwarded-For is believed
   std::string base_path;                     // under which a proxy shows the hub

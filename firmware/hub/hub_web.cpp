@@ -19,7 +19,7 @@ Expected<AccessParams> access_params(const WebConfig& config) {
   if (config.view_tokens) params.token_files.push_back({*config.view_tokens, Role::view});
   if (config.kiosk_tokens) params.token_files.push_back({*config.kiosk_tokens, Role::kiosk});
   if (config.manage_tokens) params.token_files.push_back({*config.manage_tokens, Role::manage});
-  if (config.local_needs_token) params.local = LocalRule::tokens;
+  if (config.local_without_token) params.local = LocalRule::open;
   for (const std::string& proxy : config.trusted_proxies) {
     const auto range = AddressRange::parse(proxy);
     if (!range)

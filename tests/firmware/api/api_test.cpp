@@ -223,7 +223,6 @@ TEST(Api, AsksForTokens) {
   WebConfig config;
   config.view_tokens = write("view", "view-token-0123456789abcdef");
   config.manage_tokens = write("manage", "manage-token-0123456789abcdef ann");
-  config.local_needs_token = true;
   HubRig rig(config);
   rig.store(1, 100.0);
   const std::string view = "Authorization: Bearer view-token-0123456789abcdef\r\n";
@@ -239,6 +238,20 @@ TEST(Api, AsksForTokens) {
   EXPECT_EQ(rig.post(target, R"({"action":"scan_wrong","author":"eve"})", view).status, 403);
   EXPECT_EQ(rig.post(target, R"({"action":"scan_wrong","author":"eve"})", manage).status, 201);
   EXPECT_EQ(rig.get(target, view).json()["corrections"][0]["author"], "ann");
+}
+
+TEST(Api, AScreenOnThisMachineMayNeedNoToken) {
+  const TemporaryFolder secrets;
+  const auto path = secrets.path() / "view";
+  std::ofstream(path) << "view-token-0123456789abcdef\n";
+  ::chmod(path.c_str(), 0600);
+  WebConfig config;
+  config.view_tokens = path;
+  config.local_without_token = true;
+  HubRig rig(config);
+  rig.store(1, 100.0);
+  EXPECT_EQ(rig.get("/api/v1/scans/latest").status, 200);
+  EXPECT_EQ(rig.get("/api/v1/scans/latest", "X-Forwarded-For: 192.0.2.7\r\n").status, 401);
 }
 
 TEST(Api, OthersAreNotServedWithoutTokens) {
