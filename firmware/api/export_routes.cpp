@@ -1,9 +1,11 @@
+#include <array>
 #include <nlohmann/json.hpp>
+#include <span>
 
 #include "firmware/api/history_query.hpp"
 #include "firmware/api/hub_site.hpp"
 #include "firmware/api/scan_answer.hpp"
-#include "firmware/base/text.hpp"
+#include "firmware/base/csv_fields.hpp"
 
 namespace traygauge {
 namespace {
@@ -11,56 +13,73 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr std::size_t kScansAPiece = 16;  // some 10 kB, and 2 ms of the hub's time
-constexpr const char* kCsvHead =
-    "id,station,number,taken_at,clock_synchronised,received_at,tray,status,supersedes,superseded_by,scan_"
-    "wrong,"
-    "item,dish,item_status,food,volume_ml,sigma_ml,item_wrong,measured_food,measured_volume_ml\r\n";
 
-// Quoted where it has to be. A table calculation takes a cell that begins so for a formula.
-std::string csv_cell(const std::string& text) {
+// A column and the key of the answer that it shows.
+struct Column {
+  const char* name;
+  const char* key;
+};
+constexpr auto kScanColumns = std::to_array<Column>({{"id", "id"},
+                                                     {"station", "station"},
+                                                     {"number", "number"},
+                                                     {"taken_at", "taken_at"},
+                                                     {"clock_synchronised", "clock_synchronised"},
+                                                     {"received_at", "received_at"},
+                                                     {"tray", "tray"},
+                                                     {"status", "status"},
+                                                     {"supersedes", "supersedes"},
+                                                     {"superseded_by", "superseded_by"},
+                                                     {"scan_wrong", "is_wrong"}});
+constexpr auto kItemColumns = std::to_array<Column>({{"item", "label"},
+                                                     {"dish", "dish"},
+                                                     {"item_status", "status"},
+                                                     {"food", "food"},
+                                                     {"volume_ml", "volume_ml"},
+                                                     {"sigma_ml", "sigma_ml"},
+                                                     {"item_wrong", "is_wrong"},
+                                                     {"measured_food", "measured_food"},
+                                                     {"measured_volume_ml", "measured_volume_ml"}});
+
+// A table calculation takes a cell that begins so for a formula.
+std::string csv_text(const std::string& text) {
   const bool looks_like_formula =
       !text.empty() && std::string_view("=+-@\t\r").find(text.front()) != std::string_view::npos;
-  const bool has_to_be_quoted = text.find_first_of(",\"\r\n") != std::string::npos;
-  std::string cell;
-  if (has_to_be_quoted) cell += '"';
-  if (looks_like_formula) cell += '\'';
-  for (const char character : text) {
-    if (character == '"') cell += '"';
-    cell += character;
-  }
-  if (has_to_be_quoted) cell += '"';
-  return cell;
+  return csv_field(looks_like_formula ? std::string("'").append(text) : text);
 }
 
 std::string csv_value(const Json& value) {
   if (value.is_null()) return {};
-  if (value.is_string()) return csv_cell(value.get<std::string>());
-  if (value.is_number_float()) return fixed(value.get<double>(), 1);
+  if (value.is_string()) return csv_text(value.get<std::string>());
+  if (value.is_number_float()) return csv_number(value.get<double>(), 1);
   return value.dump();
 }
 
-std::string csv_values(const Json& json, std::initializer_list<const char*> keys) {
+// `value_of` gives a column's text.
+template <class ValueOf>
+std::string csv_cells(std::span<const Column> columns, ValueOf value_of) {
   std::string text;
-  for (const char* const key : keys) {
-    if (key != *keys.begin()) text += ',';
-    text += csv_value(json[key]);
+  for (const Column& column : columns) {
+    if (&column != columns.data()) text += ',';
+    text += value_of(column);
   }
   return text;
 }
 
+std::string csv_head() {
+  const auto name = [](const Column& column) { return std::string(column.name); };
+  return csv_cells(kScanColumns, name) + ',' + csv_cells(kItemColumns, name) + "\r\n";
+}
+
 // A line for each item; a scan without items has one, too, so that no refusal is hidden.
 std::string csv_lines(const Json& scan) {
-  const std::string head =
-      csv_values(scan, {"id", "station", "number", "taken_at", "clock_synchronised", "received_at", "tray",
-                        "status", "supersedes", "superseded_by", "is_wrong"});
-  if (scan["items"].empty()) return head + ",,,,,,,,,\r\n";
+  const auto value_in = [](const Json& json) {
+    return [&json](const Column& column) { return csv_value(json[column.key]); };
+  };
+  const std::string head = csv_cells(kScanColumns, value_in(scan)) + ',';
+  if (scan["items"].empty())
+    return head + csv_cells(kItemColumns, [](const Column&) { return std::string(); }) + "\r\n";
   std::string lines;
-  for (const Json& item : scan["items"]) {
-    lines += head + ',' +
-             csv_values(item, {"label", "dish", "status", "food", "volume_ml", "sigma_ml", "is_wrong",
-                               "measured_food", "measured_volume_ml"}) +
-             "\r\n";
-  }
+  for (const Json& item : scan["items"]) lines += head + csv_cells(kItemColumns, value_in(item)) + "\r\n";
   return lines;
 }
 
@@ -75,7 +94,7 @@ class Export {
   Expected<std::string> next() {
     if (is_over_) return std::string();
     std::string piece;
-    if (!has_begun_) piece = format_ == Format::csv ? kCsvHead : "{\"scans\":[";
+    if (!has_begun_) piece = format_ == Format::csv ? csv_head() : "{\"scans\":[";
     has_begun_ = true;
     // A page may be empty though others follow: an empty piece would end the answer.
     do {

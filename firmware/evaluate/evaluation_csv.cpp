@@ -2,7 +2,7 @@
 #include <string>
 
 #include "firmware/base/text.hpp"
-#include "firmware/evaluate/csv_fields.hpp"
+#include "firmware/base/csv_fields.hpp"
 #include "firmware/evaluate/evaluation.hpp"
 
 namespace traygauge {

@@ -2,7 +2,7 @@
 #include <sstream>
 
 #include "firmware/base/text.hpp"
-#include "firmware/evaluate/csv_fields.hpp"
+#include "firmware/base/csv_fields.hpp"
 #include "firmware/evaluate/stage_analysis.hpp"
 #include "firmware/evaluate/table_cells.hpp"
 

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "firmware/evaluate/csv_fields.hpp"
+#include "firmware/base/csv_fields.hpp"
 #include "firmware/evaluate/evaluation.hpp"
 #include "firmware/evaluate/evaluation_files.hpp"
 #include "firmware/evaluate/table_cells.hpp"

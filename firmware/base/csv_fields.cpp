@@ -1,4 +1,4 @@
-#include "firmware/evaluate/csv_fields.hpp"
+#include "firmware/base/csv_fields.hpp"
 
 #include <cmath>
 
