@@ -8,27 +8,9 @@
 #include <utility>
 
 #include "firmware/base/expected.hpp"
+#include "firmware/base/file_descriptor.hpp"
 
 namespace traygauge {
-
-// Owns a file descriptor.
-class FileDescriptor {
- public:
-  FileDescriptor() = default;
-  explicit FileDescriptor(int number) : number_(number) {}
-  FileDescriptor(FileDescriptor&& other) noexcept : number_(std::exchange(other.number_, -1)) {}
-  FileDescriptor& operator=(FileDescriptor&& other) noexcept;
-  FileDescriptor(const FileDescriptor&) = delete;
-  FileDescriptor& operator=(const FileDescriptor&) = delete;
-  ~FileDescriptor() { close(); }
-
-  bool is_open() const { return number_ >= 0; }
-  int number() const { return number_; }
-  void close();
-
- private:
-  int number_ = -1;
-};
 
 using Milliseconds = std::chrono::milliseconds;
 

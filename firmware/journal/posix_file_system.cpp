@@ -10,6 +10,8 @@
 #include <cstdio>
 #include <filesystem>
 
+#include "firmware/base/file_descriptor.hpp"
+
 namespace traygauge {
 namespace {
 
@@ -29,20 +31,6 @@ auto uninterrupted(Call call) {
 std::error_code code_of_call(int result) {
   return result == 0 ? std::error_code() : code_of(errno);
 }
-
-class Descriptor {
- public:
-  explicit Descriptor(int number) : number_(number) {}
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
-  ~Descriptor() {
-    if (number_ >= 0) ::close(number_);  // Linux closes it even where it reports EINTR
-  }
-  int number() const { return number_; }
-
- private:
-  int number_;
-};
 
 class PosixFile : public File {
  public:
@@ -98,7 +86,7 @@ class PosixFile : public File {
   }
 
  private:
-  Descriptor descriptor_;
+  FileDescriptor descriptor_;
 };
 
 int open_flags(OpenMode mode) {
@@ -131,7 +119,7 @@ class PosixFileSystem : public FileSystem {
 
   std::error_code sync_folder_of(const std::string& path) override {
     const std::filesystem::path folder = std::filesystem::path(path).parent_path();
-    const Descriptor descriptor(uninterrupted(
+    const FileDescriptor descriptor(uninterrupted(
         [&] { return ::open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC); }));
     if (descriptor.number() < 0) return code_of(errno);
     return code_of_call(uninterrupted([&] { return ::fsync(descriptor.number()); }));

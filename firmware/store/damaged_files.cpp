@@ -10,6 +10,7 @@
 #include <string_view>
 #include <system_error>
 
+#include "firmware/base/file_descriptor.hpp"
 #include "firmware/base/wall_clock.hpp"
 
 namespace traygauge {
@@ -47,12 +48,9 @@ fs::path free_name(const fs::path& file, std::int64_t now_ms) {
 }
 
 Expected<void> sync_folder(const fs::path& folder) {
-  const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  const bool is_synced = descriptor >= 0 && ::fsync(descriptor) == 0;
-  const int error = errno;
-  if (descriptor >= 0) ::close(descriptor);
-  if (is_synced) return {};
-  return Failure{folder.string() + ": the folder cannot be written to disk: " + std::strerror(error)};
+  const FileDescriptor opened(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+  if (opened.is_open() && ::fsync(opened.number()) == 0) return {};
+  return Failure{folder.string() + ": the folder cannot be written to disk: " + std::strerror(errno)};
 }
 
 }  // namespace

@@ -2,8 +2,10 @@
 #pragma once
 
 #include <filesystem>
+#include <utility>
 
 #include "firmware/base/expected.hpp"
+#include "firmware/base/file_descriptor.hpp"
 
 namespace traygauge {
 
@@ -12,13 +14,10 @@ class FileLock {
  public:
   // Fails where another process holds it, or the folder cannot be written.
   static Expected<FileLock> take(const std::filesystem::path& file);
-  FileLock(FileLock&& other) noexcept;
-  FileLock& operator=(FileLock&&) = delete;
-  ~FileLock();
 
  private:
-  explicit FileLock(int descriptor) : descriptor_(descriptor) {}
-  int descriptor_ = -1;
+  explicit FileLock(FileDescriptor file) : file_(std::move(file)) {}
+  FileDescriptor file_;
 };
 
 }  // namespace traygauge

@@ -71,10 +71,9 @@ Expected<void> make_room(const ListenAddress& address) {
   if (::lstat(address.path.c_str(), &found) != 0) return {};
   if (!S_ISSOCK(found.st_mode))
     return Failure{address.text() + ": expected a socket or nothing, found a file; name another path"};
-  const int probe = ::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0);
+  const FileDescriptor probe(::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0));
   SocketAddress local = socket_address(address);
-  const bool is_alive = ::connect(probe, local.pointer(), local.bytes) == 0 || errno != ECONNREFUSED;
-  ::close(probe);
+  const bool is_alive = ::connect(probe.number(), local.pointer(), local.bytes) == 0 || errno != ECONNREFUSED;
   if (is_alive) return Failure{address.text() + ": another program listens there; stop it first"};
   ::unlink(address.path.c_str());
   return {};
@@ -154,20 +153,18 @@ Expected<Listener> Listener::open(const ListenAddress& address) {
     if (!room.ok()) return Failure{room.failure()};
   }
   const auto family = socket_address(address).storage.ss_family;
-  const int descriptor = ::socket(family, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
-  if (descriptor < 0) return listen_failure(address, "no socket can be opened", errno);
-  if (const int error = bind_and_listen(descriptor, address); error != 0) {
-    ::close(descriptor);
+  FileDescriptor socket(::socket(family, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
+  if (!socket.is_open()) return listen_failure(address, "no socket can be opened", errno);
+  if (const int error = bind_and_listen(socket.number(), address); error != 0)
     return listen_failure(address, "cannot be listened to", error);
-  }
   ListenAddress taken = address;
-  if (taken.path.empty()) taken.port = bound_port(descriptor);
-  return Listener(descriptor, std::move(taken));
+  if (taken.path.empty()) taken.port = bound_port(socket.number());
+  return Listener(std::move(socket), std::move(taken));
 }
 
 Listener::~Listener() {
-  if (descriptor_ < 0) return;
-  ::close(descriptor_);
+  if (!socket_.is_open()) return;
+  socket_.close();
   if (!address_.path.empty()) ::unlink(address_.path.c_str());
 }
 

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "firmware/base/expected.hpp"
+#include "firmware/base/file_descriptor.hpp"
 #include "firmware/web/peer_address.hpp"
 
 namespace traygauge {
@@ -32,21 +33,21 @@ class Listener {
   // A socket file that a killed predecessor left is replaced; its permissions are 0660.
   static Expected<Listener> open(const ListenAddress& address);
 
-  Listener(Listener&& other) noexcept
-      : descriptor_(std::exchange(other.descriptor_, -1)), address_(std::move(other.address_)) {}
+  Listener(Listener&&) noexcept = default;
   Listener& operator=(Listener&&) = delete;
   Listener(const Listener&) = delete;
   Listener& operator=(const Listener&) = delete;
   ~Listener();
 
-  int descriptor() const { return descriptor_; }
+  int descriptor() const { return socket_.number(); }
   // With the port that was taken.
   const ListenAddress& address() const { return address_; }
 
  private:
-  Listener(int descriptor, ListenAddress address) : descriptor_(descriptor), address_(std::move(address)) {}
+  Listener(FileDescriptor socket, ListenAddress address)
+      : socket_(std::move(socket)), address_(std::move(address)) {}
 
-  int descriptor_ = -1;
+  FileDescriptor socket_;
   ListenAddress address_;
 };
 

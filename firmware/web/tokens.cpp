@@ -9,6 +9,8 @@
 #include <system_error>
 #include <utility>
 
+#include "firmware/base/file_descriptor.hpp"
+
 namespace traygauge {
 namespace {
 
@@ -45,23 +47,22 @@ std::string refusal_of(const struct stat& found, const std::string& path) {
 
 Expected<std::string> read_secret_file(const std::string& path) {
   // A pipe must not stop the hub.
-  const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
-  if (file < 0) return Failure{path + ": cannot be read: " + std::system_category().message(errno)};
+  const FileDescriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
+  if (!file.is_open()) return Failure{path + ": cannot be read: " + std::system_category().message(errno)};
   struct stat found {};
-  std::string refusal = ::fstat(file, &found) != 0 ? path + ": cannot be looked at" : refusal_of(found, path);
+  if (::fstat(file.number(), &found) != 0) return Failure{path + ": cannot be looked at"};
+  if (const std::string refusal = refusal_of(found, path); !refusal.empty()) return Failure{refusal};
   std::string text(kMaxFileBytes + 1, '\0');
   std::size_t bytes = 0;
-  while (refusal.empty() && bytes < text.size()) {
-    const ssize_t got = ::read(file, text.data() + bytes, text.size() - bytes);
+  while (bytes < text.size()) {
+    const ssize_t got = ::read(file.number(), text.data() + bytes, text.size() - bytes);
     if (got == 0) break;
     if (got > 0) bytes += static_cast<std::size_t>(got);
     if (got < 0 && errno != EINTR)
-      refusal = path + ": cannot be read: " + std::system_category().message(errno);
+      return Failure{path + ": cannot be read: " + std::system_category().message(errno)};
   }
-  ::close(file);
-  if (refusal.empty() && bytes > kMaxFileBytes)
-    refusal = path + ": expected at most " + std::to_string(kMaxFileBytes) + " bytes of tokens";
-  if (!refusal.empty()) return Failure{refusal};
+  if (bytes > kMaxFileBytes)
+    return Failure{path + ": expected at most " + std::to_string(kMaxFileBytes) + " bytes of tokens"};
   text.resize(bytes);
   return text;
 }
