@@ -8,8 +8,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::size_t kMaxCorrectionBytes =
-    8192;  // author and reason are 1,200 bytes at most, 198 labels 800
+// Author and reason are 1,200 bytes at most, 198 labels 800.
+constexpr std::size_t kMaxCorrectionBytes = 8192;
 
 std::string text_of(const Json& json, const char* key) {
   return json.contains(key) && json[key].is_string() ? json[key].get<std::string>() : std::string();
@@ -24,16 +24,8 @@ Json correction_answer(const Correction& correction) {
   return json;
 }
 
-HttpResponse list_corrections(HubStore& hub, const HttpRequest& request) {
-  Store* const store = hub.store();
-  if (store == nullptr) return store_failure(hub.problem());
-  const std::string& text = *request.path_parameter("id");
-  const std::optional<ScanId> id = parse_scan_id(text);
-  if (!id) return no_such_scan(text);
-  const Expected<std::optional<StoredScan>> scan = store->scans().find(*id);
-  if (!scan.ok()) return store_failure(scan.failure());
-  if (!*scan) return no_such_scan(text);
-  const Expected<std::vector<Correction>> corrections = store->corrections().list(*id);
+HttpResponse list_corrections(Store& store, const StoredScan& scan) {
+  const Expected<std::vector<Correction>> corrections = store.corrections().list(scan);
   if (!corrections.ok()) return store_failure(corrections.failure());
   Json json = {{"corrections", Json::array()}};
   for (const Correction& correction : *corrections)
@@ -41,15 +33,7 @@ HttpResponse list_corrections(HubStore& hub, const HttpRequest& request) {
   return json_answer(json);
 }
 
-HttpResponse add_correction(const HubSite& site, const HttpRequest& request) {
-  Store* const store = site.store.store();
-  if (store == nullptr) return store_failure(site.store.problem());
-  const std::string& text = *request.path_parameter("id");
-  const std::optional<ScanId> id = parse_scan_id(text);
-  if (!id) return no_such_scan(text);
-  const Expected<std::optional<StoredScan>> found = store->scans().find(*id);
-  if (!found.ok()) return store_failure(found.failure());
-  if (!*found) return no_such_scan(text);
+HttpResponse add_correction(const HubSite& site, const HttpRequest& request, Store& store, const ScanId& id) {
   const Json body = Json::parse(request.body, nullptr, false);
   if (!body.is_object()) return wrong_request("expected a JSON object, found something else");
   const Expected<CorrectionAction> action = parse_correction(request.body);
@@ -57,24 +41,26 @@ HttpResponse add_correction(const HubSite& site, const HttpRequest& request) {
   // Who holds a named token cannot sign with another's name.
   const std::string author = request.token_name.empty() ? text_of(body, "author") : request.token_name;
   const Expected<BookedCorrection> booked =
-      store->corrections().add(*id, *action, author, text_of(body, "reason"), site.wall_clock());
+      store.corrections().add(id, *action, author, text_of(body, "reason"), site.wall_clock());
   if (!booked.ok()) return store_failure(booked.failure());
   if (!booked->refusal.empty()) return error_response(409, "refused", booked->refusal);
-  site.events.broadcast({"correction", Json{{"id", text}}.dump(), {}});
-  const Expected<std::optional<StoredScan>> scan = store->scans().find(*id);
-  if (!scan.ok()) return store_failure(scan.failure());
-  const Expected<Json> json = scan_answer(*store, **scan);
-  return json.ok() ? json_answer(*json, 201) : store_failure(json.failure());
+  site.events.broadcast({"correction", Json{{"id", scan_id_text(id)}}.dump(), {}});
+  const Expected<std::optional<StoredScan>> scan = store.scans().find(id);
+  return scan.ok() ? answer_scan(store, **scan, 201) : store_failure(scan.failure());
 }
 
 }  // namespace
 
 void add_correction_routes(Router& router, const HubSite& site) {
-  router.add(
-      {"GET", "/api/v1/scans/{id}/corrections", Role::view, 0,
-       [&store = site.store](const HttpRequest& request) { return list_corrections(store, request); }});
+  router.add({"GET", "/api/v1/scans/{id}/corrections", Role::view, 0, [&site](const HttpRequest& request) {
+                return with_scan(site.store, request, list_corrections);
+              }});
   router.add({"POST", "/api/v1/scans/{id}/corrections", Role::manage, kMaxCorrectionBytes,
-              [&site](const HttpRequest& request) { return add_correction(site, request); }});
+              [&site](const HttpRequest& request) {
+                return with_scan(site.store, request, [&](Store& store, const StoredScan& scan) {
+                  return add_correction(site, request, store, scan.id);
+                });
+              }});
 }
 
 }  // namespace traygauge

@@ -38,10 +38,14 @@ Json item_answer(const CorrectedItem& item) {
           {"merged", item.merged}};
 }
 
+HttpResponse no_such_scan(const std::string& id) {
+  return error_response(404, "no_such_scan", "No scan is called " + id + ".");
+}
+
 }  // namespace
 
 Expected<Json> scan_answer(Store& store, const StoredScan& scan) {
-  const Expected<std::optional<CorrectedScan>> corrected = store.corrections().corrected(scan.id);
+  const Expected<CorrectedScan> corrected = store.corrections().corrected(scan);
   if (!corrected.ok()) return Failure{corrected.failure()};
   const Json document = Json::parse(scan.document, nullptr, false);
   const auto of_document = [&document](const char* key) {
@@ -60,16 +64,30 @@ Expected<Json> scan_answer(Store& store, const StoredScan& scan) {
                {"superseded_by", id_or_null(scan.superseded_by)},
                {"is_corrected", scan.is_corrected},
                {"is_wrong", scan.is_wrong},
-               {"volume_ml", nullptr},
+               {"volume_ml", booked_volume_ml(*corrected)},
                {"items", Json::array()},
                {"warnings", of_document("warnings")},
                {"duration_ms", of_document("duration_ms")},
                {"timing_ms", of_document("timing_ms")}};
-  if (*corrected) {
-    json["volume_ml"] = booked_volume_ml(**corrected);
-    for (const CorrectedItem& item : (*corrected)->items) json["items"].push_back(item_answer(item));
-  }
+  for (const CorrectedItem& item : corrected->items) json["items"].push_back(item_answer(item));
   return json;
+}
+
+HttpResponse answer_scan(Store& store, const StoredScan& scan, int status) {
+  const Expected<Json> json = scan_answer(store, scan);
+  return json.ok() ? json_answer(*json, status) : store_failure(json.failure());
+}
+
+HttpResponse with_scan(HubStore& hub, const HttpRequest& request,
+                       const std::function<HttpResponse(Store&, const StoredScan&)>& use) {
+  Store* const store = hub.store();
+  if (store == nullptr) return store_failure(hub.problem());
+  const std::string& text = *request.path_parameter("id");
+  const std::optional<ScanId> id = parse_scan_id(text);
+  if (!id) return no_such_scan(text);
+  const Expected<std::optional<StoredScan>> scan = store->scans().find(*id);
+  if (!scan.ok()) return store_failure(scan.failure());
+  return *scan ? use(*store, **scan) : no_such_scan(text);
 }
 
 HttpResponse json_answer(const Json& json, int status) {
@@ -82,10 +100,6 @@ HttpResponse store_failure(const std::string& text) {
 
 HttpResponse wrong_request(const std::string& text) {
   return error_response(400, "wrong_request", text);
-}
-
-HttpResponse no_such_scan(const std::string& id) {
-  return error_response(404, "no_such_scan", "No scan is called " + id + ".");
 }
 
 }  // namespace traygauge

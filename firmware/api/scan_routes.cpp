@@ -23,18 +23,13 @@ std::optional<std::size_t> page_size(const HttpRequest& request) {
   return is_number && size >= 1 && size <= kMaxScansAPage ? std::optional(size) : std::nullopt;
 }
 
-HttpResponse answer_one(Store& store, const StoredScan& scan) {
-  const Expected<Json> json = scan_answer(store, scan);
-  return json.ok() ? json_answer(*json) : store_failure(json.failure());
-}
-
 HttpResponse latest(HubStore& hub) {
   Store* const store = hub.store();
   if (store == nullptr) return store_failure(hub.problem());
   const Expected<std::optional<StoredScan>> scan = store->scans().latest();
   if (!scan.ok()) return store_failure(scan.failure());
   if (!*scan) return error_response(404, "no_scan_yet", "Nothing has been measured yet.");
-  return answer_one(*store, **scan);
+  return answer_scan(*store, **scan);
 }
 
 HttpResponse history(HubStore& hub, const HttpRequest& request) {
@@ -61,19 +56,6 @@ HttpResponse history(HubStore& hub, const HttpRequest& request) {
   return json_answer(json);
 }
 
-// `use` answers from the scan that the path names.
-template <class Use>
-HttpResponse with_scan(HubStore& hub, const HttpRequest& request, Use use) {
-  Store* const store = hub.store();
-  if (store == nullptr) return store_failure(hub.problem());
-  const std::string& text = *request.path_parameter("id");
-  const std::optional<ScanId> id = parse_scan_id(text);
-  if (!id) return no_such_scan(text);
-  const Expected<std::optional<StoredScan>> scan = store->scans().find(*id);
-  if (!scan.ok()) return store_failure(scan.failure());
-  return *scan ? use(*store, **scan) : no_such_scan(text);
-}
-
 }  // namespace
 
 void add_scan_routes(Router& router, const HubSite& site) {
@@ -82,8 +64,10 @@ void add_scan_routes(Router& router, const HubSite& site) {
       {"GET", "/api/v1/scans/latest", Role::view, 0, [&store](const HttpRequest&) { return latest(store); }});
   router.add({"GET", "/api/v1/scans", Role::view, 0,
               [&store](const HttpRequest& request) { return history(store, request); }});
-  router.add({"GET", "/api/v1/scans/{id}", Role::view, 0,
-              [&store](const HttpRequest& request) { return with_scan(store, request, answer_one); }});
+  router.add({"GET", "/api/v1/scans/{id}", Role::view, 0, [&store](const HttpRequest& request) {
+                return with_scan(store, request,
+                                 [](Store& open, const StoredScan& scan) { return answer_scan(open, scan); });
+              }});
   router.add({"GET", "/api/v1/scans/{id}/document", Role::view, 0, [&store](const HttpRequest& request) {
                 return with_scan(store, request,
                                  [](Store&, const StoredScan& scan) { return json_response(scan.document); });

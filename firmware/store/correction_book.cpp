@@ -149,11 +149,17 @@ Expected<std::optional<CorrectedScan>> CorrectionBook::corrected(const ScanId& i
   const auto stored = scans_.find(id);
   if (!stored.ok()) return Failure{stored.failure()};
   if (!*stored) return std::optional<CorrectedScan>();
-  const Expected<ScanDocument> document = read_scan_document((*stored)->document);
-  if (!document.ok()) return Failure{scan_id_text(id) + ": " + document.failure()};
-  const Expected<std::vector<Correction>> corrections = list((*stored)->seq);
+  Expected<CorrectedScan> scan = corrected(**stored);
+  if (!scan.ok()) return Failure{scan.failure()};
+  return std::optional(std::move(*scan));
+}
+
+Expected<CorrectedScan> CorrectionBook::corrected(const StoredScan& stored) {
+  const Expected<ScanDocument> document = read_scan_document(stored.document);
+  if (!document.ok()) return Failure{scan_id_text(stored.id) + ": " + document.failure()};
+  const Expected<std::vector<Correction>> corrections = list(stored.seq);
   if (!corrections.ok()) return Failure{corrections.failure()};
-  return std::optional(correct_scan(document->items, *corrections));
+  return correct_scan(document->items, *corrections);
 }
 
 }  // namespace traygauge

@@ -34,6 +34,9 @@ class CorrectionBook {
   Expected<std::vector<Correction>> list(const ScanId& id);
   // None where there is no such scan.
   Expected<std::optional<CorrectedScan>> corrected(const ScanId& id);
+  // The same two of a scan that was read.
+  Expected<std::vector<Correction>> list(const StoredScan& stored) { return list(stored.seq); }
+  Expected<CorrectedScan> corrected(const StoredScan& stored);
 
  private:
   Expected<std::vector<Correction>> list(std::int64_t seq);
