@@ -1,8 +1,8 @@
 #include <sstream>
 #include <string>
 
-#include "firmware/base/text.hpp"
 #include "firmware/base/csv_fields.hpp"
+#include "firmware/base/text.hpp"
 #include "firmware/evaluate/evaluation.hpp"
 
 namespace traygauge {

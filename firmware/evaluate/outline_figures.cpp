@@ -2,9 +2,9 @@
 
 #include <cmath>
 
+#include "firmware/base/csv_fields.hpp"
 #include "firmware/base/percent.hpp"
 #include "firmware/base/text.hpp"
-#include "firmware/base/csv_fields.hpp"
 #include "firmware/evaluate/protocol.hpp"
 #include "firmware/evaluate/statistics.hpp"
 #include "firmware/evaluate/table_cells.hpp"

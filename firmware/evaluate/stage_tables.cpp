@@ -1,8 +1,8 @@
 // What run_stages() found, for the terminal and for spreadsheets.
 #include <sstream>
 
-#include "firmware/base/text.hpp"
 #include "firmware/base/csv_fields.hpp"
+#include "firmware/base/text.hpp"
 #include "firmware/evaluate/stage_analysis.hpp"
 #include "firmware/evaluate/table_cells.hpp"
 
