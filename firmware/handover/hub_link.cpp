@@ -85,7 +85,7 @@ Expected<void> HubLink::connect() {
   }
   connection_ = std::move(*connected);
   reader_ = MessageReader();
-  const Json hello = {{"station", params_.station}, {"version", 1}, {"program", params_.program_version}};
+  const Json hello = {{"station", params_.station}, {"program", params_.program_version}};
   const Expected<void> sent =
       connection_.send_all(encode({MessageType::hello, hello.dump(), {}}), params_.answer_timeout);
   if (!sent.ok()) {

@@ -13,11 +13,10 @@ namespace traygauge {
 
 enum class MessageType : std::uint8_t {
   // from the station
-  hello,  // first on every connection: {"station","program","version"}
+  hello,  // first on every connection: {"station","program"}
   scan,   // {"id"} and, as bytes, the scan's document, to be stored; answered by stored, set_aside or refused
   state,  // what the station does now: {"state",…}; not answered
   // from the hub
-  welcome,    // {"version"}
   stored,     // {"id"}: the scan is on disk, now or since an earlier delivery
   set_aside,  // {"id","why"}: kept on disk, but it is no scan that can be booked
   refused,    // {"id","why"}: not on disk; try again later

@@ -74,14 +74,15 @@ bool ScanHandover::hand_over_kept() {
 }
 
 bool ScanHandover::has_room() {
-  const bool has_room = kept_.has_room();
-  if (!has_room)
+  const bool was_full = std::exchange(is_full_, !kept_.has_room());
+  if (is_full_) {
     note_disk("no room for a further result: " + std::to_string(kept_.waiting_count()) +
               " wait for the hub, and nothing is measured until it takes them; start the hub, or look at its "
               "disk");
-  else if (disk_problem_.starts_with("no room"))
+  } else if (was_full) {
     note_disk({});
-  return has_room;
+  }
+  return !is_full_;
 }
 
 void ScanHandover::attend() {

@@ -62,6 +62,7 @@ class ScanHandover final : public ResultSink {
   std::map<std::string, std::string, std::less<>> faults_;  // sentences by device
   std::string hub_problem_;                                 // empty while the hub takes what it is given
   std::string disk_problem_;                                // empty while results can be kept
+  bool is_full_ = false;                                    // which is what disk_problem_ tells
   SteadyClock::time_point asked_at_;                        // of the last attempt that failed
   bool was_refused_ = false;
   SteadyClock::time_point told_at_;

@@ -6,15 +6,14 @@ namespace traygauge {
 
 Expected<HubStore> HubStore::open(HubStoreParams params) {
   HubStore hub_store(std::move(params));
-  if (const Expected<void> opened = hub_store.reopen(); !opened.ok()) return Failure{opened.failure()};
+  if (const auto opened = hub_store.reopen(); !opened.ok()) return Failure{opened.failure()};
   return hub_store;
 }
 
-Expected<void> HubStore::reopen() {
+Expected<std::vector<std::string>> HubStore::reopen() {
   tried_at_ = std::chrono::steady_clock::now();
   // One process has the file at a time: this one has to let go of it first.
   store_.reset();
-  new_notices_.clear();
   Expected<OpenedStore> opened = open_store(params_.options, read_wall_clock());
   if (!opened.ok()) {
     problem_ = opened.failure();
@@ -22,9 +21,8 @@ Expected<void> HubStore::reopen() {
   }
   store_ = std::move(opened->store);
   problem_.clear();
-  new_notices_ = opened->notices;
-  for (const std::string& notice : new_notices_) add_notice(notice);
-  return {};
+  for (const std::string& notice : opened->notices) add_notice(notice);
+  return std::move(opened->notices);
 }
 
 std::vector<std::string> HubStore::tend(std::chrono::steady_clock::time_point now) {
@@ -32,10 +30,13 @@ std::vector<std::string> HubStore::tend(std::chrono::steady_clock::time_point no
   if (store_ == nullptr || store_->is_damaged()) {
     if (store_ == nullptr && now - tried_at_ < params_.reopen_after) return sentences;
     const std::string before = problem_;
-    const Expected<void> opened = reopen();
-    if (!opened.ok() && opened.failure() != before) sentences.push_back(opened.failure());
-    if (opened.ok() && !before.empty()) sentences.emplace_back("The store of results can be used again.");
-    sentences.insert(sentences.end(), new_notices_.begin(), new_notices_.end());
+    const Expected<std::vector<std::string>> notices = reopen();
+    if (!notices.ok()) {
+      if (notices.failure() != before) sentences.push_back(notices.failure());
+      return sentences;
+    }
+    if (!before.empty()) sentences.emplace_back("The store of results can be used again.");
+    sentences.insert(sentences.end(), notices->begin(), notices->end());
     return sentences;
   }
   if (now - tidied_at_ < params_.tidy_every) return sentences;

@@ -40,14 +40,14 @@ class HubStore {
  private:
   explicit HubStore(HubStoreParams params) : params_(std::move(params)) {}
 
-  Expected<void> reopen();
+  // What the opening has to tell.
+  Expected<std::vector<std::string>> reopen();
   void add_notice(const std::string& text);
 
   HubStoreParams params_;
   std::unique_ptr<Store> store_;
   std::string problem_;
   std::deque<std::string> notices_;
-  std::vector<std::string> new_notices_;  // of the last opening
   std::chrono::steady_clock::time_point tidied_at_;
   std::chrono::steady_clock::time_point tried_at_;
 };

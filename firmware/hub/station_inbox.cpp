@@ -113,7 +113,6 @@ void StationInbox::greet(Peer& peer, const Message& message) {
   live.is_connected = true;
   live.program = text_of(hello, "program");
   live.heard_at = SteadyClock::now();
-  send(peer, {MessageType::welcome, R"({"version":1})", {}});
   if (told_.on_state) told_.on_state(station);
 }
 

@@ -85,7 +85,7 @@ TEST_F(HubLinkTest, EndsWithinItsTimeWhateverTheHubDoes) {
         if (message.type != MessageType::scan || behaviour == "silent") return {};
         if (behaviour == "hangs up") return {{MessageType::stored, kHangUp, {}}};
         if (behaviour == "talks nonsense") return {{MessageType::hello, "?", {}}};
-        return std::vector<Message>(100, {MessageType::welcome, "{}", {}});
+        return std::vector<Message>(100, {MessageType::state, "{}", {}});
       });
     HubLink link(params());
     const auto begin = std::chrono::steady_clock::now();
