@@ -276,35 +276,6 @@ DeviceStatus Station::wait_for_release(bool& was_held) {
   return was_held ? DeviceCode::ok : status;
 }
 
-// A picture that the one before it confirms: damage that the camera does not notice, such as rows of an older
-// picture, can otherwise pass for food.
-DeviceStatus Station::capture(Camera& camera, View& view) {
-  const Instant not_before = devices_.clock.now();
-  DeviceStatus failure = DeviceCode::unsteady;
-  auto& [last, current] = means_;
-  current.clear();
-  for (int attempt = 0; attempt < params_.capture_attempts; ++attempt) {
-    const DeviceStatus status = capture_once(camera, view, not_before);
-    if (status.code() == DeviceCode::device_gone) return status;
-    if (!status.ok()) {
-      failure = status;
-      continue;
-    }
-    std::swap(last, current);
-    current.compute(view.frame.view);
-    if (current.agrees_with(last, params_.steadiness)) return DeviceCode::ok;
-    if (!last.empty()) failure = DeviceCode::unsteady;
-  }
-  return failure;
-}
-
-// Exposed after `not_before`, so that nothing moved in it.
-DeviceStatus Station::capture_once(Camera& camera, View& view, Instant not_before) const {
-  const DeviceStatus status = camera.capture(view.pixels, params_.capture_timeout, view.frame);
-  const bool is_old = status.ok() && view.frame.exposed_at < not_before;
-  return is_old ? DeviceStatus(DeviceCode::stale_frame) : status;
-}
-
 // NOLINTNEXTLINE(readability-make-member-function-const): the station's arm moves
 DeviceStatus Station::begin_return() {
   if (devices_.arm == nullptr) return DeviceCode::ok;

@@ -1,5 +1,6 @@
-// How the station opens its devices, and how it goes on when one of them fails.
+// How the station opens its devices and takes pictures, and how it goes on when a device fails.
 #include <algorithm>
+#include <utility>
 
 #include "firmware/station/station.hpp"
 
@@ -63,6 +64,35 @@ DeviceStatus Station::open_camera(Camera& camera) {
     second_.pixels.resize(frame_bytes);
   for (BlockMeans& means : means_) means.reserve(format.width, format.height);
   return status;
+}
+
+// A picture that the one before it confirms: damage that the camera does not notice, such as rows of an older
+// picture, can otherwise pass for food.
+DeviceStatus Station::capture(Camera& camera, View& view) {
+  const Instant not_before = devices_.clock.now();
+  DeviceStatus failure = DeviceCode::unsteady;
+  auto& [last, current] = means_;
+  current.clear();
+  for (int attempt = 0; attempt < params_.capture_attempts; ++attempt) {
+    const DeviceStatus status = capture_once(camera, view, not_before);
+    if (status.code() == DeviceCode::device_gone) return status;
+    if (!status.ok()) {
+      failure = status;
+      continue;
+    }
+    std::swap(last, current);
+    current.compute(view.frame.view);
+    if (current.agrees_with(last, params_.steadiness)) return DeviceCode::ok;
+    if (!last.empty()) failure = DeviceCode::unsteady;
+  }
+  return failure;
+}
+
+// Exposed after `not_before`, so that nothing moved in it.
+DeviceStatus Station::capture_once(Camera& camera, View& view, Instant not_before) const {
+  const DeviceStatus status = camera.capture(view.pixels, params_.capture_timeout, view.frame);
+  const bool is_old = status.ok() && view.frame.exposed_at < not_before;
+  return is_old ? DeviceStatus(DeviceCode::stale_frame) : status;
 }
 
 // Told when it is new; the same failure again only makes the next try later.
