@@ -6,6 +6,9 @@
 
 #include <cstdlib>
 #include <stdexcept>
+#include <vector>
+
+#include "tests/firmware/store/sample_scan.hpp"
 
 namespace traygauge::test {
 namespace {
@@ -95,26 +98,15 @@ Answer HubRig::post(const std::string& target, const std::string& body, const st
 
 void HubRig::store(int number, double volume_ml, int seconds, const std::string& status) {
   constexpr std::int64_t kBeginMs = 1795762800000;  // 2026-11-27 07:00:00 UTC
-  const std::string id = "kitchen-" + std::to_string(number);
-  Json items = Json::array();
-  if (status == "ok")
-    items.push_back(
-        {{"label", 2}, {"dish", 1}, {"status", "ok"}, {"volume_ml", volume_ml}, {"sigma_ml", 2.0}});
-  const Json document = {{"version", 2},
-                         {"id", id},
-                         {"station", "kitchen"},
-                         {"number", number},
-                         {"taken_at", utc_text(kBeginMs + 1000 * seconds)},
-                         {"clock_synchronised", true},
-                         {"supersedes", nullptr},
-                         {"tray", "tray, \"one\""},
-                         {"status", status},
-                         {"message", "Measured."},
-                         {"items", items},
-                         {"relative_angle_deg", 18.0},
-                         {"duration_ms", 900.0},
-                         {"timing_ms", nullptr},
-                         {"warnings", Json::array()}};
+  SampleScan scan;
+  scan.id.number = static_cast<std::uint64_t>(number);
+  scan.taken_ms = kBeginMs + std::int64_t{1000} * seconds;
+  scan.tray = "tray, \"one\"";
+  scan.status = status;
+  scan.foods = status == "ok" ? std::vector<std::string>{"rice"} : std::vector<std::string>();
+  Json document = Json::parse(sample_document(scan));
+  for (Json& item : document["items"]) item["volume_ml"] = volume_ml;
+  const std::string id = scan_id_text(scan.id);
   const HubReply reply = station_->deliver(id, document.dump());
   if (reply.answer != HubAnswer::stored) throw std::runtime_error("not stored: " + reply.text);
 }

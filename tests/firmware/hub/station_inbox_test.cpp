@@ -4,7 +4,6 @@
 
 #include <atomic>
 #include <chrono>
-#include <nlohmann/json.hpp>
 #include <random>
 #include <string>
 #include <thread>
@@ -12,33 +11,18 @@
 
 #include "firmware/handover/hub_link.hpp"
 #include "firmware/hub/hub.hpp"
+#include "tests/firmware/store/sample_scan.hpp"
 #include "tests/support/random_seed.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace traygauge::test {
 namespace {
 
-using Json = nlohmann::json;
-
-std::string document(const std::string& station, int number, double volume_ml = 100.0) {
-  const Json item = {
-      {"label", 2}, {"dish", 1}, {"status", "ok"}, {"volume_ml", volume_ml}, {"sigma_ml", 2.0}};
-  return Json{{"version", 2},
-              {"id", station + "-" + std::to_string(number)},
-              {"station", station},
-              {"number", number},
-              {"taken_at", "2026-11-27T07:40:12.345Z"},
-              {"clock_synchronised", false},
-              {"supersedes", nullptr},
-              {"tray", nullptr},
-              {"status", "ok"},
-              {"message", "Measured."},
-              {"items", Json::array({item})},
-              {"relative_angle_deg", 18.0},
-              {"duration_ms", 900.0},
-              {"timing_ms", nullptr},
-              {"warnings", Json::array()}}
-      .dump();
+std::string document(const std::string& station, int number, const std::string& tray = "tray 12") {
+  SampleScan scan;
+  scan.id = {station, static_cast<std::uint64_t>(number)};
+  scan.tray = tray;
+  return sample_document(scan);
 }
 
 // A hub in a thread of its own.
@@ -108,8 +92,8 @@ TEST_F(Inbox, ServesSeveralStations) {
 
 TEST_F(Inbox, AnotherDocumentOfTheSameIdIsSetAside) {
   HubLink link = link_of("kitchen");
-  EXPECT_EQ(link.deliver("kitchen-1", document("kitchen", 1, 100.0)).answer, HubAnswer::stored);
-  const HubReply reply = link.deliver("kitchen-1", document("kitchen", 1, 200.0));
+  EXPECT_EQ(link.deliver("kitchen-1", document("kitchen", 1, "tray 12")).answer, HubAnswer::stored);
+  const HubReply reply = link.deliver("kitchen-1", document("kitchen", 1, "tray 13"));
   EXPECT_EQ(reply.answer, HubAnswer::set_aside);
   EXPECT_FALSE(reply.text.empty());
   const ScanCounts found = totals();
