@@ -5,6 +5,8 @@
 #include <chrono>
 #include <filesystem>
 #include <functional>
+#include <memory>
+#include <optional>
 #include <string>
 
 #include "firmware/base/expected.hpp"
@@ -18,7 +20,8 @@ struct HubParams {
   std::filesystem::path socket;
   HubStoreParams store;
   StationInboxParams inbox;
-  WebConfig web;  // without addresses nothing is served
+  WebConfig web;                              // without addresses nothing is served
+  std::optional<std::filesystem::path> page;  // the folder of the page's files; none: only the API is served
 };
 
 // One sentence for each thing that happened.

@@ -2,11 +2,13 @@
 
 #include <chrono>
 #include <ostream>
+#include <utility>
 
 #include "firmware/base/exit_status.hpp"
 #include "firmware/command/program.hpp"
 #include "firmware/config/hub_tables.hpp"
 #include "firmware/hub/hub.hpp"
+#include "firmware/hub/page_files.hpp"
 
 namespace traygauge {
 namespace {
@@ -48,12 +50,16 @@ void add_hub_options(Program& program, HubCommand& command) {
 int run_hub(const HubCommand& command, const std::atomic<bool>& stop, std::ostream& out, std::ostream& log) {
   const HubFile file = choose(command);
   const auto write = [&log](const std::string& sentence) { log << sentence << std::endl; };
-  const Expected<std::unique_ptr<Hub>> hub = Hub::start(params_of(file), write);
+  HubParams params = params_of(file);
+  params.page = find_page_folder();
+  const bool has_page = params.page.has_value();
+  const Expected<std::unique_ptr<Hub>> hub = Hub::start(std::move(params), write);
   if (!hub.ok()) throw UsageError(hub.failure());
   out << "The hub stores results in " << file.hub.store.string() << " and listens at " << file.socket.string()
       << "." << std::endl;
   if ((*hub)->web() != nullptr)
-    out << "The API is served at " << (*hub)->web()->addresses() << "." << std::endl;
+    out << (has_page ? "The page is at " : "No page is installed; the API is at ")
+        << (*hub)->web()->addresses() << "." << std::endl;
   (*hub)->run(stop);
   return kExitMeasured;
 }

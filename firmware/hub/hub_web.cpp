@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "firmware/hub/page_files.hpp"
 #include "firmware/web/login.hpp"
 
 namespace traygauge {
@@ -42,8 +43,9 @@ Expected<std::vector<ListenAddress>> listen_addresses(const WebConfig& config) {
 
 }  // namespace
 
-Expected<std::unique_ptr<HubWeb>> HubWeb::start(const WebConfig& config, HubStore& store,
-                                                StationInbox& inbox) {
+Expected<std::unique_ptr<HubWeb>> HubWeb::start(const WebConfig& config,
+                                                const std::optional<std::filesystem::path>& page,
+                                                HubStore& store, StationInbox& inbox) {
   Expected<AccessParams> access = access_params(config);
   if (!access.ok()) return Failure{access.failure()};
   const Expected<std::vector<ListenAddress>> addresses = listen_addresses(config);
@@ -54,6 +56,10 @@ Expected<std::unique_ptr<HubWeb>> HubWeb::start(const WebConfig& config, HubStor
       new HubWeb(std::move(*access), {config.host_names, std::move(*base)}, store, inbox));
   if (const Expected<void> may = web->access_.check_listen(*addresses); !may.ok())
     return of_key("listen", may);
+  if (page) {
+    const Expected<void> read = read_page(*page, web->files_);
+    if (!read.ok()) return Failure{read.failure()};
+  }
   std::vector<Listener> listeners;
   for (const ListenAddress& address : *addresses) {
     Expected<Listener> listener = Listener::open(address);

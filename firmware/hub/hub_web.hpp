@@ -1,7 +1,8 @@
-// The hub's API over HTTP.
+// The hub's API and page over HTTP.
 #pragma once
 
 #include <chrono>
+#include <filesystem>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -23,9 +24,10 @@ namespace traygauge {
 class HubWeb {
  public:
   // Fails, with the key, where an address or a token file is of no use, and where others than this machine
-  // would be served without a token.
-  static Expected<std::unique_ptr<HubWeb>> start(const WebConfig& config, HubStore& store,
-                                                 StationInbox& inbox);
+  // would be served without a token; and where a file of the page, in the folder `page`, cannot be read.
+  static Expected<std::unique_ptr<HubWeb>> start(const WebConfig& config,
+                                                 const std::optional<std::filesystem::path>& page,
+                                                 HubStore& store, StationInbox& inbox);
   HubWeb(const HubWeb&) = delete;
   HubWeb& operator=(const HubWeb&) = delete;
 

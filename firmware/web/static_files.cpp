@@ -29,6 +29,12 @@ constexpr auto kFileTypes = std::to_array<FileType>({
     {".txt", "text/plain; charset=utf-8"},
 });
 
+const FileType* type_of(std::string_view name) {
+  const auto* const type = std::find_if(kFileTypes.begin(), kFileTypes.end(),
+                                        [name](const FileType& t) { return name.ends_with(t.ending); });
+  return type == kFileTypes.end() ? nullptr : type;
+}
+
 // FNV-1a, 64 bits: a changed file gets another tag. Nobody gains by making two alike.
 std::string entity_tag(const std::string& content) {
   std::uint64_t hash = 0xcbf29ce484222325U;
@@ -55,11 +61,13 @@ bool names_tag(std::string_view list, std::string_view tag) {
 
 }  // namespace
 
+bool StaticFiles::may_hold(std::string_view name) {
+  return type_of(name) != nullptr;
+}
+
 Expected<void> StaticFiles::add(std::string name, std::string content) {
-  const auto* const type = std::find_if(kFileTypes.begin(), kFileTypes.end(),
-                                        [&name](const FileType& t) { return name.ends_with(t.ending); });
-  if (type == kFileTypes.end())
-    return Failure{name + ": a file of the page has an ending such as .html or .js"};
+  const FileType* const type = type_of(name);
+  if (type == nullptr) return Failure{name + ": a file of the page has an ending such as .html or .js"};
   if (bytes_ + content.size() > kMaxBytes)
     return Failure{name + ": the page's files have more than " + std::to_string(kMaxBytes) +
                    " bytes together"};

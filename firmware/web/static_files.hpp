@@ -19,6 +19,8 @@ class StaticFiles {
   // Together; a page is some 300 kB, the 3-D library 1.3 MB.
   static constexpr std::size_t kMaxBytes = 4UL * 1024 * 1024;
 
+  // Whether a file of that name has one of the endings of which a page is made.
+  static bool may_hold(std::string_view name);
   // A file at /`name`, such as "index.html" or "icons/cup.svg"; the ending tells its type.
   Expected<void> add(std::string name, std::string content);
   // Reads those files, and no others, from a folder.
