@@ -6,6 +6,7 @@
 
 #include "firmware/base/wall_clock.hpp"
 #include "firmware/hub/hub_store.hpp"
+#include "firmware/hub/shape_shelf.hpp"
 #include "firmware/hub/station_inbox.hpp"
 #include "firmware/web/event_streams.hpp"
 #include "firmware/web/http_server.hpp"
@@ -16,6 +17,7 @@ namespace traygauge {
 struct HubSite {
   HubStore& store;
   StationInbox& inbox;
+  const ShapeShelf& shapes;
   EventStreams& events;
   std::function<HttpCounts()> http;
   std::function<WallTime()> wall_clock = read_wall_clock;
@@ -24,6 +26,7 @@ struct HubSite {
 
 // Everything below /api/v1, /health and /metrics; firmware/README.md lists it.
 void add_scan_routes(Router& router, const HubSite& site);
+void add_shape_routes(Router& router, const HubSite& site);
 void add_correction_routes(Router& router, const HubSite& site);
 void add_export_routes(Router& router, const HubSite& site);
 void add_station_routes(Router& router, const HubSite& site);

@@ -61,10 +61,10 @@ HubReply HubLink::deliver(std::string_view id, const std::string& document) {
   }
 }
 
-void HubLink::tell(const Message& message) {
+void HubLink::tell(const Message& message, Milliseconds longest_wait) {
   if (!connect().ok()) return;
-  // A state is small: what the socket does not take at once belongs to a hub that hangs.
-  if (!connection_.send_all(encode(message), Milliseconds::zero()).ok()) disconnect();
+  // Half a message is of no use, and a hub that reads takes it in a few milliseconds: this one hangs.
+  if (!connection_.send_all(encode(message), longest_wait).ok()) disconnect();
 }
 
 void HubLink::attend() {

@@ -45,8 +45,8 @@ class HubLink {
 
   // Hands a scan's document over and waits for the answer about `id`.
   HubReply deliver(std::string_view id, const std::string& document);
-  // Tells what cannot be answered; lost where the hub is away or slow.
-  void tell(const Message& message);
+  // Tells what is not answered; lost where the hub is away or does not take it in time.
+  void tell(const Message& message, Milliseconds longest_wait = Milliseconds::zero());
   // Reads what the hub said on its own account, without waiting; connects where nothing is connected.
   void attend();
 

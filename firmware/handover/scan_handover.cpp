@@ -4,6 +4,7 @@
 #include <ostream>
 #include <utility>
 
+#include "firmware/handover/scan_shape.hpp"
 #include "firmware/station/scan_printer.hpp"
 
 namespace traygauge {
@@ -27,6 +28,7 @@ Delivery ScanHandover::deliver(const ScanResult& result) {
   if (result.measurement != nullptr) last_id_ = *id;
   const std::string document = scan_json(result, &identity);
   const std::string text = scan_id_text(*id);
+  shape_ = result.measurement != nullptr ? compose_shape(*result.measurement, text) : std::string();
   // In the order in which they were measured: what waits goes first.
   const bool waits_already = kept_.waiting_count() > 0;
   if (!waits_already && hand_over(text, document)) return Delivery::done;
@@ -88,6 +90,7 @@ bool ScanHandover::has_room() {
 void ScanHandover::attend() {
   link_.attend();
   hand_over_kept();
+  tell_shape();
   if (link_.take_is_new() || SteadyClock::now() - told_at_ >= params_.heartbeat) tell_state();
 }
 
@@ -115,6 +118,13 @@ void ScanHandover::report_recovery(std::string_view what) {
     faults_.clear();
   }
   tell_state();
+}
+
+// Only for looking at: who presses the button does not wait for it, and none is kept for a hub that is away.
+void ScanHandover::tell_shape() {
+  if (shape_.empty()) return;
+  const nlohmann::json text = {{"id", scan_id_text(*last_id_)}};
+  link_.tell({MessageType::shape, text.dump(), std::exchange(shape_, {})}, params_.longest_shape);
 }
 
 void ScanHandover::tell_state() {

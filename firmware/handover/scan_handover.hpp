@@ -21,6 +21,8 @@ struct ScanHandoverParams {
   Milliseconds longest_attention{300};
   // A hub that refuses or hangs is asked again so much later.
   Milliseconds retry_after{2000};
+  // A shape has some 200 kB, of which a socket holds half.
+  Milliseconds longest_shape{100};
   // The hub calls a station silent that says nothing for longer: see its health.
   Milliseconds heartbeat{2000};
 };
@@ -45,6 +47,7 @@ class ScanHandover final : public ResultSink {
   Delivery keep(const std::string& id, const std::string& document);
   bool hand_over(const std::string& id, const std::string& document);
   bool hand_over_kept();
+  void tell_shape();
   void tell_state();
   void log_notices();
   void note_hub(const HubReply& reply);
@@ -59,6 +62,7 @@ class ScanHandover final : public ResultSink {
   std::string state_ = "starting";
   WallTime pressed_at_;
   std::optional<ScanId> last_id_;                           // of the last result with a measurement
+  std::string shape_;                                       // of that result; empty once the hub was told
   std::map<std::string, std::string, std::less<>> faults_;  // sentences by device
   std::string hub_problem_;                                 // empty while the hub takes what it is given
   std::string disk_problem_;                                // empty while results can be kept

@@ -14,7 +14,8 @@ Expected<std::unique_ptr<Hub>> Hub::start(HubParams params, HubLog log) {
   for (const std::string& notice : store->notices()) log(notice);
   std::unique_ptr<Hub> hub(new Hub(std::move(*store), std::move(*listener), params, std::move(log)));
   if (params.web.listen.empty()) return hub;
-  Expected<std::unique_ptr<HubWeb>> web = HubWeb::start(params.web, params.page, hub->store_, hub->inbox_);
+  Expected<std::unique_ptr<HubWeb>> web =
+      HubWeb::start(params.web, params.page, hub->store_, hub->inbox_, hub->shapes_);
   if (!web.ok()) return Failure{web.failure()};
   hub->web_ = std::move(*web);
   return hub;
@@ -52,6 +53,11 @@ StationListener Hub::listener_for_inbox() {
   };
   listener.on_state = [this](const std::string& station) {
     if (web_ != nullptr) web_->tell_station(station);
+  };
+  listener.on_shape = [this](const ScanId& id, std::string shape) {
+    if (const Expected<void> put = shapes_.put(id, std::move(shape)); !put.ok())
+      return log_problem(put.failure());
+    if (web_ != nullptr) web_->tell_shape(id);
   };
   listener.on_problem = [this](const std::string& problem) { log_problem(problem); };
   return listener;

@@ -12,6 +12,7 @@
 #include "firmware/base/expected.hpp"
 #include "firmware/hub/hub_store.hpp"
 #include "firmware/hub/hub_web.hpp"
+#include "firmware/hub/shape_shelf.hpp"
 #include "firmware/hub/station_inbox.hpp"
 
 namespace traygauge {
@@ -52,6 +53,7 @@ class Hub {
   HubLog log_;
   std::string last_problem_;
   HubStore store_;
+  ShapeShelf shapes_;
   StationInbox inbox_;
   std::unique_ptr<HubWeb> web_;
 };

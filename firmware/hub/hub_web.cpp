@@ -45,7 +45,8 @@ Expected<std::vector<ListenAddress>> listen_addresses(const WebConfig& config) {
 
 Expected<std::unique_ptr<HubWeb>> HubWeb::start(const WebConfig& config,
                                                 const std::optional<std::filesystem::path>& page,
-                                                HubStore& store, StationInbox& inbox) {
+                                                HubStore& store, StationInbox& inbox,
+                                                const ShapeShelf& shapes) {
   Expected<AccessParams> access = access_params(config);
   if (!access.ok()) return Failure{access.failure()};
   const Expected<std::vector<ListenAddress>> addresses = listen_addresses(config);
@@ -53,7 +54,7 @@ Expected<std::unique_ptr<HubWeb>> HubWeb::start(const WebConfig& config,
   Expected<std::vector<std::string>> base = parse_base_path(config.base_path);
   if (!base.ok()) return of_key("base_path", base);
   std::unique_ptr<HubWeb> web(
-      new HubWeb(std::move(*access), {config.host_names, std::move(*base)}, store, inbox));
+      new HubWeb(std::move(*access), {config.host_names, std::move(*base)}, store, inbox, shapes));
   if (const Expected<void> may = web->access_.check_listen(*addresses); !may.ok())
     return of_key("listen", may);
   if (page) {
@@ -72,12 +73,14 @@ Expected<std::unique_ptr<HubWeb>> HubWeb::start(const WebConfig& config,
   return web;
 }
 
-HubWeb::HubWeb(AccessParams access, SiteParams site, HubStore& store, StationInbox& inbox)
-    : access_(std::move(access)), events_(EventStreamLimits{}), hub_site_{store, inbox, events_, [this] {
-                                                                            return server_->counts();
-                                                                          }} {
+HubWeb::HubWeb(AccessParams access, SiteParams site, HubStore& store, StationInbox& inbox,
+               const ShapeShelf& shapes)
+    : access_(std::move(access)),
+      events_(EventStreamLimits{}),
+      hub_site_{store, inbox, shapes, events_, [this] { return server_->counts(); }} {
   add_login_routes(router_, access_);
   add_scan_routes(router_, hub_site_);
+  add_shape_routes(router_, hub_site_);
   add_correction_routes(router_, hub_site_);
   add_export_routes(router_, hub_site_);
   add_station_routes(router_, hub_site_);
@@ -88,6 +91,10 @@ HubWeb::HubWeb(AccessParams access, SiteParams site, HubStore& store, StationInb
 
 void HubWeb::tell_scan(const ScanId& id) {
   events_.broadcast({"scan", nlohmann::json{{"id", scan_id_text(id)}}.dump(), {}});
+}
+
+void HubWeb::tell_shape(const ScanId& id) {
+  events_.broadcast({"shape", nlohmann::json{{"id", scan_id_text(id)}}.dump(), {}});
 }
 
 void HubWeb::tell_station(const std::string& station) {

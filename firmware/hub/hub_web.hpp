@@ -27,7 +27,8 @@ class HubWeb {
   // would be served without a token; and where a file of the page, in the folder `page`, cannot be read.
   static Expected<std::unique_ptr<HubWeb>> start(const WebConfig& config,
                                                  const std::optional<std::filesystem::path>& page,
-                                                 HubStore& store, StationInbox& inbox);
+                                                 HubStore& store, StationInbox& inbox,
+                                                 const ShapeShelf& shapes);
   HubWeb(const HubWeb&) = delete;
   HubWeb& operator=(const HubWeb&) = delete;
 
@@ -36,12 +37,14 @@ class HubWeb {
   void run() { server_->run(); }
 
   void tell_scan(const ScanId& id);
+  void tell_shape(const ScanId& id);
   void tell_station(const std::string& station);
   // "http://127.0.0.1:8080"; with the ports that were taken.
   std::string addresses() const;
 
  private:
-  HubWeb(AccessParams access, SiteParams site, HubStore& store, StationInbox& inbox);
+  HubWeb(AccessParams access, SiteParams site, HubStore& store, StationInbox& inbox,
+         const ShapeShelf& shapes);
 
   Access access_;
   Router router_;

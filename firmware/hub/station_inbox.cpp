@@ -89,6 +89,8 @@ void StationInbox::take_on(Peer& peer, Message message) {
       return keep(peer, message);
     case MessageType::state:
       return hear_state(peer, std::move(message));
+    case MessageType::shape:
+      return hear_shape(peer, std::move(message));
     default:
       report("station " + peer.station + " sent " + name(message.type) + ", which a hub says");
   }
@@ -154,6 +156,13 @@ void StationInbox::hear_state(const Peer& peer, Message message) {
   live.state = std::move(message.text);
   live.heard_at = SteadyClock::now();
   if (told_.on_state) told_.on_state(peer.station);
+}
+
+void StationInbox::hear_shape(const Peer& peer, Message message) const {
+  const std::optional<ScanId> id = parse_scan_id(text_of(parsed(message.text), "id"));
+  if (!id || id->station != peer.station)
+    return report("station " + peer.station + ": expected the shape of a scan of its own, found another");
+  if (told_.on_shape) told_.on_shape(*id, std::move(message.bytes));
 }
 
 // Answers are short: a station that does not read them hangs, and asks again once it lives.

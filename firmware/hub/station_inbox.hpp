@@ -38,6 +38,7 @@ struct LiveStation {
 struct StationListener {
   std::function<void(const ScanId& id)> on_stored;  // new in the store
   std::function<void(const std::string& station)> on_state;
+  std::function<void(const ScanId& id, std::string shape)> on_shape;
   std::function<void(const std::string& problem)> on_problem;  // a sentence for the log
 };
 
@@ -70,6 +71,7 @@ class StationInbox {
   void keep(Peer& peer, const Message& message);
   Message store(const Peer& peer, const std::string& id, const std::string& document);
   void hear_state(const Peer& peer, Message message);
+  void hear_shape(const Peer& peer, Message message) const;
   static void send(Peer& peer, const Message& message);
   void forget(Peer& peer);
   void report(const std::string& problem) const;

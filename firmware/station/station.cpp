@@ -93,9 +93,9 @@ StationState Station::step() {
 
 // The last result stays on the lamp for a while, unless the next press comes first.
 StationState Station::wait_for_press() {
-  if (stop_ || (params_.max_scans > 0 && totals_.scans >= params_.max_scans)) return StationState::finished;
   const Instant now = devices_.clock.now();
   sink_.attend();
+  if (stop_ || (params_.max_scans > 0 && totals_.scans >= params_.max_scans)) return StationState::finished;
   const bool has_room = sink_.has_room();
   if (now >= result_until_) show(has_room ? Signal::ready : Signal::fault);
   const Nanoseconds wait =

@@ -13,6 +13,7 @@
 #include "core/pipeline/measurement.hpp"
 #include "firmware/journal/posix_file_system.hpp"
 #include "firmware/station/scan_printer.hpp"
+#include "tests/firmware/handover/drawn_tray.hpp"
 #include "tests/firmware/handover/fake_hub.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -86,6 +87,21 @@ TEST_F(Handover, IsDoneOnceTheHubHasStored) {
   EXPECT_EQ(documents[0]["items"][0]["volume_ml"], 100.0);
   EXPECT_TRUE(documents[0]["supersedes"].is_null());
   EXPECT_NE(out_.str().find("100.0 ml"), std::string::npos);
+}
+
+TEST_F(Handover, ShowsTheHubWhatTheTrayLooksLikeOnce) {
+  const DrawnTray tray;
+  result_.measurement = &tray.measurement();
+  const FakeHub hub(socket(), store_all);
+  Run run(folder_.path(), out_, log_);
+  EXPECT_EQ(run.sink->deliver(result_), Delivery::done);
+  EXPECT_TRUE(hub.received(MessageType::shape).empty());  // the lamp comes first
+  run.sink->attend();
+  run.sink->attend();
+  EXPECT_EQ(run.sink->deliver(result_), Delivery::done);  // everything before it has arrived
+  const std::vector<Message> shapes = hub.received(MessageType::shape);
+  ASSERT_EQ(shapes.size(), 1U);
+  EXPECT_EQ(Json::parse(shapes[0].bytes)["id"], "kitchen-1");
 }
 
 TEST_F(Handover, IsKeptWhileTheHubIsAwayAndHandedOverInOrder) {
