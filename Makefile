@@ -34,8 +34,9 @@ build: configure
 build-all: configure
 	cmake --build --preset release -j $(JOBS)
 
+# A hub and a simulated station until Ctrl-C. DEMO_SCANS=2: ends by itself. DEMO_LISTEN=127.0.0.1:9000: another address.
 demo: build
-	build/traygauge station --devices simulator:simulator/demo
+	simulator/run_demo.sh build
 
 # On CI what the board and ARM need is fetched beside the build.
 test-programs:

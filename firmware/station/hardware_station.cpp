@@ -25,6 +25,8 @@ std::vector<DishDescription> read_dishes(const std::filesystem::path& file) {
 int run_hardware_station(const StationCommand& command, const std::filesystem::path& file,
                          const std::atomic<bool>& stop, std::ostream& out, std::ostream& log) {
   if (!command.faults.empty()) throw UsageError("--faults: only simulated devices fail as a script says");
+  if (command.repeat || command.real_time)
+    throw UsageError("--repeat, --real-time: for played captures; real devices take their own time");
   if (!command.hub.socket.empty()) {
     throw UsageError("--hub: for played captures; a station's hub is in " + file.string() +
                      ", under [station]");

@@ -1,5 +1,6 @@
 #include "firmware/station/station_command.hpp"
 
+#include <limits>
 #include <ostream>
 #include <string_view>
 
@@ -29,6 +30,8 @@ constexpr std::string_view kHardwarePrefix = "hardware:";
 constexpr int kMaxRetries = 120;
 
 std::uint64_t scan_count(const StationCommand& command, const CaptureSource& captures) {
+  // By hand each scan has two presses, whose count has to fit.
+  if (command.repeat) return std::numeric_limits<std::uint64_t>::max() / 2;
   return command.scans > 0 ? command.scans : captures.capture_count();
 }
 
@@ -46,6 +49,7 @@ std::optional<HandoverConfig> handover_of(const StationCommand& command) {
 int play(const StationCommand& command, const FaultPlan& faults, MeasurableCaptures& captures,
          const std::atomic<bool>& stop, std::ostream& out, std::ostream& log) {
   SimulatedClock clock;
+  if (command.real_time) clock.run_in_real_time();
   TrayPlayer player(captures, command.by_hand ? CameraMover::hand : CameraMover::arm);
   SimulatedArm arm(clock, &player);
   SimulatedCamera camera(clock, player, command.by_hand ? nullptr : &arm);
@@ -103,6 +107,13 @@ void add_station_command(Program& program, StationCommand& command) {
       .add_action(
           "--once", [&command] { command.scans = 1; }, "The same as --scans 1")
       .excludes(scans);
+  station
+      .add_action(
+          "--repeat", [&command] { command.repeat = true; },
+          "Play the captures again and again, until Ctrl-C")
+      .excludes(scans);
+  station.add_flag("--real-time", command.real_time,
+                   "Simulated devices take the time that real ones take, and do not jump ahead");
   station.add_flag("--json", command.json, "One JSON document a line for each scan");
   station.add_flag("--by-hand", command.by_hand,
                    "Without an arm: move the camera and press again for the second view");

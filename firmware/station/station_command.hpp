@@ -18,6 +18,8 @@ struct StationCommand {
   std::string devices;      // "hardware:FILE" or "simulator:FOLDER"
   std::string faults;       // a fault script; empty: nothing goes wrong
   std::uint64_t scans = 0;  // 0: every capture once; on hardware without end
+  bool repeat = false;      // plays the captures again and again
+  bool real_time = false;   // simulated devices take the time that real ones take
   bool json = false;
   bool by_hand = false;  // no arm: a second press takes the second view
   double second_view_deg = StationParams{}.second_view_deg;

@@ -1,5 +1,7 @@
 #include "simulator/devices/simulated_clock.hpp"
 
+#include <thread>
+
 namespace traygauge {
 
 void SimulatedClock::do_sleep_until(Instant instant) {
@@ -18,6 +20,7 @@ void SimulatedClock::do_sleep_until(Instant instant) {
 void SimulatedClock::move_to(Instant instant) {
   const auto target_ns = instant.time_since_epoch().count();
   auto seen_ns = now_ns_.load();
+  if (is_real_ && seen_ns < target_ns) std::this_thread::sleep_for(Nanoseconds(target_ns - seen_ns));
   while (seen_ns < target_ns && !now_ns_.compare_exchange_weak(seen_ns, target_ns)) {
   }
 }

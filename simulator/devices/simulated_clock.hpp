@@ -13,6 +13,8 @@ namespace traygauge {
 // with a monotonic clock is that a sleeper wakes up too late, because the processor was busy or suspended.
 class SimulatedClock final : public Clock {
  public:
+  // From now on whoever sleeps really does, for as long as the time moves: for people who watch.
+  void run_in_real_time() { is_real_ = true; }
   // Nothing happens when `duration` is not positive.
   void advance(Nanoseconds duration) { move_to(do_now() + duration); }
   // Asked once a sleep that lasts. Not to be changed while another thread sleeps.
@@ -24,6 +26,7 @@ class SimulatedClock final : public Clock {
   void move_to(Instant instant);
 
   std::atomic<Nanoseconds::rep> now_ns_{0};
+  std::atomic<bool> is_real_{false};
   std::mutex faults_mutex_;
   FaultScript faults_;
 };

@@ -81,5 +81,15 @@ TEST(SimulatedClock, MovesOnlyWhenSomebodySleeps) {
   EXPECT_LT(std::chrono::steady_clock::now() - begun_at, 10s);
 }
 
+TEST(SimulatedClock, TakesAsLongAsItSaysWhereItRunsInRealTime) {
+  SimulatedClock clock;
+  clock.sleep_for(1h);
+  clock.run_in_real_time();
+  const auto begun_at = std::chrono::steady_clock::now();
+  clock.sleep_for(30ms);
+  EXPECT_EQ(clock.now(), Instant(1h + 30ms));
+  EXPECT_GE(std::chrono::steady_clock::now() - begun_at, 30ms);
+}
+
 }  // namespace
 }  // namespace traygauge

@@ -302,6 +302,7 @@ TEST(StationCommandUse, RefusesWhatItDoesNotTake) {
   expect_refusal({"--devices", "simulator:x", "--items", "0"}, "--items: Value 0 not in range");
   expect_refusal({"--devices", "simulator:x", "--scans", "0"}, "--scans: Value 0 not in range");
   expect_refusal({"--devices", "simulator:x", "--scans", "2", "--once"}, "--scans excludes --once");
+  expect_refusal({"--devices", "simulator:x", "--scans", "2", "--repeat"}, "--scans excludes --repeat");
 }
 
 }  // namespace
