@@ -1,0 +1,143 @@
+// What the hub says now: its stations, the scan that arrived last, and how old all of that is.
+import { get, get_if_there, observe_hub } from './hub_api.js';
+import { HubEvents } from './hub_events.js';
+
+// Older than this, what is shown is no longer called live.
+export const kFreshSeconds = 5;
+const kPollMs = 2000;
+const kTickMs = 500;
+
+class LiveData extends EventTarget {
+  constructor() {
+    super();
+    this.stations = [];
+    this.latest = null;
+    this.store_problem = null;
+    this.answered_at = null;  // of performance.now()
+    this.silent_since = null;  // of Date.now(); null while the hub answers
+    this.needs_login = false;
+    this.asked_at = -Infinity;
+    this.latest_demanded = true;
+    this.events = new HubEvents(['scan', 'station', 'correction', 'missed'], () => this.demand_latest(),
+      (name, data) => this.take_event(name, data));
+  }
+
+  start() {
+    observe_hub({
+      answered: () => this.note_answer(),
+      silent: () => this.note_silence(),
+      unknown: () => this.note_login(),
+    });
+    this.events.start();
+    setInterval(() => this.tick(), kTickMs);
+    // A page that was in the background may hold old data.
+    document.addEventListener('visibilitychange', () => this.poll_now());
+    this.poll_now();
+  }
+
+  note_answer() {
+    this.answered_at = performance.now();
+    if (this.silent_since !== null) this.demand_latest();
+    this.silent_since = null;
+  }
+
+  note_silence() {
+    this.silent_since ??= Date.now();
+    this.tell('age');
+  }
+
+  note_login() {
+    if (this.needs_login) return;
+    this.needs_login = true;
+    this.tell('login');
+  }
+
+  // After a login everything is asked for anew.
+  begin_session() {
+    this.needs_login = false;
+    this.events.start();
+    this.demand_latest();
+  }
+
+  // Seconds since the hub answered; infinite before its first answer.
+  age() {
+    return this.answered_at === null ? Infinity : (performance.now() - this.answered_at) / 1000;
+  }
+
+  is_fresh() {
+    return this.age() <= kFreshSeconds;
+  }
+
+  demand_latest() {
+    this.latest_demanded = true;
+    this.poll_now();
+  }
+
+  poll_now() {
+    this.asked_at = -Infinity;
+    this.tick();
+  }
+
+  // Many stations speak often: they are asked for twice a second at most.
+  poll_soon() {
+    this.asked_at = Math.min(this.asked_at, performance.now() - kPollMs + kTickMs);
+  }
+
+  tick() {
+    this.tell('age');
+    if (this.is_asking || this.needs_login || performance.now() - this.asked_at < kPollMs) return;
+    this.poll();
+  }
+
+  async poll() {
+    this.is_asking = true;
+    this.asked_at = performance.now();
+    try {
+      const heard_at = performance.now();
+      const { stations } = await get('stations');
+      this.stations = stations.map((station) => ({ ...station, heard_at }));
+      this.tell('stations');
+      if (this.latest_demanded || !this.events.is_open) await this.read_latest();
+    } catch {
+      // The observers were told; the next poll tries again.
+    } finally {
+      this.is_asking = false;
+    }
+  }
+
+  async read_latest() {
+    this.latest_demanded = false;
+    try {
+      this.latest = await get_if_there('scans/latest');
+      this.store_problem = null;
+    } catch (error) {
+      this.latest_demanded = true;
+      if (error.status === 0 || error.status === 401) throw error;
+      this.store_problem = error.message;
+    }
+    this.tell('latest');
+  }
+
+  take_event(name, data) {
+    if (name === 'station') return this.poll_soon();
+    this.demand_latest();
+    this.dispatchEvent(new CustomEvent(name, { detail: data }));
+  }
+
+  tell(name) {
+    this.dispatchEvent(new Event(name));
+  }
+}
+
+export const live = new LiveData();
+
+// Calls `action` now and whenever one of `names` happens, until `signal` aborts.
+export function follow(names, signal, action) {
+  for (const name of names) live.addEventListener(name, action, { signal });
+  action();
+}
+
+// Seconds since that station said something, as far as this page knows.
+export function station_age(station) {
+  return (performance.now() - station.heard_at + station.age_ms) / 1000;
+}

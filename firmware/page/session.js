@@ -1,0 +1,19 @@
+// Who looks at the page, and what they may do.
+import { get, log_in as ask_login, post } from './hub_api.js';
+
+// `role`: none, view, kiosk or manage; `name` is that of the token, empty where it has none.
+export const session = { role: 'none', name: '' };
+
+export async function read_session() {
+  Object.assign(session, await get('session'));
+}
+
+export async function log_in(token) {
+  Object.assign(session, await ask_login(token));
+}
+
+// The cookie is the hub's: this page never holds the token after it was sent.
+export async function log_out() {
+  await post('logout', {});
+  Object.assign(session, { role: 'none', name: '' });
+}

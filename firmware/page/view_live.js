@@ -1,0 +1,73 @@
+// The live view: what each station does, and the last tray.
+import { element } from './elements.js';
+import { item_table, total_line } from './item_table.js';
+import { follow, live } from './live_data.js';
+import { scan_line, scan_notices } from './scan_head.js';
+import { Selection } from './selection.js';
+import { is_refused, scan_address, warning_list } from './sentences.js';
+import { fault_lines, station_line } from './station_state.js';
+import { show_tray } from './tray_panel.js';
+import { word } from './words.js';
+
+function show_stations(frame) {
+  if (live.stations.length === 0) {
+    const key = live.answered_at === null ? 'page.loading' : 'live.no_station';
+    frame.replaceChildren(element('p', { class: 'quiet' }, word(key)));
+    return;
+  }
+  frame.replaceChildren(...live.stations.map((station) => {
+    const line = station_line(station);
+    line.querySelector('.station-words').append(fault_lines(station) ?? '');
+    return line;
+  }));
+}
+
+function figures(scan, selection) {
+  const has_items = scan.items.length > 0;
+  return element('div', { class: 'figures' }, scan_notices(scan),
+    is_refused(scan) && !has_items ? null : total_line(scan),
+    has_items ? item_table(scan, selection) : null,
+    has_items ? element('p', { class: 'quiet note' }, word('item.sigma_note')) : null,
+    warning_list(scan));
+}
+
+// Returns what closes the drawing of the tray.
+function show_scan(frame, scan) {
+  if (scan === null) {
+    const key = live.store_problem === null ? 'live.no_scan' : 'error.store';
+    frame.replaceChildren(element('p', { class: 'quiet' }, word(live.answered_at === null ? 'page.loading' : key)));
+    return () => {};
+  }
+  const selection = new Selection();
+  const tray = element('div', { class: 'tray' });
+  const close = show_tray(tray, scan, selection);
+  frame.replaceChildren(
+    element('div', { class: 'scan-head' },
+      element('h2', {}, word('live.last_tray')),
+      element('a', { href: scan_address(scan.id), class: 'scan-id' }, scan.id), scan_line(scan)),
+    element('div', { class: 'scan-body' }, figures(scan, selection), tray));
+  return close;
+}
+
+export function show_live(main, parameters, signal) {
+  const stations = element('div', { class: 'stations' });
+  const last = element('section', { class: 'card last-tray', 'aria-label': word('live.last_tray') });
+  main.append(
+    element('h1', { class: 'unseen' }, word('live.title')),
+    element('section', { class: 'card', 'aria-labelledby': 'stations-head' },
+      element('h2', { id: 'stations-head' }, word('live.stations')), stations),
+    last);
+  main.classList.add('live');
+  follow(['stations', 'age'], signal, () => show_stations(stations));
+  let close = () => {};
+  let shown;
+  follow(['latest'], signal, () => {
+    // The same scan is left alone, so that neither focus nor a turned drawing is lost.
+    const text = JSON.stringify([live.latest, live.store_problem, live.answered_at === null]);
+    if (text === shown) return;
+    shown = text;
+    close();
+    close = show_scan(last, live.latest);
+  });
+  signal.addEventListener('abort', () => close());
+}

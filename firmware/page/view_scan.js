@@ -1,0 +1,120 @@
+// One scan with everything that is known of it, and its corrections.
+import { element } from './elements.js';
+import { error_note } from './error_note.js';
+import { get, get_picture } from './hub_api.js';
+import { item_table, total_line } from './item_table.js';
+import { live } from './live_data.js';
+import { correction_panel } from './correction_form.js';
+import { correction_list } from './correction_list.js';
+import { format_number } from './numbers.js';
+import { scan_line, scan_notices } from './scan_head.js';
+import { Selection } from './selection.js';
+import { is_refused, warning_list } from './sentences.js';
+import { format_time } from './times.js';
+import { show_tray } from './tray_panel.js';
+import { word } from './words.js';
+
+// Shown where the owner allows pictures at all; nothing says that one is missing.
+async function show_picture(frame, scan, signal) {
+  const picture = await get_picture(`scans/${encodeURIComponent(scan.id)}/picture`).catch(() => null);
+  if (picture === null || signal.aborted) return;
+  const address = URL.createObjectURL(picture);
+  signal.addEventListener('abort', () => URL.revokeObjectURL(address));
+  frame.append(element('figure', { class: 'picture' },
+    element('img', { src: address, alt: word('scan.picture_alt', { scan: scan.id }) }),
+    element('figcaption', { class: 'quiet' }, word('scan.picture'))));
+}
+
+function facts(scan) {
+  const facts_told = [
+    ['scan.taken_at', format_time(scan.taken_at)],
+    ['scan.received_at', format_time(scan.received_at)],
+    ['scan.station', scan.station],
+    ['scan.number', String(scan.number)],
+    ['scan.tray_name', scan.tray],
+    ['scan.duration', scan.duration_ms && word('number.milliseconds', { count: format_number(scan.duration_ms) })],
+  ];
+  const list = facts_told.filter(([, value]) => value).map(([key, value]) =>
+    element('div', {}, element('dt', {}, word(key)), element('dd', {}, value)));
+  return element('section', { class: 'card', 'aria-labelledby': 'facts-head' },
+    element('h2', { id: 'facts-head' }, word('scan.facts')),
+    element('dl', { class: 'facts' }, list),
+    element('a', { href: `api/v1/scans/${encodeURIComponent(scan.id)}/document`, class: 'quiet-link', target: '_blank',
+      rel: 'noopener' }, word('scan.document')));
+}
+
+function result(scan, selection) {
+  const has_items = scan.items.length > 0;
+  return element('div', { class: 'figures' }, scan_notices(scan),
+    is_refused(scan) && !has_items ? null : total_line(scan),
+    has_items ? item_table(scan, selection) : null,
+    has_items ? element('p', { class: 'quiet note' }, word('item.sigma_note')) : null,
+    warning_list(scan));
+}
+
+class ScanView {
+  constructor(main, id, signal) {
+    this.main = main;
+    this.path = `scans/${encodeURIComponent(id)}`;
+    this.id = id;
+    this.signal = signal;
+    this.body = element('div', { class: 'scan-view' }, element('p', { class: 'quiet' }, word('page.loading')));
+    main.append(element('h1', {}, word('scan.title', { scan: id })), this.body);
+    signal.addEventListener('abort', () => this.shown?.abort());
+    live.addEventListener('correction', (event) => this.note_correction(event.detail), { signal });
+    this.read();
+  }
+
+  async read() {
+    try {
+      const [scan, { corrections }] = await Promise.all([get(this.path), get(`${this.path}/corrections`)]);
+      if (!this.signal.aborted) this.show(scan, corrections);
+    } catch (error) {
+      this.body.replaceChildren(error_note(error));
+    }
+  }
+
+  // Somebody else's correction; ours is read after it was saved.
+  note_correction(text) {
+    if (JSON.parse(text).id === this.id && !this.is_typing()) this.read();
+  }
+
+  // A form that somebody fills in is not taken away.
+  is_typing() {
+    const form = this.body.querySelector('form');
+    return form?.contains(document.activeElement) && document.activeElement.value !== '';
+  }
+
+  show(scan, corrections) {
+    this.shown?.abort();
+    this.shown = new AbortController();
+    const { signal } = this.shown;
+    const selection = new Selection();
+    const tray = element('div', { class: 'tray' });
+    const picture = element('div', {});
+    const close = show_tray(tray, scan, selection);
+    signal.addEventListener('abort', close);
+    show_picture(picture, scan, signal);
+    const saved = element('div', { role: 'status' });
+    const panel = correction_panel(scan, corrections, () => this.note_saved());
+    this.body.replaceChildren(
+      scan_line(scan),
+      element('section', { class: 'card', 'aria-label': word('scan.result') },
+        element('div', { class: 'scan-body' }, result(scan, selection), element('div', {}, tray, picture))),
+      element('section', { class: 'card', 'aria-labelledby': 'corrections-head' },
+        element('h2', { id: 'corrections-head', tabindex: '-1' }, word('correction.title')), saved,
+        correction_list(corrections), panel),
+      facts(scan));
+  }
+
+  // The form was made anew: focus goes to the list in which the correction stands now.
+  async note_saved() {
+    await this.read();
+    this.body.querySelector('#corrections-head')?.focus();
+    document.getElementById('announcements').textContent = word('correction.saved');
+  }
+}
+
+export function show_scan(main, { path }, signal) {
+  return new ScanView(main, path[0] ?? '', signal);
+}
