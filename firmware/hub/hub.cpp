@@ -26,10 +26,13 @@ Hub::Hub(HubStore store, LocalListener listener, const HubParams& params, HubLog
       store_(std::move(store)),
       inbox_(std::move(listener), store_, listener_for_inbox(), params.inbox) {}
 
-void Hub::run(const std::atomic<bool>& stop) {
+void Hub::run(const std::atomic<bool>& stop, const std::function<void()>& after_step) {
   // A signal interrupts the wait, but for one that comes just before it.
   constexpr std::chrono::milliseconds kLongestWait{500};
-  while (!stop) step(kLongestWait);
+  while (!stop) {
+    step(kLongestWait);
+    if (after_step) after_step();
+  }
 }
 
 void Hub::step(std::chrono::milliseconds longest_wait) {

@@ -35,8 +35,8 @@ class Hub {
   Hub(const Hub&) = delete;
   Hub& operator=(const Hub&) = delete;
 
-  // Until somebody, a signal handler say, sets `stop`.
-  void run(const std::atomic<bool>& stop);
+  // Until somebody, a signal handler say, sets `stop`. Calls `after_step` whenever what came was done.
+  void run(const std::atomic<bool>& stop, const std::function<void()>& after_step = {});
   // Waits for at most so long for something to do, and does it.
   void step(std::chrono::milliseconds longest_wait);
 

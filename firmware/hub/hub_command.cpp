@@ -6,6 +6,7 @@
 
 #include "firmware/base/exit_status.hpp"
 #include "firmware/command/program.hpp"
+#include "firmware/command/service_manager.hpp"
 #include "firmware/config/hub_tables.hpp"
 #include "firmware/hub/hub.hpp"
 #include "firmware/hub/page_files.hpp"
@@ -60,7 +61,9 @@ int run_hub(const HubCommand& command, const std::atomic<bool>& stop, std::ostre
   if ((*hub)->web() != nullptr)
     out << (has_page ? "The page is at " : "No page is installed; the API is at ")
         << (*hub)->web()->addresses() << "." << std::endl;
-  (*hub)->run(stop);
+  ServiceManager manager;
+  (*hub)->run(stop, [&manager] { manager.note_progress(); });
+  manager.note_stopping();
   return kExitMeasured;
 }
 

@@ -1,6 +1,7 @@
 // `traygauge hub` as a program of its own: it holds no device and nothing of the measurement.
 #include <iostream>
 
+#include "firmware/command/confinement.hpp"
 #include "firmware/command/program.hpp"
 #include "firmware/command/stop_signal.hpp"
 #include "firmware/hub/hub_command.hpp"
@@ -11,6 +12,8 @@ int main(int argument_count, char** arguments) {
   traygauge::HubCommand command;
   traygauge::add_hub_options(program, command);
   const auto run = [&] {
+    if (const auto confined = traygauge::confine_hub(); !confined.ok())
+      std::cerr << confined.failure() << std::endl;
     return traygauge::run_hub(command, traygauge::stop_on_signals(), std::cout, std::cerr);
   };
   return program.run(argument_count, arguments, run, std::cout, std::cerr);

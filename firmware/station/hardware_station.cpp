@@ -1,6 +1,7 @@
 #include "firmware/station/hardware_station.hpp"
 
 #include "firmware/base/exit_status.hpp"
+#include "firmware/command/service_manager.hpp"
 #include "firmware/config/config_folder.hpp"
 #include "firmware/config/dish_choice.hpp"
 #include "firmware/config/dish_library.hpp"
@@ -50,7 +51,10 @@ int run_hardware_station(const StationCommand& command, const std::filesystem::p
   params.max_scans = command.scans;
   if (station_file.handover) params.repeat_within = repeat_time(*station_file.handover);
   Station station(hardware.devices(), measurer, route.sink(), stop, params);
-  return station.run().all_worked() ? kExitMeasured : kExitNotMeasurable;
+  ServiceManager manager;
+  const bool all_worked = station.run([&manager] { manager.note_progress(); }).all_worked();
+  manager.note_stopping();
+  return all_worked ? kExitMeasured : kExitNotMeasurable;
 }
 
 }  // namespace traygauge

@@ -57,8 +57,11 @@ Station::Station(const StationDevices& devices, Measurer& measurer, ResultSink& 
   settled_at_ = devices_.clock.now();  // of cameras that were started before
 }
 
-const StationTotals& Station::run() {
-  while (state_ != StationState::finished) step();
+const StationTotals& Station::run(const std::function<void()>& after_step) {
+  while (state_ != StationState::finished) {
+    step();
+    if (after_step) after_step();
+  }
   return totals_;
 }
 

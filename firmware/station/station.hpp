@@ -6,6 +6,7 @@
 #include <atomic>
 #include <chrono>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -93,8 +94,8 @@ class Station {
   Station(const StationDevices& devices, Measurer& measurer, ResultSink& sink, const std::atomic<bool>& stop,
           const StationParams& params = {});
 
-  // Blocks until the loop ends; the devices are closed then.
-  const StationTotals& run();
+  // Blocks until the loop ends; the devices are closed then. Calls `after_step` after each state's work.
+  const StationTotals& run(const std::function<void()>& after_step = {});
   // One state's work; the state that follows.
   StationState step();
   StationState state() const { return state_; }

@@ -7,6 +7,7 @@
 #include "firmware/base/exit_status.hpp"
 #include "firmware/base/scan_id.hpp"
 #include "firmware/command/program.hpp"
+#include "firmware/command/service_manager.hpp"
 #include "firmware/handover/result_route.hpp"
 #include "firmware/measure/measure_choices.hpp"
 #include "firmware/station/hardware_station.hpp"
@@ -79,7 +80,8 @@ int play(const StationCommand& command, const FaultPlan& faults, MeasurableCaptu
   }
   Station station({camera, trigger, command.by_hand ? nullptr : &arm, lamp, clock}, measurer, route.sink(),
                   stop, params);
-  const StationTotals& totals = station.run();
+  ServiceManager manager;
+  const StationTotals& totals = station.run([&manager] { manager.note_progress(); });
   const bool is_complete = totals.scans >= scans || stop;
   if (!is_complete) {
     log << "Ended after " << totals.scans << " of " << scans

@@ -3,6 +3,7 @@
 
 #include <iostream>
 
+#include "firmware/command/confinement.hpp"
 #include "firmware/command/program.hpp"
 #include "firmware/command/stop_signal.hpp"
 #include "firmware/station/open_captures.hpp"
@@ -24,6 +25,8 @@ int main(int argument_count, char** arguments) {
   traygauge::StationCommand command;
   traygauge::add_station_command(program, command);
   const auto run = [&] {
+    if (const auto confined = traygauge::confine_station(); !confined.ok())
+      std::cerr << confined.failure() << std::endl;
     return traygauge::run_station(command, traygauge::open_recorded_captures, traygauge::stop_on_signals(),
                                   std::cout, std::cerr);
   };
