@@ -29,14 +29,19 @@ HealthPart examine_clock(const WallTime& now) {
   return {"clock", HealthState::ok, {}};
 }
 
+std::string text_of(const Json& json, const char* key, const char* otherwise) {
+  const auto found = json.find(key);
+  return found != json.end() && found->is_string() ? found->get<std::string>() : std::string(otherwise);
+}
+
 // Of what the station said last; absent or strange parts say nothing.
 void examine_state(const std::string& station, const Json& state, std::vector<HealthPart>& parts) {
   if (!state.is_object()) return;
   if (state.contains("faults") && state["faults"].is_array()) {
     for (const Json& fault : state["faults"]) {
       if (!fault.is_object()) continue;
-      parts.push_back({fault.value("device", "a device") + " of " + station, HealthState::failing,
-                       fault.value("message", "")});
+      parts.push_back({text_of(fault, "device", "a device") + " of " + station, HealthState::failing,
+                       text_of(fault, "message", "")});
     }
   }
   if (state.contains("disk") && state["disk"].is_string())

@@ -202,6 +202,19 @@ TEST(Api, HealthNamesThePartThatFails) {
   EXPECT_EQ(part("disk")["status"], "ok");
 }
 
+// What a station says of itself is passed on; parts that make no sense say nothing.
+TEST(Api, HealthStandsAStrangeStation) {
+  HubRig rig;
+  for (const std::string state :
+       {R"({"faults":[{"device":5,"message":[]}]})", R"({"faults":[7]})", R"({"faults":7,"disk":7})",
+        R"({"waiting_results":-1})", R"({"waiting_results":"many"})", "{}"}) {
+    rig.station().tell({MessageType::state, state, {}});
+    rig.store(1, 100.0);
+    EXPECT_NE(rig.get("/health").status, 500) << state;
+    EXPECT_EQ(rig.get("/metrics").status, 200) << state;
+  }
+}
+
 TEST(Api, TellsMetricsInPrometheusText) {
   HubRig rig;
   rig.store(1, 100.0);
