@@ -32,5 +32,6 @@ void add_export_routes(Router& router, const HubSite& site);
 void add_station_routes(Router& router, const HubSite& site);
 void add_health_routes(Router& router, const HubSite& site);
 void add_metrics_route(Router& router, const HubSite& site);
+void add_description_route(Router& router);
 
 }  // namespace traygauge

@@ -86,6 +86,7 @@ HubWeb::HubWeb(AccessParams access, SiteParams site, HubStore& store, StationInb
   add_station_routes(router_, hub_site_);
   add_health_routes(router_, hub_site_);
   add_metrics_route(router_, hub_site_);
+  add_description_route(router_);
   site_.emplace(std::move(site), access_, router_, files_, events_);
 }
 

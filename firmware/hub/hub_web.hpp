@@ -41,6 +41,8 @@ class HubWeb {
   void tell_station(const std::string& station);
   // "http://127.0.0.1:8080"; with the ports that were taken.
   std::string addresses() const;
+  // What is answered, and to whom.
+  const Router& router() const { return router_; }
 
  private:
   HubWeb(AccessParams access, SiteParams site, HubStore& store, StationInbox& inbox,

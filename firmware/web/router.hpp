@@ -33,6 +33,8 @@ class Router {
  public:
   // Where several patterns fit a path, the first one added counts.
   void add(Route route);
+  // All, in the order they were added.
+  std::vector<const Route*> routes() const;
   FoundRoute find(std::string_view method, const std::vector<std::string>& segments) const;
 
  private:

@@ -1,11 +1,15 @@
 #include "tests/firmware/api/hub_rig.hpp"
 
 #include <arpa/inet.h>
+#include <gtest/gtest.h>
 #include <netinet/in.h>
 #include <sys/socket.h>
+#include <sys/time.h>
 
 #include <cstdlib>
+#include <filesystem>
 #include <stdexcept>
+#include <utility>
 #include <vector>
 
 #include "tests/firmware/store/sample_scan.hpp"
@@ -15,25 +19,43 @@ namespace {
 
 using Json = nlohmann::json;
 
-// What a server sends until it closes.
-std::string converse(std::uint16_t port, const std::string& request) {
-  const FileDescriptor socket(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0));
+FileDescriptor connect_to(std::uint16_t port) {
+  FileDescriptor socket(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0));
+  // A hub that hangs fails the test and does not stop it.
+  const timeval longest{20, 0};
+  ::setsockopt(socket.number(), SOL_SOCKET, SO_RCVTIMEO, &longest, sizeof(longest));
   sockaddr_in address{};
   address.sin_family = AF_INET;
   address.sin_port = htons(port);
   address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
   if (::connect(socket.number(), reinterpret_cast<const sockaddr*>(&address), sizeof(address)) != 0)
     throw std::runtime_error("the hub does not listen");
+  return socket;
+}
+
+void send_all(const FileDescriptor& socket, const std::string& request) {
   if (::send(socket.number(), request.data(), request.size(), MSG_NOSIGNAL) !=
       static_cast<ssize_t>(request.size()))
     throw std::runtime_error("the hub does not read");
-  std::string answer;
+}
+
+// What a server sends until it closes, or has sent `until`.
+std::string receive(const FileDescriptor& socket, const std::string& until = {}) {
+  std::string text;
   char buffer[65536];
   for (ssize_t count = 1; count > 0;) {
     count = ::recv(socket.number(), buffer, sizeof(buffer), 0);
-    if (count > 0) answer.append(buffer, static_cast<std::size_t>(count));
+    if (count > 0) text.append(buffer, static_cast<std::size_t>(count));
+    if (!until.empty() && text.find(until) != std::string::npos) break;
   }
-  return answer;
+  return text;
+}
+
+std::string head_text(const std::string& method, const std::string& target, const std::string& headers) {
+  std::string text = method;
+  text += " " + target + " HTTP/1.1\r\nConnection: close\r\n";
+  if (headers.find("Host: ") == std::string::npos) text += "Host: localhost\r\n";
+  return text + headers;
 }
 
 std::string dechunked(const std::string& text) {
@@ -70,9 +92,7 @@ HubRig::HubRig(WebConfig web) {
   hub_ = std::move(*hub);
   const std::string addresses = hub_->web()->addresses();
   port_ = static_cast<std::uint16_t>(std::stoi(addresses.substr(addresses.rfind(':') + 1)));
-  thread_ = std::thread([this] {
-    while (!stop_) hub_->step(Milliseconds(20));
-  });
+  start_loop();
   HubLinkParams link;
   link.socket = params.socket;
   link.station = "kitchen";
@@ -81,19 +101,73 @@ HubRig::HubRig(WebConfig web) {
 }
 
 HubRig::~HubRig() {
+  stop_loop();
+}
+
+void HubRig::start_loop() {
+  stop_ = false;
+  thread_ = std::thread([this] {
+    while (!stop_) hub_->step(Milliseconds(20));
+  });
+}
+
+void HubRig::stop_loop() {
   stop_ = true;
   thread_.join();
 }
 
+Answer HubRig::checked(Exchange exchange) const {
+  const ApiDescription& description = ApiDescription::own();
+  for (const std::string& objection : description.objections(exchange)) ADD_FAILURE() << objection;
+  answers_.insert(description.answer_name(exchange));
+  return std::move(exchange.answer);
+}
+
+Answer HubRig::request(const std::string& method, const std::string& target, const std::string& headers,
+                       const std::string& body) const {
+  const FileDescriptor socket = connect_to(port_);
+  std::string text = head_text(method, target, headers);
+  if (!body.empty() || method == "POST") text += "Content-Length: " + std::to_string(body.size()) + "\r\n";
+  send_all(socket, text + "\r\n" + body);
+  return checked({method, target, body, parsed(receive(socket))});
+}
+
 Answer HubRig::get(const std::string& target, const std::string& headers) const {
-  return parsed(converse(
-      port_, "GET " + target + " HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\n" + headers + "\r\n"));
+  return request("GET", target, headers, {});
 }
 
 Answer HubRig::post(const std::string& target, const std::string& body, const std::string& headers) const {
-  return parsed(converse(port_, "POST " + target +
-                                    " HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\nContent-Length: " +
-                                    std::to_string(body.size()) + "\r\n" + headers + "\r\n" + body));
+  return request("POST", target, headers, body);
+}
+
+Listening HubRig::listen(const std::string& until, const std::string& headers) const {
+  const std::string target = "/api/v1/events";
+  FileDescriptor socket = connect_to(port_);
+  send_all(socket, head_text("GET", target, headers) + "\r\n");
+  Answer answer = checked({"GET", target, {}, parsed(receive(socket, until))});
+  return {std::move(socket), std::move(answer)};
+}
+
+std::string HubRig::hear(const Listening& listening, const std::string& until) {
+  return receive(listening.socket, until);
+}
+
+void HubRig::lose_store() {
+  stop_loop();
+  const std::filesystem::path file = folder_.path() / "results.db";
+  hub_->store().store()->database().note_damage("for a test");
+  std::filesystem::remove(file);
+  std::filesystem::create_directories(file / "no database");
+  hub_->step(Milliseconds(0));
+  if (hub_->store().store() != nullptr) throw std::runtime_error("the hub has a store again");
+  start_loop();
+}
+
+std::map<std::string, std::string> HubRig::routes() const {
+  std::map<std::string, std::string> all;
+  for (const Route* const route : hub_->web()->router().routes())
+    all.emplace(route->method + " " + route->pattern, role_name(route->minimum));
+  return all;
 }
 
 void HubRig::store(int number, double volume_ml, int seconds, const std::string& status) {
