@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <initializer_list>
 #include <iterator>
 #include <set>
@@ -28,7 +29,7 @@ struct Operation {
   bool is_described_with(int status) const {
     std::string answer = method;
     answer += " " + path + " " + std::to_string(status);
-    return ApiDescription::own().answers().count(answer) > 0;
+    return ApiDescription::own().answers().contains(answer);
   }
   std::string target(const std::string& id = "kitchen-1") const {
     const std::size_t at = path.find("{id}");
@@ -36,6 +37,7 @@ struct Operation {
   }
   std::string body() const {
     if (is_login()) return std::string(R"({"token":")") + TokenFiles::kManage + "\"}";
+    if (is("POST /api/v1/next-tray")) return R"({"foods":3})";
     return is("POST /api/v1/scans/{id}/corrections") ? kRename : std::string();
   }
   std::string type() const { return is_login() ? kJsonBody : std::string(); }
@@ -87,10 +89,16 @@ void expect_refusals(const HubRig& rig) {
   expect_each(415, [&rig](const Operation& operation) {
     return rig.request(operation.method, operation.target(), {}, operation.body());
   });
-  expect_each(409, [&rig](const Operation& operation) {
-    return rig.request(operation.method, operation.target(), {},
-                       R"({"action":"item_wrong","item":99,"author":"ann"})");
-  });
+  EXPECT_EQ(
+      rig.post("/api/v1/scans/kitchen-1/corrections", R"({"action":"item_wrong","item":99,"author":"ann"})")
+          .status,
+      409);
+}
+
+void expect_absence_told(HubRig& rig) {
+  rig.lose_station();
+  EXPECT_EQ(rig.post("/api/v1/next-tray", R"({"foods":3})").status, 409);
+  EXPECT_EQ(rig.request("DELETE", "/api/v1/next-tray", {}, {}).status, 409);
 }
 
 void expect_nothing_found(const HubRig& empty) {
@@ -124,8 +132,8 @@ void expect_patience_to_end(const HubRig& rig) {
 
 void expect_failing_store(HubRig& rig) {
   rig.lose_store();
-  std::vector<Listening> all;
-  for (int i = 0; i < 128; ++i) all.push_back(rig.listen("heartbeat"));
+  std::array<Listening, 128> all;
+  for (Listening& one : all) one = rig.listen("heartbeat");
   expect_each(503, [&rig](const Operation& operation) {
     return rig.request(operation.method, operation.target(), {}, operation.body());
   });
@@ -149,6 +157,7 @@ TEST(ApiAnswers, EachThatIsDescribedIsGiven) {
   open.store(1, 100.0);
   expect_success(open);
   expect_refusals(open);
+  expect_absence_told(open);
   expect_nothing_found(empty);
   expect_tokens_asked_for(guarded);
   expect_patience_to_end(guarded);
@@ -180,7 +189,17 @@ TEST(ApiAnswers, WhatIsNotDescribedIsRefused) {
   const Answer answer = rig.request("DELETE", "/api/v1/scans", {}, {});
   EXPECT_EQ(answer.status, 405);
   EXPECT_EQ(answer.header("Allow"), "GET, HEAD");
-  EXPECT_EQ(rig.get("/api/v1/scans/kitchen-1/", "Range: bytes=0-1\r\n").status, 404);
+}
+
+TEST(ApiAnswers, AHeadIsAnsweredLikeAGetAndASlashAtTheEndDoesNotMatter) {
+  HubRig rig;
+  rig.store(1, 100.0);
+  for (const Operation& operation : all_operations()) {
+    if (operation.method != "GET" || operation.is("GET /api/v1/events")) continue;
+    const Answer got = rig.get(operation.target());
+    EXPECT_EQ(rig.request("HEAD", operation.target(), {}, {}).status, got.status) << operation.path;
+    EXPECT_EQ(rig.get(operation.target() + "/").status, got.status) << operation.path;
+  }
 }
 
 }  // namespace

@@ -1,13 +1,12 @@
 #include <gtest/gtest.h>
-#include <sys/stat.h>
 
 #include <algorithm>
-#include <fstream>
 #include <set>
 #include <sstream>
 #include <string>
 
 #include "tests/firmware/api/hub_rig.hpp"
+#include "tests/firmware/api/token_files.hpp"
 
 namespace traygauge::test {
 namespace {
@@ -226,26 +225,13 @@ TEST(Api, TellsMetricsInPrometheusText) {
 
 // Whoever has no token sees neither food nor person, and only who manages may correct.
 TEST(Api, AsksForTokens) {
-  const TemporaryFolder secrets;
-  const auto write = [&secrets](const char* name, const char* token) {
-    const auto path = secrets.path() / name;
-    std::ofstream(path) << token << "\n";
-    ::chmod(path.c_str(), 0600);
-    return path;
-  };
-  WebConfig config;
-  config.view_tokens = write("view", "view-token-0123456789abcdef");
-  config.manage_tokens = write("manage", "manage-token-0123456789abcdef ann");
-  HubRig rig(config);
+  const TokenFiles tokens;
+  HubRig rig(tokens.config());
   rig.store(1, 100.0);
-  const std::string view = "Authorization: Bearer view-token-0123456789abcdef\r\n";
-  const std::string manage = "Authorization: Bearer manage-token-0123456789abcdef\r\n";
-  for (const std::string target :
-       {"/api/v1/scans/latest", "/api/v1/scans", "/api/v1/export.csv", "/metrics", "/api/v1/stations",
-        "/api/v1/events", "/api/v1/scans/kitchen-1/document"}) {
-    EXPECT_EQ(rig.get(target).status, 401) << target;
-  }
+  const std::string view = TokenFiles::bearer(TokenFiles::kView);
+  const std::string manage = TokenFiles::bearer(TokenFiles::kManage);
   EXPECT_EQ(rig.get("/health").status, 200);
+  EXPECT_EQ(rig.get("/api/v1/scans/latest").status, 401);
   EXPECT_EQ(rig.get("/api/v1/scans/latest", view).status, 200);
   const std::string target = "/api/v1/scans/kitchen-1/corrections";
   EXPECT_EQ(rig.post(target, R"({"action":"scan_wrong","author":"eve"})", view).status, 403);
@@ -254,12 +240,8 @@ TEST(Api, AsksForTokens) {
 }
 
 TEST(Api, AScreenOnThisMachineMayNeedNoToken) {
-  const TemporaryFolder secrets;
-  const auto path = secrets.path() / "view";
-  std::ofstream(path) << "view-token-0123456789abcdef\n";
-  ::chmod(path.c_str(), 0600);
-  WebConfig config;
-  config.view_tokens = path;
+  const TokenFiles tokens;
+  WebConfig config = tokens.config();
   config.local_without_token = true;
   HubRig rig(config);
   rig.store(1, 100.0);

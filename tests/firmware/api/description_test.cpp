@@ -58,7 +58,12 @@ void visit(const Json& value, const std::string& place,
            const std::function<void(const Json& value, const std::string& place)>& see) {
   see(value, place);
   if (!value.is_structured()) return;
-  for (const auto& entry : value.items()) visit(entry.value(), place + "/" + entry.key(), see);
+  for (const auto& entry : value.items()) {
+    std::string inside = place;
+    inside += "/";
+    inside += entry.key();
+    visit(entry.value(), inside, see);
+  }
 }
 
 TEST(ApiDescription, ItsExamplesFitTheirSchemas) {
