@@ -145,6 +145,18 @@ std::size_t TrayEstimator::used_bytes() const {
   return state_ == nullptr ? 0 : state_->used_bytes;
 }
 
+Status TrayEstimator::expect(std::span<const DishModel> dishes, int items) {
+  if (!status_.ok()) return status_;
+  EstimatorState& state = *state_;
+  if (state.views == 1) return StatusCode::wrong_call;
+  if (const Status status = validate_dishes(dishes); !status.ok()) return status;
+  if (items < 0 || items > static_cast<int>(kMaxItems)) return StatusCode::invalid_configuration;
+  std::copy(dishes.begin(), dishes.end(), state.dishes.begin());
+  state.configuration.dishes = std::span(state.dishes).first(dishes.size());
+  state.configuration.segmentation.items = items;
+  return StatusCode::ok;
+}
+
 Status TrayEstimator::add_view(const ViewInput& input) {
   if (!status_.ok()) return status_;
   EstimatorState& state = *state_;

@@ -33,6 +33,11 @@ class TrayEstimator {
   std::size_t reserved_bytes() const;  // size of the block
   std::size_t used_bytes() const;      // most of it that was ever handed out
 
+  // Of the trays whose views come next: their dishes, as in TraySetup, and how many foods lie on each where
+  // they are found (0: as many as are found). Else as configured. invalid_configuration, wrong_call (between
+  // two views) and a failed status change nothing.
+  Status expect(std::span<const DishModel> dishes, int items);
+
   // Takes the first, then the second view. Where the first has no labels, those of both are found: the card
   // at once, dishes and food with the second view. What fails here is also what estimate() reports.
   // wrong_call, which changes nothing: a third view.

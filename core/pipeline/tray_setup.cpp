@@ -31,11 +31,14 @@ Status validate_apart_from_dishes(const TraySetup& setup) {
                                                                 : StatusCode::invalid_configuration;
 }
 
+Status validate_dishes(std::span<const DishModel> dishes) {
+  if (dishes.empty() || dishes.size() > kMaxDishCandidates) return StatusCode::invalid_configuration;
+  return validate(dishes);
+}
+
 Status validate(const TraySetup& setup) {
-  if (setup.dishes.empty() || setup.dishes.size() > kMaxDishCandidates)
-    return StatusCode::invalid_configuration;
-  if (const Status status = validate_apart_from_dishes(setup); !status.ok()) return status;
-  return validate(setup.dishes);
+  const Status status = validate_apart_from_dishes(setup);
+  return status.ok() ? validate_dishes(setup.dishes) : status;
 }
 
 }  // namespace traygauge

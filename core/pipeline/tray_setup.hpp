@@ -39,8 +39,9 @@ struct TraySetup {
   ViewGeometryParams geometry;
 };
 
-// invalid_configuration when a value is not plausible. The first without a look at the dishes.
+// invalid_configuration when a value is not plausible.
 Status validate_apart_from_dishes(const TraySetup& setup);
+Status validate_dishes(std::span<const DishModel> dishes);
 Status validate(const TraySetup& setup);
 
 }  // namespace traygauge

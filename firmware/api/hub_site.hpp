@@ -26,6 +26,7 @@ struct HubSite {
 
 // Everything below /api/v1, /health and /metrics; firmware/README.md lists it.
 void add_scan_routes(Router& router, const HubSite& site);
+void add_next_tray_routes(Router& router, const HubSite& site);
 void add_shape_routes(Router& router, const HubSite& site);
 void add_correction_routes(Router& router, const HubSite& site);
 void add_export_routes(Router& router, const HubSite& site);

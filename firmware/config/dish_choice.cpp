@@ -1,6 +1,7 @@
 #include "firmware/config/dish_choice.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "core/labels/label_regions.hpp"
 #include "firmware/config/config_folder.hpp"
@@ -27,24 +28,31 @@ std::vector<DishDescription> choose_dishes(const Capture& capture, const std::st
   return capture.dishes.empty() ? read_dish_library(find_config_folder(config)) : capture.dishes;
 }
 
+Expected<std::vector<DishDescription>> find_dishes(const std::vector<std::string>& styles,
+                                                   const std::vector<DishDescription>& library) {
+  std::vector<DishDescription> dishes;
+  for (const std::string& style : styles) {
+    const auto found = std::find_if(library.begin(), library.end(),
+                                    [&style](const DishDescription& dish) { return dish.style == style; });
+    if (found == library.end()) return Failure{style};
+    dishes.push_back(*found);
+    const std::size_t place = dishes.size() - 1;
+    dishes.back().label = place == 0 ? kDishLabel : kFirstFurtherDishLabel - 1 + static_cast<int>(place);
+  }
+  return dishes;
+}
+
 std::vector<DishDescription> choose_tray_dishes(const StationFile& station,
                                                 const std::vector<DishDescription>& library) {
   if (station.dishes.empty()) return library;
-  std::vector<DishDescription> dishes;
-  for (std::size_t i = 0; i < station.dishes.size(); ++i) {
-    const auto found = std::find_if(library.begin(), library.end(), [&](const DishDescription& dish) {
-      return dish.style == station.dishes[i];
-    });
-    if (found == library.end()) {
-      std::string styles;
-      for (const DishDescription& dish : library) styles += (styles.empty() ? "" : ", ") + dish.style;
-      throw InputError({station.file, "trays.dishes[" + std::to_string(i) + "]"}, "one of " + styles,
-                       printable(station.dishes[i]), "correct it, or describe the dish in dishes/");
-    }
-    dishes.push_back(*found);
-    dishes.back().label = i == 0 ? kDishLabel : kFirstFurtherDishLabel - 1 + static_cast<int>(i);
-  }
-  return dishes;
+  Expected<std::vector<DishDescription>> dishes = find_dishes(station.dishes, library);
+  if (dishes.ok()) return std::move(*dishes);
+  std::string styles;
+  for (const DishDescription& dish : library) styles += (styles.empty() ? "" : ", ") + dish.style;
+  const auto unknown = std::find(station.dishes.begin(), station.dishes.end(), dishes.failure());
+  throw InputError({station.file, "trays.dishes[" + std::to_string(unknown - station.dishes.begin()) + "]"},
+                   "one of " + styles, printable(dishes.failure()),
+                   "correct it, or describe the dish in dishes/");
 }
 
 }  // namespace traygauge

@@ -6,7 +6,7 @@
 namespace traygauge {
 namespace {
 
-using Json = nlohmann::json;
+using Json = nlohmann::ordered_json;
 
 // An object, or an empty one where the text is none: a peer's mistake then reads as absent keys.
 Json object_of(const std::string& text) {
@@ -102,7 +102,7 @@ void HubLink::disconnect() {
   reader_ = MessageReader();
 }
 
-// The first answer about `id`; other messages are passed over. None when `timeout` passes.
+// The first answer about `id`; answers about others are passed over. None when `timeout` passes.
 Expected<std::optional<HubReply>> HubLink::read_reply(std::string_view id, Milliseconds timeout) {
   const Expected<std::string> received = connection_.receive_some(timeout);
   if (!received.ok()) return Failure{received.failure()};
@@ -112,6 +112,7 @@ Expected<std::optional<HubReply>> HubLink::read_reply(std::string_view id, Milli
     if (!next.ok()) return Failure{next.failure()};
     if (!*next) return std::optional<HubReply>();
     const Message& message = **next;
+    if (message.type == MessageType::next_tray) next_tray_ = message.text;
     const auto answer = answer_of(message.type);
     if (!answer) continue;
     const Json json = object_of(message.text);

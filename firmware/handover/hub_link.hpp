@@ -50,6 +50,9 @@ class HubLink {
   // Reads what the hub said on its own account, without waiting; connects where nothing is connected.
   void attend();
 
+  // What the hub told of the next tray since the last call; the last of it.
+  std::optional<std::string> take_next_tray() { return std::exchange(next_tray_, std::nullopt); }
+
   bool is_connected() const { return connection_.is_open(); }
   // Since the last call: a connection was made, and the hub knows nothing of this station yet.
   bool take_is_new() { return std::exchange(is_new_, false); }
@@ -64,6 +67,7 @@ class HubLink {
   HubLinkParams params_;
   LocalConnection connection_;
   MessageReader reader_;
+  std::optional<std::string> next_tray_;
   std::string last_failure_;
   SteadyClock::time_point tried_at_;
   bool was_tried_ = false;

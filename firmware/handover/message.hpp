@@ -21,6 +21,7 @@ enum class MessageType : std::uint8_t {
   stored,     // {"id"}: the scan is on disk, now or since an earlier delivery
   set_aside,  // {"id","why"}: kept on disk, but it is no scan that can be booked
   refused,    // {"id","why"}: not on disk; try again later
+  next_tray,  // what is known of the next tray: see told_tray_json(); not answered
 };
 const char* name(MessageType type);
 

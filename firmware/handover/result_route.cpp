@@ -46,18 +46,21 @@ Nanoseconds repeat_time(const HandoverConfig& config) {
 }
 
 struct ResultRoute::Handover {
-  Handover(const HandoverConfig& config, ScanPrinter& printer, std::ostream& log)
-      : kept(open_kept(config)), link(link_params(config)), sink(printer, link, kept, log) {}
+  Handover(const HandoverConfig& config, std::vector<std::string> dish_styles, ScanPrinter& printer,
+           std::ostream& log)
+      : kept(open_kept(config)),
+        link(link_params(config)),
+        sink(printer, link, kept, log, {.dish_styles = std::move(dish_styles)}) {}
 
   KeptResults kept;
   HubLink link;
   ScanHandover sink;
 };
 
-ResultRoute::ResultRoute(const std::optional<HandoverConfig>& handover, ScanPrinter& printer,
-                         std::ostream& log)
+ResultRoute::ResultRoute(const std::optional<HandoverConfig>& handover, std::vector<std::string> dish_styles,
+                         ScanPrinter& printer, std::ostream& log)
     : printer_(printer) {
-  if (handover) handover_ = std::make_unique<Handover>(*handover, printer, log);
+  if (handover) handover_ = std::make_unique<Handover>(*handover, std::move(dish_styles), printer, log);
 }
 
 ResultRoute::~ResultRoute() = default;

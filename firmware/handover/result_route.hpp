@@ -4,6 +4,8 @@
 #include <iosfwd>
 #include <memory>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "drivers/clock.hpp"
 #include "firmware/config/hub_tables.hpp"
@@ -17,7 +19,9 @@ Nanoseconds repeat_time(const HandoverConfig& config);
 class ResultRoute {
  public:
   // Throws InputError where the folder of waiting results cannot be used.
-  ResultRoute(const std::optional<HandoverConfig>& handover, ScanPrinter& printer, std::ostream& log);
+  // `dish_styles`: what the hub may say that the next tray carries.
+  ResultRoute(const std::optional<HandoverConfig>& handover, std::vector<std::string> dish_styles,
+              ScanPrinter& printer, std::ostream& log);
   ResultRoute(const ResultRoute&) = delete;
   ResultRoute& operator=(const ResultRoute&) = delete;
   ~ResultRoute();

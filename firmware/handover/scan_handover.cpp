@@ -17,6 +17,7 @@ ScanHandover::ScanHandover(ResultSink& printer, HubLink& link, KeptResults& kept
 
 Delivery ScanHandover::deliver(const ScanResult& result) {
   const Delivery printed = printer_.deliver(result);
+  next_tray_.use_ended(result.outcome == ScanOutcome::measured);
   if (result.outcome == ScanOutcome::cancelled) return printed;
   const Expected<ScanId> id = kept_.next_id();
   if (!id.ok()) {
@@ -89,6 +90,7 @@ bool ScanHandover::has_room() {
 
 void ScanHandover::attend() {
   link_.attend();
+  hear_next_tray();
   hand_over_kept();
   tell_shape();
   if (link_.take_is_new() || SteadyClock::now() - told_at_ >= params_.heartbeat) tell_state();
@@ -120,6 +122,18 @@ void ScanHandover::report_recovery(std::string_view what) {
   tell_state();
 }
 
+void ScanHandover::hear_next_tray() {
+  const std::optional<std::string> text = link_.take_next_tray();
+  if (!text) return;
+  const Expected<ToldTray> told = read_told_tray(*text, params_.dish_styles);
+  if (told.ok()) {
+    next_tray_.tell(*told, SteadyClock::now());
+  } else {
+    log_ << "What the hub told of the next tray is of no use: " << told.failure() << std::endl;
+  }
+  tell_state();
+}
+
 // Only for looking at: who presses the button does not wait for it, and none is kept for a hub that is away.
 void ScanHandover::tell_shape() {
   if (shape_.empty()) return;
@@ -131,7 +145,10 @@ void ScanHandover::tell_state() {
   using Json = nlohmann::json;
   Json faults = Json::array();
   for (const auto& [device, text] : faults_) faults.push_back({{"device", device}, {"message", text}});
+  const std::optional<ToldTray> next = next_tray_.at(SteadyClock::now());
   const Json json = {{"state", state_},
+                     {"dishes", params_.dish_styles},
+                     {"next_tray", next ? Json::parse(told_tray_json(*next)) : Json()},
                      {"waiting_results", kept_.waiting_count()},
                      {"disk", disk_problem_.empty() ? Json() : Json(disk_problem_)},
                      {"faults", faults}};

@@ -7,11 +7,13 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "firmware/base/scan_id.hpp"
 #include "firmware/base/wall_clock.hpp"
 #include "firmware/handover/hub_link.hpp"
 #include "firmware/handover/kept_results.hpp"
+#include "firmware/handover/next_tray.hpp"
 #include "firmware/station/scan_result.hpp"
 
 namespace traygauge {
@@ -23,6 +25,8 @@ struct ScanHandoverParams {
   Milliseconds retry_after{2000};
   // A shape has some 200 kB, of which a socket holds half.
   Milliseconds longest_shape{100};
+  // The styles of dishes that the next tray may be said to carry.
+  std::vector<std::string> dish_styles;
   // The hub calls a station silent that says nothing for longer: see its health.
   Milliseconds heartbeat{2000};
 };
@@ -34,6 +38,7 @@ class ScanHandover final : public ResultSink {
                ScanHandoverParams params = {});
 
   Delivery deliver(const ScanResult& result) override;
+  TrayHint next_tray() override { return next_tray_.use(SteadyClock::now()); }
   bool has_room() override;
   void attend() override;
   void report_state(std::string_view state) override;
@@ -47,6 +52,7 @@ class ScanHandover final : public ResultSink {
   Delivery keep(const std::string& id, const std::string& document);
   bool hand_over(const std::string& id, const std::string& document);
   bool hand_over_kept();
+  void hear_next_tray();
   void tell_shape();
   void tell_state();
   void log_notices();
@@ -59,6 +65,7 @@ class ScanHandover final : public ResultSink {
   std::ostream& log_;
   ScanHandoverParams params_;
 
+  NextTray next_tray_;
   std::string state_ = "starting";
   WallTime pressed_at_;
   std::optional<ScanId> last_id_;                           // of the last result with a measurement

@@ -80,6 +80,7 @@ HubWeb::HubWeb(AccessParams access, SiteParams site, HubStore& store, StationInb
       hub_site_{store, inbox, shapes, events_, [this] { return server_->counts(); }} {
   add_login_routes(router_, access_);
   add_scan_routes(router_, hub_site_);
+  add_next_tray_routes(router_, hub_site_);
   add_shape_routes(router_, hub_site_);
   add_correction_routes(router_, hub_site_);
   add_export_routes(router_, hub_site_);

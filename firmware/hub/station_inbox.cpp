@@ -165,9 +165,17 @@ void StationInbox::hear_shape(const Peer& peer, Message message) const {
   if (told_.on_shape) told_.on_shape(*id, std::move(message.bytes));
 }
 
-// Answers are short: a station that does not read them hangs, and asks again once it lives.
-void StationInbox::send(Peer& peer, const Message& message) {
-  if (!peer.connection.send_all(encode(message), Milliseconds::zero()).ok()) peer.connection.close();
+bool StationInbox::tell(const std::string& station, const Message& message) {
+  const auto peer = std::find_if(peers_.begin(), peers_.end(),
+                                 [&station](const Peer& one) { return one.station == station; });
+  return peer != peers_.end() && send(*peer, message);
+}
+
+// What a hub says is short: a station that does not read it hangs, and asks again once it lives.
+bool StationInbox::send(Peer& peer, const Message& message) {
+  const bool is_sent = peer.connection.send_all(encode(message), Milliseconds::zero()).ok();
+  if (!is_sent) peer.connection.close();
+  return is_sent;
 }
 
 void StationInbox::forget(Peer& peer) {

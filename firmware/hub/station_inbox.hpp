@@ -52,6 +52,9 @@ class StationInbox {
   // Takes connections and messages that have come, and answers them.
   void attend();
 
+  // False where the station is not connected or does not read.
+  bool tell(const std::string& station, const Message& message);
+
   // By name; stations that left stay, as not connected.
   const std::map<std::string, LiveStation>& stations() const { return stations_; }
 
@@ -72,7 +75,7 @@ class StationInbox {
   Message store(const Peer& peer, const std::string& id, const std::string& document);
   void hear_state(const Peer& peer, Message message);
   void hear_shape(const Peer& peer, Message message) const;
-  static void send(Peer& peer, const Message& message);
+  static bool send(Peer& peer, const Message& message);
   void forget(Peer& peer);
   void report(const std::string& problem) const;
 

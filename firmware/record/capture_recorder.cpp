@@ -27,7 +27,7 @@ CaptureRecorder::CaptureRecorder(fs::path out, const std::array<CameraDescriptio
   make_output_folder(out_);
 }
 
-void CaptureRecorder::begin_scan() {
+void CaptureRecorder::begin_scan(const TrayHint& /*hint*/) {
   views_.clear();
   guide_knows_view_ = false;
   std::error_code ignored;

@@ -24,7 +24,7 @@ class CaptureRecorder final : public Measurer {
   CaptureRecorder(std::filesystem::path out, const std::array<CameraDescription, 2>& cameras,
                   const CardDescription& card);
 
-  void begin_scan() override;
+  void begin_scan(const TrayHint& hint) override;
   Status add_view(const StationView& view) override;
   // ok when the capture is on disk. Else problem() says why not.
   const Measurement& measure() override;

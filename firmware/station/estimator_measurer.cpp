@@ -19,7 +19,7 @@ EstimatorMeasurer::EstimatorMeasurer(Scene& scene, const FrameLimits& limits, st
       block_(required_bytes(with_limits({}, limits, scene.needs_labels()))) {}
 
 // The card's pattern is learned again only when the configuration is another one.
-void EstimatorMeasurer::begin_scan() {
+void EstimatorMeasurer::begin_scan(const TrayHint& hint) {
   const Configuration* configuration = scene_.configuration();
   if (configuration == nullptr) {
     estimator_.reset();
@@ -28,13 +28,18 @@ void EstimatorMeasurer::begin_scan() {
   } else {
     estimator_->reset();
   }
+  status_ = estimator_ ? expect(*configuration, hint) : Status(StatusCode::wrong_call);
   configured_with_ = configuration;
   first_view_.reset();
 }
 
+Status EstimatorMeasurer::expect(const Configuration& configuration, const TrayHint& hint) {
+  return estimator_->expect(scene_.dishes(hint),
+                            hint.foods > 0 ? hint.foods : configuration.segmentation.items);
+}
+
 Status EstimatorMeasurer::add_view(const StationView& view) {
-  if (!estimator_) return StatusCode::wrong_call;
-  if (!estimator_->status().ok()) return estimator_->status();
+  if (!status_.ok()) return status_;
   const ViewInput input = scene_.describe(view);
   if (!first_view_) first_view_ = input;
   return estimator_->add_view(input);
@@ -52,8 +57,8 @@ std::optional<double> EstimatorMeasurer::turned_deg(const FrameView& live) {
 }
 
 const Measurement& EstimatorMeasurer::measure() {
-  if (estimator_ && estimator_->status().ok()) return estimator_->estimate(seed_);
-  unmeasured_.status = estimator_ ? estimator_->status() : Status(StatusCode::wrong_call);
+  if (status_.ok()) return estimator_->estimate(seed_);
+  unmeasured_.status = status_;
   return unmeasured_;
 }
 

@@ -24,6 +24,8 @@ class Scene {
   // Camera, card and dishes for the tray that lies there now, valid until the next call; the same address
   // means the same content. Null when nothing is known of it; its limits are not looked at.
   virtual const Configuration* configuration() = 0;
+  // The dishes of a tray of which that is known, valid until the next call; else the configuration's.
+  virtual std::span<const DishModel> dishes(const TrayHint& hint) = 0;
   // The view with its labels and, where they are known, its own camera and the arm's angle. Without labels
   // they are found.
   virtual ViewInput describe(const StationView& view) = 0;
@@ -38,7 +40,7 @@ class EstimatorMeasurer final : public Measurer {
  public:
   EstimatorMeasurer(Scene& scene, const FrameLimits& limits, std::uint64_t seed);
 
-  void begin_scan() override;
+  void begin_scan(const TrayHint& hint) override;
   Status add_view(const StationView& view) override;
   const Measurement& measure() override;
   bool can_guide() const override { return true; }
@@ -46,13 +48,16 @@ class EstimatorMeasurer final : public Measurer {
   std::string_view tray_name() const override { return scene_.tray_name(); }
 
  private:
+  Status expect(const Configuration& configuration, const TrayHint& hint);
+
   Scene& scene_;
   FrameLimits limits_;
   std::uint64_t seed_;
   AlignedBlock block_;
   const Configuration* configured_with_ = nullptr;
   std::optional<TrayEstimator> estimator_;
-  Measurement unmeasured_;  // where there is no estimator to ask
+  Status status_ = StatusCode::wrong_call;  // whether it can measure this tray
+  Measurement unmeasured_;                  // where it cannot
   CardGuide guide_;
   std::optional<ViewInput> first_view_;  // until guide_ knows it
 };

@@ -3,7 +3,6 @@
 #include "firmware/base/exit_status.hpp"
 #include "firmware/command/service_manager.hpp"
 #include "firmware/config/config_folder.hpp"
-#include "firmware/config/dish_choice.hpp"
 #include "firmware/config/dish_library.hpp"
 #include "firmware/handover/result_route.hpp"
 #include "firmware/station/hardware.hpp"
@@ -41,10 +40,10 @@ int run_hardware_station(const StationCommand& command, const std::filesystem::p
     throw UsageError("--by-hand: " + station_file.file.string() + " has an [arm]; remove one of the two");
   }
   require_geometry(station_file);
-  SiteScene scene(station_file, choose_tray_dishes(station_file, read_dishes(file)));
+  SiteScene scene(station_file, read_dishes(file));
   EstimatorMeasurer measurer(scene, scene.limits(), command.seed);
   ScanPrinter printer(out, log, command.json ? ScanPrinter::Format::json : ScanPrinter::Format::text);
-  const ResultRoute route(station_file.handover, printer, log);
+  const ResultRoute route(station_file.handover, scene.dish_styles(), printer, log);
   Hardware hardware(station_file);
   warn_of_changed_lenses(station_file, hardware, log);
   StationParams params = hardware_params(station_file);

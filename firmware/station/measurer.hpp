@@ -7,6 +7,7 @@
 
 #include "core/base/status.hpp"
 #include "core/image_view/image_view.hpp"
+#include "firmware/station/tray_hint.hpp"
 
 namespace traygauge {
 
@@ -27,8 +28,8 @@ class Measurer {
   Measurer& operator=(const Measurer&) = delete;
   virtual ~Measurer() = default;
 
-  // A new tray lies there: forgets the last one.
-  virtual void begin_scan() = 0;
+  // A new tray lies there, of which `hint` is known: forgets the last one.
+  virtual void begin_scan(const TrayHint& hint) = 0;
   // Does what can be done with this view alone; the arm may move meanwhile. The pixels stay valid until the
   // next begin_scan(). After a failure measure() reports the same.
   virtual Status add_view(const StationView& view) = 0;

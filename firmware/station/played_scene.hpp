@@ -30,6 +30,9 @@ class PlayedScene final : public Scene {
   const Configuration* configuration() override {
     return player_.has_tray() ? &captures_.configuration() : nullptr;
   }
+  std::span<const DishModel> dishes(const TrayHint& /*hint*/) override {
+    return captures_.configuration().dishes;
+  }
   // The arm's angle counts only where one was recorded: without, the simulated arm's has nothing to do with
   // where the camera stood. An arm that stands elsewhere shows the nearest recorded view: what it says of
   // itself is then as far from that view as it is from the truth.

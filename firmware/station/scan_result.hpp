@@ -9,6 +9,7 @@
 #include "drivers/device_status.hpp"
 #include "firmware/base/scan_id.hpp"
 #include "firmware/base/wall_clock.hpp"
+#include "firmware/station/tray_hint.hpp"
 
 namespace traygauge {
 
@@ -63,6 +64,8 @@ class ResultSink {
 
   // Only what is done may be shown as done.
   [[nodiscard]] virtual Delivery deliver(const ScanResult& result) = 0;
+  // What is known of the tray for which the button was pressed; holds until its result was measured.
+  virtual TrayHint next_tray() { return {}; }
   // False when no further result could be kept: then nothing is measured. The sink tells why, once.
   [[nodiscard]] virtual bool has_room() { return true; }
   // Between two looks at the button, every half second at least: may take some tens of milliseconds.

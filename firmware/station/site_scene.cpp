@@ -1,12 +1,15 @@
 #include "firmware/station/site_scene.hpp"
 
 #include <algorithm>
+#include <utility>
 
+#include "firmware/config/dish_choice.hpp"
 #include "simulator/capture/picture_file.hpp"
 
 namespace traygauge {
 
-SiteScene::SiteScene(const StationFile& station, const std::vector<DishDescription>& dishes) {
+SiteScene::SiteScene(const StationFile& station, std::vector<DishDescription> library)
+    : library_(std::move(library)) {
   require_geometry(station);
   const std::array<const LensConfig*, 2> lenses = {
       &*station.lens, station.second_lens ? &*station.second_lens : &*station.lens};
@@ -16,10 +19,27 @@ SiteScene::SiteScene(const StationFile& station, const std::vector<DishDescripti
   }
   setup_.card = *station.card;
   setup_.pattern = load_pattern(*station.card);
-  for (const DishDescription& dish : dishes) setup_.dishes.push_back(dish_of(dish));
+  for (const DishDescription& dish : choose_tray_dishes(station, library_))
+    setup_.dishes.push_back(dish_of(dish));
   Configuration parameters;
   parameters.segmentation.items = station.items;
   configuration_ = configure(setup_, parameters);
+}
+
+// A style that is not in the library leaves no dish, which the estimator refuses.
+std::span<const DishModel> SiteScene::dishes(const TrayHint& hint) {
+  if (hint.dishes.empty()) return configuration_.dishes;
+  hinted_.clear();
+  if (const auto named = find_dishes(hint.dishes, library_); named.ok()) {
+    for (const DishDescription& dish : *named) hinted_.push_back(dish_of(dish));
+  }
+  return hinted_;
+}
+
+std::vector<std::string> SiteScene::dish_styles() const {
+  std::vector<std::string> styles;
+  for (const DishDescription& dish : library_) styles.push_back(dish.style);
+  return styles;
 }
 
 ViewInput SiteScene::describe(const StationView& view) {

@@ -120,6 +120,7 @@ StationState Station::wait_for_press() {
   pressed_at_ = press.at;
   is_repeated_ = false;
   repeats_last_ = false;
+  hint_ = sink_.next_tray();
   return StationState::taking_first_view;
 }
 
@@ -134,13 +135,12 @@ StationState Station::refuse_press() {
 // The arm starts to move as soon as the picture is taken, and the measurer works meanwhile.
 StationState Station::take_first_view() {
   show(Signal::hold_still);
-  measurer_.begin_scan();
   if (const Opening settled = refresh_exposure(); settled.failed != nullptr)
     return fail_scan(*settled.failed, settled.status);
   DeviceStatus status = capture(devices_.camera, first_);
   if (!status.ok()) return fail_scan(devices_.camera, status);
-  first_means_ = means_[1];
-  repeats_last_ = shows_last_tray();
+  recognise_tray();
+  measurer_.begin_scan(hint_);
   if (devices_.arm != nullptr) {
     status = devices_.arm->begin_move_to(params_.second_view_deg);
     if (!status.ok()) return fail_scan(*devices_.arm, status);
@@ -148,6 +148,13 @@ StationState Station::take_first_view() {
   const auto home_deg = devices_.arm != nullptr ? std::optional(0.0) : std::nullopt;
   const Status taken = measurer_.add_view({first_.frame.view, first_.frame.sequence, home_deg});
   return taken.ok() ? StationState::awaiting_second_view : StationState::measuring;
+}
+
+// What was known of a tray holds when it is measured again.
+void Station::recognise_tray() {
+  first_means_ = means_[1];
+  repeats_last_ = shows_last_tray();
+  if (repeats_last_ && hint_ == TrayHint()) hint_ = last_hint_;
 }
 
 bool Station::shows_last_tray() const {
@@ -297,7 +304,7 @@ StationState Station::finish_return(StationState next, bool arm_is_doubtful) {
 // Delivers what became of the press, then shows it. Presses during the scan count as impatience.
 StationState Station::end_scan(ScanResult result, Signal signal, StationState next) {
   result.scan = totals_.scans;
-  result.tray = measurer_.tray_name();
+  result.tray = hint_.tray.empty() ? measurer_.tray_name() : hint_.tray;
   result.duration = devices_.clock.now() - pressed_at_;
   result.repeats_last = repeats_last_;
   const Delivery delivery = sink_.deliver(result);
@@ -307,6 +314,7 @@ StationState Station::end_scan(ScanResult result, Signal signal, StationState ne
   show(signal_after(delivery, signal));
   last_result_at_ = devices_.clock.now();
   last_tray_ = result.measurement != nullptr ? first_means_ : BlockMeans();
+  last_hint_ = hint_;
   result_until_ = last_result_at_ + params_.result_shown;
   devices_.trigger.discard_pending();
   return next;

@@ -115,6 +115,7 @@ class Station {
   StationState wait_for_press();
   StationState refuse_press();
   StationState take_first_view();
+  void recognise_tray();
   bool shows_last_tray() const;
   StationState await_second_view();
   StationState await_second_press();
@@ -164,6 +165,8 @@ class Station {
   BlockMeans last_tray_;             // of the first view that the last result is of
   Instant last_result_at_;
   bool repeats_last_ = false;
+  TrayHint hint_;                  // of this scan's tray
+  TrayHint last_hint_;             // of the last result's
   Signal guidance_ = Signal::off;  // for the picture that means_[0] is of
   Instant pressed_at_;
   Instant settled_at_;                   // the cameras' exposure

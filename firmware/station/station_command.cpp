@@ -68,7 +68,7 @@ int play(const StationCommand& command, const FaultPlan& faults, MeasurableCaptu
   PlayedScene scene(captures, player);
   EstimatorMeasurer measurer(scene, captures.limits(), command.seed);
   ScanPrinter printer(out, log, command.json ? ScanPrinter::Format::json : ScanPrinter::Format::text);
-  const ResultRoute route(handover_of(command), printer, log);
+  const ResultRoute route(handover_of(command), {}, printer, log);
   StationParams params;
   if (!command.hub.socket.empty()) params.repeat_within = repeat_time(command.hub);
   params.second_view_deg = command.second_view_deg;

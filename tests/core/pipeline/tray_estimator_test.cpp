@@ -125,6 +125,40 @@ TEST_P(TrayEstimatorTest, FramesThatCannotBeUsed) {
   EXPECT_TRUE(bench.measure(views_[0], views_[1]).status.ok()) << "and the next measurement is right";
 }
 
+TEST(TrayEstimatorExpectation, HoldsForTheTraysThatFollow) {
+  const Configuration configuration = demo().configuration();
+  MeasuringBench bench(configuration);
+  const auto items = [&bench] {
+    return bench.measure(demo().bare_view(0), demo().bare_view(1)).items.size();
+  };
+  const std::size_t found = items();
+  ASSERT_GT(found, 1U);
+  ASSERT_TRUE(bench.estimator.expect(configuration.dishes, 1).ok());
+  EXPECT_EQ(items(), 1U);
+  EXPECT_EQ(items(), 1U);
+  ASSERT_TRUE(bench.estimator.expect(configuration.dishes, 0).ok());
+  EXPECT_EQ(items(), found);
+  DishModel other = configuration.dishes.front();
+  for (double& size_mm : other.outer_size_mm) size_mm *= 0.5;
+  ASSERT_TRUE(bench.estimator.expect({&other, 1}, 0).ok());
+  EXPECT_FALSE(bench.measure(demo().view(0), demo().view(1)).status.ok())
+      << "a dish that does not stand there";
+}
+
+TEST(TrayEstimatorExpectation, OfNoUseChangesNothing) {
+  const Configuration configuration = demo().configuration();
+  MeasuringBench bench(configuration);
+  const auto expected = numbers_of(bench.measure(demo().view(0), demo().view(1)));
+  EXPECT_EQ(bench.estimator.expect({}, 0).code(), StatusCode::invalid_configuration);
+  EXPECT_EQ(bench.estimator.expect(configuration.dishes, -1).code(), StatusCode::invalid_configuration);
+  EXPECT_EQ(bench.estimator.expect(configuration.dishes, 199).code(), StatusCode::invalid_configuration);
+  bench.estimator.reset();
+  ASSERT_TRUE(bench.estimator.add_view(demo().view(0)).ok());
+  EXPECT_EQ(bench.estimator.expect(configuration.dishes, 1).code(), StatusCode::wrong_call);
+  ASSERT_TRUE(bench.estimator.add_view(demo().view(1)).ok());
+  EXPECT_TRUE(have_equal_bits(expected, numbers_of(bench.estimator.estimate(1))));
+}
+
 TEST(TrayEstimatorLabels, AreThoseThatWereMeasured) {
   MeasuringBench bench(demo().configuration());
   EXPECT_TRUE(bench.estimator.labels(0).empty());

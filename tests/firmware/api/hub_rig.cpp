@@ -152,6 +152,15 @@ std::string HubRig::hear(const Listening& listening, const std::string& until) {
   return receive(listening.socket, until);
 }
 
+void HubRig::lose_station() {
+  stop_loop();
+  station_.reset();
+  const auto is_connected = [this] { return hub_->inbox().stations().at("kitchen").is_connected; };
+  for (int i = 0; i < 100 && is_connected(); ++i) hub_->step(Milliseconds(10));
+  if (is_connected()) throw std::runtime_error("the hub takes the station for connected");
+  start_loop();
+}
+
 void HubRig::lose_store() {
   stop_loop();
   const std::filesystem::path file = folder_.path() / "results.db";

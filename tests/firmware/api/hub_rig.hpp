@@ -40,6 +40,8 @@ class HubRig {
   Listening listen(const std::string& until, const std::string& headers = {}) const;
   // What comes further, until it has that, too.
   static std::string hear(const Listening& listening, const std::string& until);
+  // The station's connection ends, which the hub knows when this returns.
+  void lose_station();
   // The store's file is damaged, and no other can take its place.
   void lose_store();
   // "GET /api/v1/scans/{id}" and the role that it asks for, of all that the hub answers.

@@ -89,6 +89,49 @@ TEST_F(Handover, IsDoneOnceTheHubHasStored) {
   EXPECT_NE(out_.str().find("100.0 ml"), std::string::npos);
 }
 
+// A hub that tells of the next tray as soon as it hears of the station.
+FakeHub::Answer tell_of(const std::string& next_tray) {
+  return [next_tray](const Message& message) {
+    if (message.type == MessageType::hello)
+      return std::vector<Message>{{MessageType::next_tray, next_tray, {}}};
+    return store_all(message);
+  };
+}
+
+TEST_F(Handover, KnowsOfTheNextTrayUntilItIsMeasured) {
+  const FakeHub hub(socket(), tell_of(R"({"tray":"order 4711","foods":3,"dishes":[],"valid_ms":60000})"));
+  Run run(folder_.path(), out_, log_);
+  for (int i = 0; i < 500 && run.sink->next_tray().foods == 0; ++i) {
+    run.sink->attend();
+    std::this_thread::sleep_for(Milliseconds(10));
+  }
+  const TrayHint hint{"order 4711", 3, {}};
+  EXPECT_EQ(run.sink->next_tray(), hint);
+  ScanResult failed = result_;
+  failed.outcome = ScanOutcome::not_measurable;
+  EXPECT_EQ(run.sink->deliver(failed), Delivery::done);
+  EXPECT_EQ(run.sink->next_tray(), hint);  // the next press is a second try
+  EXPECT_EQ(run.sink->deliver(result_), Delivery::done);
+  EXPECT_EQ(run.sink->next_tray(), TrayHint());
+  bool was_shown = false;
+  for (const Message& message : hub.received(MessageType::state)) {
+    const Json next = Json::parse(message.text)["next_tray"];
+    was_shown = was_shown || (next.is_object() && next["foods"] == 3);
+  }
+  EXPECT_TRUE(was_shown);
+}
+
+TEST_F(Handover, SaysWhatOfTheNextTrayIsOfNoUse) {
+  const FakeHub hub(socket(), tell_of(R"({"foods":3,"dishes":["bowl"],"valid_ms":60000})"));
+  Run run(folder_.path(), out_, log_);
+  for (int i = 0; i < 500 && log_.str().find("of no use") == std::string::npos; ++i) {
+    run.sink->attend();
+    std::this_thread::sleep_for(Milliseconds(10));
+  }
+  EXPECT_NE(log_.str().find("of no use: dishes: expected none"), std::string::npos) << log_.str();
+  EXPECT_EQ(run.sink->next_tray(), TrayHint());
+}
+
 TEST_F(Handover, ShowsTheHubWhatTheTrayLooksLikeOnce) {
   const DrawnTray tray;
   result_.measurement = &tray.measurement();

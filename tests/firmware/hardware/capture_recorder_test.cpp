@@ -76,9 +76,9 @@ TEST_F(Recording, LeavesNumbersOutThatAreTaken) {
   const Capture source = read_capture(demo_);
   CaptureRecorder recorder(folder_.path() / "out", {source.views[0].camera, source.views[1].camera},
                            source.card);
-  recorder.begin_scan();
+  recorder.begin_scan({});
   EXPECT_EQ(recorder.tray_name(), "0003");
-  recorder.begin_scan();
+  recorder.begin_scan({});
   EXPECT_EQ(recorder.tray_name(), "0004");
 }
 
@@ -92,7 +92,7 @@ TEST_F(Recording, SaysThatItCouldNotSave) {
   CaptureRecorder recorder(folder_.path() / "out", {source.views[0].camera, source.views[1].camera},
                            source.card);
   const LoadedView view = load_view(source.views[0]);
-  recorder.begin_scan();
+  recorder.begin_scan({});
   fs::remove_all(folder_.path() / "out");
   write_text(folder_.path() / "out", "in the way");
   for (int i = 0; i < 2; ++i) {
@@ -106,7 +106,7 @@ TEST_F(Recording, RefusesPicturesOfAnotherSize) {
   const Capture source = read_capture(demo_);
   CaptureRecorder recorder(folder_.path() / "out", {source.views[0].camera, source.views[1].camera},
                            source.card);
-  recorder.begin_scan();
+  recorder.begin_scan({});
   const Picture small({32, 32}, PixelFormat::rgb8);
   EXPECT_EQ(recorder.add_view({small.frame(), 1, std::nullopt}).code(), StatusCode::frame_size_mismatch);
   EXPECT_FALSE(recorder.measure().status.ok());

@@ -216,7 +216,7 @@ TEST(SiteWithoutLabels, MeasuresWhatItFinds) {
   EstimatorMeasurer measurer(scene, scene.limits(), 0);
   CaptureSession session(capture, {0, 1}, capture.dishes, {}, LabelSource::automatic);
   for (int scan = 0; scan < 2; ++scan) {
-    measurer.begin_scan();
+    measurer.begin_scan({});
     EXPECT_TRUE(measurer.add_view({views[0].picture.frame(), 0, {}}).ok());
     // Looks for the card between the views, where drawing remembers the first.
     EXPECT_NEAR(measurer.turned_deg(views[1].picture.frame()).value_or(0.0), 15.2, 1.0);
@@ -230,7 +230,7 @@ TEST(SiteWithoutLabels, MeasuresWhatItFinds) {
   }
   // A bare table: no card; said after the first view.
   const Picture bare(views[0].picture.size, PixelFormat::bgr8);
-  measurer.begin_scan();
+  measurer.begin_scan({});
   const Status refused = measurer.add_view({bare.frame(), 0, {}});
   EXPECT_FALSE(refused.ok());
   EXPECT_EQ(measurer.measure().status.code(), refused.code());

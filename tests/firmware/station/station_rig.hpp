@@ -28,7 +28,8 @@ inline void PrintTo(Signal signal, std::ostream* out) {
 // measurement refuses: noise, pictures of the wrong size, the same view twice, views of two trays.
 class FakeMeasurer final : public Measurer {
  public:
-  void begin_scan() override {
+  void begin_scan(const TrayHint& hint) override {
+    hints.push_back(hint);
     grays_.clear();
     views.clear();
     view_status_ = {};
@@ -56,6 +57,7 @@ class FakeMeasurer final : public Measurer {
   std::optional<double> turned_deg(const FrameView& live) override { return guide(live); }
   std::string_view tray_name() const override { return "tray"; }
 
+  std::vector<TrayHint> hints;  // of every scan
   std::function<std::optional<double>(const FrameView&)> guide;
   Status first_view_status;
   Status status;
@@ -113,6 +115,7 @@ class RecordingSink final : public ResultSink {
     durations.push_back(result.duration);
     if (on_delivery) on_delivery();
     repeats.push_back(result.repeats_last);
+    trays.emplace_back(result.tray);
     return delivery;
   }
   void report_fault(const DeviceFailure& failure) override {
@@ -123,11 +126,13 @@ class RecordingSink final : public ResultSink {
     lines.push_back(std::string("recovery ").append(what));
   }
 
+  TrayHint next_tray() override { return hint; }
   bool has_room() override { return room; }
   void attend() override {
     if (on_attend) on_attend();
   }
 
+  TrayHint hint;  // of every tray
   Delivery delivery = Delivery::done;
   bool room = true;
   std::function<void()> on_delivery;
@@ -135,6 +140,7 @@ class RecordingSink final : public ResultSink {
   std::vector<std::string> lines;
   std::vector<Nanoseconds> durations;
   std::vector<bool> repeats;
+  std::vector<std::string> trays;
 
  private:
   static std::string text(const DeviceFailure& failure) {

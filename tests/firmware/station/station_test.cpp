@@ -220,6 +220,26 @@ TEST(Station, SaysWhetherTheSameTrayWasPressedForAgain) {
   }
 }
 
+TEST(Station, WhatIsKnownOfATrayReachesTheMeasurementAndNamesTheResult) {
+  StationRig rig(1);
+  rig.sink.hint = {"order 4711", 3, {"soup"}};
+  rig.run();
+  EXPECT_EQ(rig.measurer.hints, std::vector{rig.sink.hint});
+  EXPECT_EQ(rig.sink.trays, std::vector<std::string>{"order 4711"});
+}
+
+TEST(Station, WhatWasKnownOfATrayHoldsWhenItIsMeasuredAgain) {
+  for (const bool is_untouched : {true, false}) {
+    StationRig rig(2);
+    rig.captures.same_pictures = is_untouched;
+    const TrayHint hint{"order 4711", 3, {}};
+    rig.sink.hint = hint;
+    rig.sink.on_delivery = [&rig] { rig.sink.hint = {}; };
+    rig.run();
+    EXPECT_EQ(rig.measurer.hints, (std::vector{hint, is_untouched ? hint : TrayHint()}));
+  }
+}
+
 TEST(Station, ALatePressIsForANewMeal) {
   StationRig rig(2);
   rig.captures.same_pictures = true;
