@@ -34,7 +34,7 @@ export function last_holding(corrections) {
 }
 
 export function correction_list(corrections) {
-  if (corrections.length === 0) return element('p', { class: 'quiet' }, word('correction.none'));
+  if (corrections.length === 0) return element('p', { class: 'quiet no-corrections' }, word('correction.none'));
   return element('ol', { class: 'corrections' }, corrections.map((correction) =>
     element('li', { value: correction.correction },
       element('p', {}, correction_text(correction)),

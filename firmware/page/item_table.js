@@ -49,7 +49,8 @@ function row(item, scan, columns, selection) {
 function columns_of(scan) {
   const columns = [{ head: 'item.volume', class: 'number', cell: volume_cell }];
   if (scan.is_corrected) columns.push({ head: 'item.measured', class: 'number quiet', cell: measured_cell });
-  columns.push({ head: 'item.dish', class: 'number quiet', cell: (item) => String(item.dish) });
+  const has_dishes = new Set(scan.items.map((item) => item.dish)).size > 1;
+  if (has_dishes) columns.push({ head: 'item.dish', class: 'number quiet', cell: (item) => String(item.dish) });
   return columns;
 }
 

@@ -18,7 +18,7 @@ class LiveData extends EventTarget {
     this.needs_login = false;
     this.asked_at = -Infinity;
     this.latest_demanded = true;
-    this.events = new HubEvents(['scan', 'station', 'correction', 'missed'], () => this.demand_latest(),
+    this.events = new HubEvents(['scan', 'shape', 'station', 'correction', 'missed'], () => this.note_open(),
       (name, data) => this.take_event(name, data));
   }
 
@@ -30,9 +30,21 @@ class LiveData extends EventTarget {
     });
     this.events.start();
     setInterval(() => this.tick(), kTickMs);
-    // A page that was in the background may hold old data.
-    document.addEventListener('visibilitychange', () => this.poll_now());
+    document.addEventListener('visibilitychange', () => this.note_visibility());
+    window.addEventListener('pagehide', () => this.events.stop());
+    window.addEventListener('pageshow', (event) => event.persisted && this.events.start());
     this.poll_now();
+  }
+
+  // A browser opens six connections to one hub, and each stream takes one: what nobody looks at holds none,
+  // or the seventh page would wait for ever.
+  note_visibility() {
+    if (document.hidden) {
+      this.events.stop();
+    } else {
+      this.events.start();
+      this.poll_now();
+    }
   }
 
   note_answer() {
@@ -118,9 +130,15 @@ class LiveData extends EventTarget {
     this.tell('latest');
   }
 
+  // What was told while nobody listened is asked for.
+  note_open() {
+    this.demand_latest();
+    this.tell('open');
+  }
+
   take_event(name, data) {
     if (name === 'station') return this.poll_soon();
-    this.demand_latest();
+    if (name !== 'shape') this.demand_latest();
     this.dispatchEvent(new CustomEvent(name, { detail: data }));
   }
 

@@ -85,10 +85,12 @@ async function start_session() {
   try {
     await read_session();
     await read_site();
+    show_view();
   } catch (error) {
-    if (error.status !== 401) setTimeout(start_session, kRetryMs);
+    if (error.status === 401) return;  // the login is shown already, and somebody may be typing
+    if (by_id('main').childElementCount === 0) show_view();
+    setTimeout(start_session, kRetryMs);
   }
-  show_view();
 }
 
 async function use_language(chosen) {
@@ -131,6 +133,5 @@ listen();
 show_connection(by_id('connection'));
 announce_connection(announce);
 announce_results();
-show_view();
 live.start();
 await start_session();

@@ -40,7 +40,7 @@ export function warning_list(scan) {
   const warnings = Array.isArray(scan.warnings) ? scan.warnings : [];
   if (warnings.length === 0) return null;
   const lines = warnings.map((warning) => element('li', {}, warning_text(warning, scan)));
-  return element('section', { class: 'warnings' },
+  return element('div', { class: 'warnings' },
     element('h3', {}, word('scan.warnings')), element('ul', {}, lines));
 }
 

@@ -20,8 +20,10 @@ function triangles_of(dish) {
       const near = row * dish.columns + column;
       const far = near + dish.columns;
       const corners = [near, near + 1, far, far + 1];
-      if (corners.some((corner) => Number.isNaN(height_at(dish, corner)))) continue;
-      indices.push(near, near + 1, far, near + 1, far + 1, far);
+      const known = corners.filter((corner) => !Number.isNaN(height_at(dish, corner)));
+      if (known.length === 4) indices.push(near, near + 1, far, near + 1, far + 1, far);
+      // Along edges that run across, half of a cell is known. All triangles face upwards.
+      if (known.length === 3) indices.push(...(known.includes(far) && known.includes(far + 1) ? known.reverse() : known));
     }
   }
   return indices;

@@ -1,5 +1,6 @@
 // The last tray in three drawings, of which one is shown: outlines, heights, 3-D.
 import { element } from './elements.js';
+import { live } from './live_data.js';
 import { item_sentence } from './sentences.js';
 import { read_shape } from './tray_shape.js';
 import { show_heights } from './tray_heights.js';
@@ -30,7 +31,9 @@ class Panel {
     selection.addEventListener('change', () => { caption.textContent = caption_text(scan, selection); });
     const choices = element('div', { class: 'choices', role: 'group', 'aria-label': word('tray.drawings') },
       this.buttons);
-    this.node = element('div', { class: 'tray-panel' }, choices, this.stage, caption);
+    const mesh = element('a', { class: 'quiet note', href: `api/v1/scans/${encodeURIComponent(scan.id)}/mesh`, download: '' },
+      word('tray.mesh'));
+    this.node = element('div', { class: 'tray-panel' }, choices, this.stage, caption, mesh);
     this.choose(chosen);
   }
 
@@ -47,21 +50,28 @@ class Panel {
   }
 }
 
-// Fills `frame` once the shape is there. Returns what closes it.
+// Fills `frame` with the tray's drawings. The hub gets a shape shortly after its scan, and forgets it after
+// some further ones. Returns what closes the drawings.
 export function show_tray(frame, scan, selection) {
+  const closing = new AbortController();
+  const { signal } = closing;
   let panel = null;
-  let is_closed = false;
-  read_shape(scan.id).catch(() => null).then((shape) => {
-    if (is_closed) return;
+  const read = async () => {
+    if (panel !== null) return;
+    const shape = await read_shape(scan.id).catch(() => null);
+    if (signal.aborted || panel !== null) return;
     if (shape === null) {
       frame.replaceChildren(element('p', { class: 'quiet no-shape' }, word('tray.no_shape')));
       return;
     }
     panel = new Panel(shape, scan, selection);
     frame.replaceChildren(panel.node);
-  });
-  return () => {
-    is_closed = true;
-    panel?.close();
   };
+  live.addEventListener('open', read, { signal });
+  live.addEventListener('shape', (event) => {
+    if (JSON.parse(event.detail).id === scan.id) read();
+  }, { signal });
+  signal.addEventListener('abort', () => panel?.close());
+  read();
+  return () => closing.abort();
 }

@@ -34,7 +34,17 @@ function edge_of(dish) {
     left.push([dish.left + first * dish.cell, y]);
     right.unshift([dish.left + last * dish.cell, y]);
   }
-  return left.concat(right);
+  return smoothed(left.concat(right));
+}
+
+// Cells make steps of an edge that is round: each point becomes the mean of its neighbours.
+function smoothed(points) {
+  const kReach = 3;
+  return points.map((_, i) => {
+    const near = Array.from({ length: 2 * kReach + 1 }, (__, step) =>
+      points.at((i + step - kReach + points.length) % points.length));
+    return [0, 1].map((axis) => near.reduce((sum, point) => sum + point[axis], 0) / near.length);
+  });
 }
 
 function bounds_of(points) {

@@ -1,9 +1,10 @@
 // What this program is.
 import { element } from './elements.js';
 import { live } from './live_data.js';
+import { session } from './session.js';
 import { site } from './site.js';
 import { is_zone_of_site, time_zone } from './times.js';
-import { word } from './words.js';
+import { word, word_of } from './words.js';
 
 function versions() {
   const told = live.stations.filter((station) => station.program);
@@ -14,9 +15,10 @@ function versions() {
 
 export function show_about(main) {
   const zone = `${time_zone()} (${word(is_zone_of_site() ? 'about.zone_site' : 'about.zone_browser')})`;
-  const lines = [...versions(), [word('about.zone'), zone], [word('about.licence'), 'Apache-2.0']];
+  const role = word_of('role', session.role) ?? '–';
+  const lines = [...versions(), [word('about.role'), role], [word('about.zone'), zone], [word('about.licence'), 'Apache-2.0']];
   main.append(element('h1', {}, word('about.title')),
-    element('section', { class: 'card prose' },
+    element('div', { class: 'card prose' },
       element('p', {}, word('about.what')),
       element('p', {}, word('about.sigma')),
       element('dl', { class: 'facts' }, lines.map(([name, value]) =>

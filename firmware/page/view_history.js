@@ -1,67 +1,14 @@
 // All scans, newest first, with filters. Filters and page stand in the address: going back works.
-import { element, new_id } from './elements.js';
+import { element } from './elements.js';
 import { get } from './hub_api.js';
-import { live } from './live_data.js';
 import { error_note } from './error_note.js';
+import { api_filter, filter_form } from './history_filters.js';
 import { format_measured, format_volume } from './numbers.js';
 import { is_refused, item_name, scan_address, status_text } from './sentences.js';
-import { is_zone_of_site, format_time, start_of_day, time_zone } from './times.js';
+import { format_time, is_zone_of_site, time_zone } from './times.js';
 import { word } from './words.js';
 
-const kDays = { from: 0, to: 1 };  // "to" is a day that still counts, the API's `to` a time that does not
-const kTexts = ['station', 'food', 'text'];
-const kTruths = ['corrected', 'wrong'];
 const kMostItems = 3;  // of a line
-
-function api_filter(chosen) {
-  const filter = new URLSearchParams();
-  for (const [name, days] of Object.entries(kDays)) {
-    if (/^\d{4}-\d{2}-\d{2}$/.test(chosen.get(name) ?? '')) filter.set(name, start_of_day(chosen.get(name), days));
-  }
-  for (const name of [...kTexts, ...kTruths]) if (chosen.get(name)) filter.set(name, chosen.get(name));
-  return filter;
-}
-
-function labelled(key, field) {
-  field.id = new_id('field');
-  return element('div', { class: 'field' }, element('label', { for: field.id }, word(key)), field);
-}
-
-function truth_field(name, value, keys) {
-  const options = ['', 'true', 'false'].map((option, i) =>
-    element('option', { value: option, selected: option === value }, word(keys[i])));
-  return element('select', { name }, options);
-}
-
-function station_names() {
-  const id = new_id('stations');
-  const options = live.stations.map((station) => element('option', { value: station.name }));
-  return element('datalist', { id }, options);
-}
-
-function filter_form(chosen) {
-  const value = (name) => chosen.get(name) ?? '';
-  const text = (name, attributes = {}) => element('input', { name, type: 'search', value: value(name), ...attributes });
-  const day = (name) => element('input', { name, type: 'date', value: value(name) });
-  const names = station_names();
-  const form = element('form', { class: 'filters card', role: 'search', 'aria-label': word('history.filters') },
-    labelled('history.from', day('from')), labelled('history.to', day('to')),
-    labelled('history.station', text('station', { list: names.id })), names,
-    labelled('history.food', text('food')), labelled('history.text', text('text')),
-    labelled('history.corrected', truth_field('corrected', value('corrected'),
-      ['history.any', 'history.corrected_only', 'history.uncorrected_only'])),
-    labelled('history.wrong', truth_field('wrong', value('wrong'),
-      ['history.any', 'history.wrong_only', 'history.right_only'])),
-    element('div', { class: 'field actions' },
-      element('button', { type: 'submit', class: 'main-button' }, word('history.search')),
-      element('a', { href: '#history', class: 'button' }, word('history.reset'))));
-  form.addEventListener('submit', (event) => {
-    event.preventDefault();
-    const wanted = [...new FormData(form)].filter(([, entry]) => entry !== '');
-    location.hash = `#history?${new URLSearchParams(wanted)}`;
-  });
-  return form;
-}
 
 function items_text(scan) {
   const texts = scan.items.slice(0, kMostItems).map((item) =>
@@ -84,7 +31,7 @@ function row(scan) {
   const cell = (key, attributes, ...content) => element('td', { 'data-head': word(key), ...attributes }, content);
   return element('tr', {},
     element('th', { scope: 'row' }, element('a', { href: scan_address(scan.id) }, format_time(scan.taken_at, 'short'))),
-    cell('history.station', { class: 'quiet' }, scan.station),
+    cell('history.station', { class: 'quiet name' }, scan.station),
     cell('history.items', {}, what),
     cell('scan.total', { class: 'number' }, is_refused(scan) ? '–' : format_volume(scan.volume_ml)),
     cell('history.remarks', { class: 'tags' }, tags(scan)));

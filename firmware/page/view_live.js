@@ -54,8 +54,8 @@ export function show_live(main, parameters, signal) {
   const last = element('section', { class: 'card last-tray', 'aria-label': word('live.last_tray') });
   main.append(
     element('h1', { class: 'unseen' }, word('live.title')),
-    element('section', { class: 'card', 'aria-labelledby': 'stations-head' },
-      element('h2', { id: 'stations-head' }, word('live.stations')), stations),
+    element('section', { class: 'card', 'aria-label': word('live.stations') },
+      element('h2', { class: 'unseen' }, word('live.stations')), stations),
     last);
   main.classList.add('live');
   follow(['stations', 'age'], signal, () => show_stations(stations));

@@ -100,6 +100,7 @@ class ScanView {
     this.body.replaceChildren(
       scan_line(scan),
       element('section', { class: 'card', 'aria-label': word('scan.result') },
+        element('h2', { class: 'unseen' }, word('scan.result')),
         element('div', { class: 'scan-body' }, result(scan, selection), element('div', {}, tray, picture))),
       element('section', { class: 'card', 'aria-labelledby': 'corrections-head' },
         element('h2', { id: 'corrections-head', tabindex: '-1' }, word('correction.title')), saved,

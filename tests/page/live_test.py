@@ -1,0 +1,100 @@
+"""The page says what is, also when the hub is away, hangs or comes back."""
+import signal
+import subprocess
+
+import hub_rig
+import samples
+from hub_rig import wait_for
+from page_case import PageCase
+
+
+class LiveTest(PageCase):
+    def setUp(self):
+        self.station = self.rig.station()
+        self.station.tell_state()
+
+    def tearDown(self):
+        self.station.close()
+
+    def is_stale(self):
+        return self.browser.run("return document.body.classList.contains('is-stale')")
+
+    def mark_document(self):
+        self.browser.run("window.is_same_document = true")
+
+    def check_same_document(self):
+        self.assertTrue(self.browser.run("return window.is_same_document === true"), "the page was loaded anew")
+
+    def test_new_result_is_shown_and_announced(self):
+        self.show("#live")
+        self.browser.wait_text("Ready: put a tray down", ".stations")
+        self.station.hand_over(samples.meal(1))
+        self.browser.wait_text("142 ml ± 5 ml", ".last-tray")
+        self.station.hand_over(samples.document(2, [samples.item(2, 33.3, 1.5, food="Peas")]))
+        self.browser.wait_text("Peas 33 ml ± 2 ml", "#announcements")
+        self.station.hand_over(samples.refused(3))
+        self.browser.wait_text("The reference card was not found", ".last-tray")
+        self.browser.wait_text("Not measured.", "#announcements")
+        self.station.tell_state("measuring")
+        self.browser.wait_text("Measuring", ".stations")
+        self.station.tell_state(faults=[{"device": "camera", "message": "camera: It is <gone>."}])
+        self.browser.wait_text("camera: It is <gone>.", ".stations")
+
+    def test_stopped_hub_and_restart(self):
+        self.station.hand_over(samples.meal(10))
+        for view in ("#live", "#kiosk"):
+            with self.subTest(view=view):
+                self.show(view)
+                self.browser.wait_text("142 ml ± 5 ml")
+                self.mark_document()
+                self.rig.stop()
+                self.browser.wait_text("Not live: no connection to the hub since", "#connection", 15)
+                self.browser.wait_text("Not known: there is no connection to the hub.", "main")
+                self.assertTrue(self.is_stale())
+                self.rig.start()
+                wait_for(lambda: not self.is_stale(), "a page that is live again", 15)
+                self.browser.wait_text("Live.", "#connection")
+                self.check_same_document()
+                self.station = self.rig.station()
+                self.station.tell_state()
+                self.browser.wait_text("Ready: put a tray down", "main")
+        self.station.hand_over(samples.document(11, [samples.item(2, 77.0, 3.0, food="Peas")]))
+        self.browser.wait_text("77 ml ± 3 ml")
+        self.browser.errors()
+
+    def test_hub_that_hangs(self):
+        self.show("#live")
+        self.browser.wait_text("Live.", "#connection")
+        self.rig.process.send_signal(signal.SIGSTOP)
+        try:
+            self.browser.wait_text("Not live:", "#connection", 15)
+            self.assertTrue(self.is_stale())
+        finally:
+            self.rig.process.send_signal(signal.SIGCONT)
+        wait_for(lambda: not self.is_stale(), "a page that is live again", 15)
+        self.browser.errors()
+
+    def test_silent_and_absent_station(self):
+        other = self.rig.station("buffet")
+        self.show("#live")
+        self.browser.wait_text("buffet", ".stations")
+        self.browser.wait_text("Has said nothing for", "[data-station=buffet].is-old", 15)
+        other.close()
+        self.browser.wait_text("Not connected for", "[data-station=buffet].is-old")
+
+    def test_demo_station(self):
+        """The real station with the demo's trays, whose shapes are measured."""
+        rig = hub_rig.HubRig()
+        try:
+            self.show("#live", rig=rig)
+            subprocess.run([hub_rig.PROGRAM, "station", "--devices", "simulator:" + str(hub_rig.ROOT / "simulator/demo"),
+                            "--hub", str(rig.socket), "--keep", str(rig.folder / "kept"), "--name", "demo"],
+                           check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, timeout=60)
+            self.browser.wait_any(".outline path")
+            self.browser.wait_text("demo-2", ".last-tray")
+            shown = self.browser.find_all(".items tbody tr")
+            self.assertEqual(len(shown), 2)
+            self.assertEqual(self.browser.errors(), [])
+            self.browser.open("about:blank")
+        finally:
+            rig.close()
