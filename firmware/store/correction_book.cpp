@@ -107,9 +107,17 @@ Expected<void> CorrectionBook::write(std::int64_t seq, const Correction& correct
       seq, std::int64_t{correction.number}, correction.made.unix_ms, correction.made.synchronised,
       correction.author, correction.reason, correction_json(correction.action));
   if (!done.ok()) return done;
-  return database_.execute(kWritingCorrection,
+  done = database_.execute(kWritingCorrection,
                            "UPDATE scans SET foods = ?2, is_corrected = ?3, is_wrong = ?4 WHERE seq = ?1",
                            seq, foods_of(after), after.is_corrected, holds_wrong(after));
+  if (!done.ok()) return done;
+  return database_.execute(
+      kWritingCorrection,
+      "INSERT INTO deliveries (destination, place, turn, seq, correction)"
+      " SELECT key, newest, 1 + coalesce((SELECT max(turn) FROM deliveries"
+      "  WHERE destination = key AND place = newest), 0), ?1, ?2"
+      " FROM destinations CROSS JOIN (SELECT max(seq) AS newest FROM scans) WHERE is_configured",
+      seq, std::int64_t{correction.number});
 }
 
 Expected<std::vector<Correction>> CorrectionBook::list(const ScanId& id) {

@@ -1,6 +1,7 @@
 #include "firmware/store/deliveries.hpp"
 
 #include <algorithm>
+#include <iterator>
 
 namespace traygauge {
 namespace {
@@ -18,18 +19,20 @@ std::string_view shorten(std::string_view text) {
 
 }  // namespace
 
-Expected<void> Deliveries::configure(std::span<const std::string> names) {
+Expected<std::vector<std::string>> Deliveries::configure(std::span<const std::string> names) {
   // Most starts change nothing and write nothing.
   std::vector<std::string> before;
-  Expected<void> read =
+  const Expected<void> read =
       database_.each(kReadingDeliveries, "SELECT name FROM destinations WHERE is_configured ORDER BY name",
                      [&](const Statement& row) { before.push_back(row.text(0)); });
-  if (!read.ok()) return read;
+  if (!read.ok()) return Failure{read.failure()};
   std::vector<std::string> wanted(names.begin(), names.end());
   std::sort(wanted.begin(), wanted.end());
   wanted.erase(std::unique(wanted.begin(), wanted.end()), wanted.end());
-  if (wanted == before) return {};
-  return database_.transaction(kWritingDelivery, [&]() -> Expected<void> {
+  std::vector<std::string> added;
+  if (wanted == before) return added;
+  std::set_difference(wanted.begin(), wanted.end(), before.begin(), before.end(), std::back_inserter(added));
+  const Expected<void> written = database_.transaction(kWritingDelivery, [&]() -> Expected<void> {
     Expected<void> done = database_.execute(kWritingDelivery, "UPDATE destinations SET is_configured = 0");
     for (const std::string& name : wanted) {
       if (!done.ok()) break;
@@ -40,6 +43,8 @@ Expected<void> Deliveries::configure(std::span<const std::string> names) {
     }
     return done;
   });
+  if (!written.ok()) return Failure{written.failure()};
+  return added;
 }
 
 Expected<std::vector<PendingDelivery>> Deliveries::due(std::string_view destination, std::int64_t now_ms,
@@ -48,46 +53,50 @@ Expected<std::vector<PendingDelivery>> Deliveries::due(std::string_view destinat
   const std::int64_t max_wait_ms = std::chrono::milliseconds(kMaxWait).count();
   const Expected<void> read = database_.each(
       kReadingDeliveries,
-      "SELECT seq, station, number, body, attempts, last_failure FROM deliveries"
-      " JOIN scans USING (seq) JOIN documents USING (seq)"
+      "SELECT place, turn, station, scans.number, correction, coalesce(made_ms, 0), body, attempts,"
+      " last_failure FROM deliveries JOIN scans USING (seq) JOIN documents USING (seq)"
+      " LEFT JOIN corrections ON corrections.seq = deliveries.seq AND corrections.number = correction"
       " WHERE destination = (SELECT key FROM destinations WHERE name = ?1)"
-      " AND next_ms NOT BETWEEN ?2 + 1 AND ?2 + ?3 ORDER BY deliveries.seq LIMIT ?4",
+      " AND next_ms NOT BETWEEN ?2 + 1 AND ?2 + ?3 ORDER BY place, turn LIMIT ?4",
       [&](const Statement& row) {
-        pending.push_back({row.integer(0),
-                           {row.text(1), static_cast<std::uint64_t>(row.integer(2))},
-                           row.text(3),
+        pending.push_back({{row.integer(0), row.integer(1)},
+                           {row.text(2), static_cast<std::uint64_t>(row.integer(3))},
                            static_cast<int>(row.integer(4)),
-                           row.text(5)});
+                           row.integer(5),
+                           row.text(6),
+                           static_cast<int>(row.integer(7)),
+                           row.text(8)});
       },
       destination, now_ms, max_wait_ms, static_cast<std::int64_t>(max));
   if (!read.ok()) return Failure{read.failure()};
   return pending;
 }
 
-Expected<void> Deliveries::mark_delivered(std::string_view destination, std::span<const std::int64_t> seqs) {
+Expected<void> Deliveries::mark_delivered(std::string_view destination, std::span<const DeliveryKey> keys) {
   return database_.transaction(kWritingDelivery, [&]() -> Expected<void> {
     Expected<void> done;
-    for (const std::int64_t seq : seqs) {
+    for (const DeliveryKey& key : keys) {
       if (!done.ok()) break;
       done = database_.execute(kWritingDelivery,
-                               "DELETE FROM deliveries WHERE seq = ?2"
+                               "DELETE FROM deliveries WHERE place = ?2 AND turn = ?3"
                                " AND destination = (SELECT key FROM destinations WHERE name = ?1)",
-                               destination, seq);
+                               destination, key.place, key.turn);
     }
     return done;
   });
 }
 
-Expected<void> Deliveries::mark_failed(std::string_view destination, std::int64_t seq, std::int64_t now_ms,
-                                       std::chrono::milliseconds wait, std::string_view why) {
+Expected<void> Deliveries::mark_failed(std::string_view destination, const DeliveryKey& key,
+                                       std::int64_t now_ms, std::chrono::milliseconds wait,
+                                       std::string_view why) {
   const std::chrono::milliseconds bounded =
       std::clamp(wait, std::chrono::milliseconds(0), std::chrono::milliseconds(kMaxWait));
   return database_.transaction(kWritingDelivery, [&] {
     return database_.execute(kWritingDelivery,
-                             "UPDATE deliveries SET attempts = attempts + 1, next_ms = ?3, last_failure = ?4"
-                             " WHERE seq = ?2"
+                             "UPDATE deliveries SET attempts = attempts + 1, next_ms = ?4, last_failure = ?5"
+                             " WHERE place = ?2 AND turn = ?3"
                              " AND destination = (SELECT key FROM destinations WHERE name = ?1)",
-                             destination, seq, now_ms + bounded.count(), shorten(why));
+                             destination, key.place, key.turn, now_ms + bounded.count(), shorten(why));
   });
 }
 
@@ -97,7 +106,7 @@ Expected<std::vector<DestinationState>> Deliveries::states() {
       kReadingDeliveries,
       "SELECT name, is_configured, (SELECT count(*) FROM deliveries WHERE destination = key) AS pending,"
       " (SELECT received_ms FROM scans WHERE seq ="
-      "  (SELECT min(seq) FROM deliveries WHERE destination = key))"
+      "  (SELECT seq FROM deliveries WHERE destination = key ORDER BY place, turn LIMIT 1))"
       " FROM destinations WHERE is_configured OR pending > 0 ORDER BY name",
       [&](const Statement& row) {
         states.push_back({row.text(0), row.integer(1) != 0, row.integer(2), row.optional_integer(3)});
@@ -111,7 +120,8 @@ Expected<std::vector<std::string>> Deliveries::waiting_for(std::int64_t seq) {
   const Expected<void> read = database_.each(
       kReadingDeliveries,
       "SELECT name FROM destinations WHERE EXISTS"
-      " (SELECT 1 FROM deliveries WHERE destination = key AND seq = ?1) ORDER BY name",
+      " (SELECT 1 FROM deliveries WHERE destination = key AND place = ?1 AND turn = 0) OR EXISTS"
+      " (SELECT 1 FROM deliveries WHERE destination = key AND seq = ?1 AND correction > 0) ORDER BY name",
       [&](const Statement& row) { names.push_back(row.text(0)); }, seq);
   if (!read.ok()) return Failure{read.failure()};
   return names;

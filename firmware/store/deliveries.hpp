@@ -1,7 +1,8 @@
-// Who still has to be told of which scan.
+// Who still has to be told of which scan, and of which correction.
 #pragma once
 
 #include <chrono>
+#include <compare>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -16,10 +17,21 @@
 
 namespace traygauge {
 
+// What is told first has the smaller key. The place is the seq of the scan that had arrived last; turn 0 is
+// that scan itself, the others are the corrections that were made until the next one arrived.
+struct DeliveryKey {
+  std::int64_t place = 0;
+  std::int64_t turn = 0;
+
+  friend auto operator<=>(const DeliveryKey&, const DeliveryKey&) = default;
+};
+
 struct PendingDelivery {
-  std::int64_t seq = 0;
+  DeliveryKey key;
   ScanId id;
-  std::string document;
+  int correction = 0;              // its number; 0: the scan is told
+  std::int64_t correction_ms = 0;  // when it was made
+  std::string document;            // as the scan came
   int attempts = 0;
   std::string last_failure;  // empty before the first attempt
 };
@@ -28,7 +40,7 @@ struct DestinationState {
   std::string name;
   bool is_configured = false;
   std::int64_t pending = 0;
-  std::optional<std::int64_t> oldest_received_ms;  // of what waits
+  std::optional<std::int64_t> oldest_received_ms;  // of the scans that wait, or whose corrections do
 };
 
 class Deliveries {
@@ -39,22 +51,23 @@ class Deliveries {
 
   explicit Deliveries(Database& database) : database_(database) {}
 
-  // Scans that are stored from now on wait for these. What waits for others goes on waiting: see abandon().
-  Expected<void> configure(std::span<const std::string> names);
+  // Scans that are stored from now on, and corrections that are made, wait for these. What waits for others
+  // goes on waiting: see abandon(). Returns those of the names that were not configured before.
+  Expected<std::vector<std::string>> configure(std::span<const std::string> names);
 
   // Oldest first.
   Expected<std::vector<PendingDelivery>> due(std::string_view destination, std::int64_t now_ms,
                                              std::size_t max);
   // Those of these that wait no longer are passed over. One transaction: cheaper for many at a time.
-  Expected<void> mark_delivered(std::string_view destination, std::span<const std::int64_t> seqs);
-  Expected<void> mark_failed(std::string_view destination, std::int64_t seq, std::int64_t now_ms,
+  Expected<void> mark_delivered(std::string_view destination, std::span<const DeliveryKey> keys);
+  Expected<void> mark_failed(std::string_view destination, const DeliveryKey& key, std::int64_t now_ms,
                              std::chrono::milliseconds wait, std::string_view why);
 
   // All destinations that are configured or for which something waits.
   Expected<std::vector<DestinationState>> states();
-  // Names of the destinations that this scan waits for.
+  // Names of the destinations that this scan, or a correction of it, waits for.
   Expected<std::vector<std::string>> waiting_for(std::int64_t seq);
-  // Nobody will be told: for a destination that is gone. Returns how many scans waited.
+  // Nobody will be told: for a destination that is gone. Returns how many deliveries waited.
   Expected<std::int64_t> abandon(std::string_view destination);
 
  private:

@@ -106,8 +106,9 @@ Expected<OpenedStore> open_store(const StoreOptions& options, const WallTime& no
   if (!database.ok()) return Failure{database.failure()};
   opened.store =
       std::make_unique<Store>(std::move(*lock), std::move(*vfs), std::move(*database), options.free_space);
-  const Expected<void> configured = opened.store->deliveries().configure(options.destinations);
-  if (!configured.ok()) return Failure{configured.failure()};
+  Expected<std::vector<std::string>> added = opened.store->deliveries().configure(options.destinations);
+  if (!added.ok()) return Failure{added.failure()};
+  opened.new_destinations = std::move(*added);
   return opened;
 }
 

@@ -68,6 +68,8 @@ struct OpenedStore {
   std::unique_ptr<Store> store;
   // Sentences for the page: a damaged store was put aside, and where it is now.
   std::vector<std::string> notices;
+  // Of StoreOptions::destinations, those that are told nothing of the past: see Deliveries::configure().
+  std::vector<std::string> new_destinations;
 };
 
 // Holds FILE.lock while the store is open. A damaged file is put aside and an empty one takes its place.

@@ -176,7 +176,8 @@ Expected<std::vector<RetentionCandidate>> Retention::next_candidates(const Reten
   const Expected<void> read = database_.each(
       kDeletingScans,
       "SELECT seq, received_ms, received_synchronised, EXISTS (SELECT 1 FROM destinations"
-      " CROSS JOIN deliveries ON deliveries.destination = key AND deliveries.seq = scans.seq),"
+      " CROSS JOIN deliveries ON deliveries.destination = key AND place = scans.seq AND turn = 0)"
+      " OR EXISTS (SELECT 1 FROM deliveries WHERE correction > 0 AND deliveries.seq = scans.seq),"
       " superseded_by IS NOT NULL, is_corrected, is_wrong, document_bytes FROM scans WHERE seq > ?1"
       " AND seq < (SELECT seq FROM scans ORDER BY seq DESC LIMIT 1 OFFSET ?2) ORDER BY seq LIMIT ?3",
       [&](const Statement& row) {

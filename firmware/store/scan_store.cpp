@@ -104,10 +104,11 @@ Expected<std::int64_t> ScanStore::insert(std::string_view text, const ScanDocume
   const std::int64_t seq = database_.last_row();
   done = database_.execute(attempted, "INSERT INTO documents (seq, body) VALUES (?1, ?2)", seq, text);
   if (!done.ok()) return Failure{done.failure()};
-  done = database_.execute(attempted,
-                           "INSERT INTO deliveries (destination, seq) SELECT key, ?1 FROM destinations"
-                           " WHERE is_configured",
-                           seq);
+  done = database_.execute(
+      attempted,
+      "INSERT INTO deliveries (destination, place, seq) SELECT key, ?1, ?1 FROM destinations"
+      " WHERE is_configured",
+      seq);
   if (!done.ok()) return Failure{done.failure()};
   return seq;
 }

@@ -75,7 +75,28 @@ CREATE TABLE set_aside (
 CREATE INDEX set_aside_by_digest ON set_aside (digest);
 )";
 
-constexpr auto kSteps = std::to_array<const char*>({kVersion1});
+// Corrections are told, too. Events happen in the order of (place, turn): a scan's place is its seq and its
+// turn 0; a correction has the place of the newest scan of its time, and the next turn there.
+constexpr const char* kVersion2 = R"(
+CREATE TABLE deliveries_of_events (
+  destination INTEGER NOT NULL REFERENCES destinations (key),
+  place INTEGER NOT NULL,
+  turn INTEGER NOT NULL DEFAULT 0,
+  seq INTEGER NOT NULL,
+  correction INTEGER NOT NULL DEFAULT 0,
+  attempts INTEGER NOT NULL DEFAULT 0,
+  next_ms INTEGER NOT NULL DEFAULT 0,
+  last_failure TEXT NOT NULL DEFAULT '',
+  PRIMARY KEY (destination, place, turn)
+) STRICT, WITHOUT ROWID;
+INSERT INTO deliveries_of_events (destination, place, seq, attempts, next_ms, last_failure)
+ SELECT destination, seq, seq, attempts, next_ms, last_failure FROM deliveries;
+DROP TABLE deliveries;
+ALTER TABLE deliveries_of_events RENAME TO deliveries;
+CREATE INDEX deliveries_of_corrections ON deliveries (seq) WHERE correction > 0;
+)";
+
+constexpr auto kSteps = std::to_array<const char*>({kVersion1, kVersion2});
 
 constexpr const char* kReadingTables = "the store's tables cannot be read";
 

@@ -40,12 +40,12 @@ TEST_F(BudgetTest, AScanWithItsDeliveriesIsBelowTheBudget) {
   EXPECT_LE(stored.syncs - start.syncs, std::uint64_t{4 * kScans});
 
   for (std::int64_t seq = 1; seq <= kScans; ++seq) {
-    ASSERT_TRUE(store_->deliveries().mark_delivered("webhook", std::vector<std::int64_t>{seq}).ok());
+    ASSERT_TRUE(store_->deliveries().mark_delivered("webhook", std::vector<DeliveryKey>{{seq}}).ok());
   }
   const DiskCounters delivered = store_->disk();
   print("delivered, one by one", stored, delivered, kScans);
-  std::vector<std::int64_t> all;
-  for (std::int64_t seq = 1; seq <= kScans; ++seq) all.push_back(seq);
+  std::vector<DeliveryKey> all;
+  for (std::int64_t seq = 1; seq <= kScans; ++seq) all.push_back({seq});
   ASSERT_TRUE(store_->deliveries().mark_delivered("broker", all).ok());
   print("delivered, a thousand at a time", delivered, store_->disk(), kScans);
   const Expected<StoreTotals> totals = store_->scans().totals();

@@ -8,6 +8,7 @@ namespace traygauge::test {
 namespace {
 
 using Seqs = std::vector<std::int64_t>;
+using Keys = std::vector<DeliveryKey>;
 using std::chrono::seconds;
 
 class DeliveriesTest : public StoreTest {
@@ -20,11 +21,11 @@ class DeliveriesTest : public StoreTest {
     const auto pending = store_->deliveries().due(destination, now_ms, max);
     EXPECT_TRUE(pending.ok()) << pending.failure();
     Seqs seqs;
-    for (const PendingDelivery& delivery : *pending) seqs.push_back(delivery.seq);
+    for (const PendingDelivery& delivery : *pending) seqs.push_back(delivery.key.place);
     return seqs;
   }
   void fail(std::int64_t seq, std::int64_t now_ms, seconds wait, const std::string& why = "refused") {
-    const auto noted = store_->deliveries().mark_failed("webhook", seq, now_ms, wait, why);
+    const auto noted = store_->deliveries().mark_failed("webhook", {seq}, now_ms, wait, why);
     EXPECT_TRUE(noted.ok()) << noted.failure();
   }
 };
@@ -34,7 +35,7 @@ TEST_F(DeliveriesTest, EachScanWaitsForEachDestinationUntilItWasTold) {
   ASSERT_TRUE(store_->scans().put(sample_document(2), at(kMorningMs)).ok());
   EXPECT_EQ(due("webhook"), (Seqs{1, 2, 3}));
   EXPECT_EQ(due("webhook", kMorningMs, 2), (Seqs{1, 2}));
-  ASSERT_TRUE(store_->deliveries().mark_delivered("webhook", Seqs{1, 3, 77}).ok());
+  ASSERT_TRUE(store_->deliveries().mark_delivered("webhook", Keys{{1}, {3}, {77}}).ok());
   reopen();
   EXPECT_EQ(due("webhook"), (Seqs{2}));
   EXPECT_EQ(due("broker"), (Seqs{1, 2, 3}));
@@ -75,11 +76,48 @@ TEST_F(DeliveriesTest, AClockThatJumpsTenYearsHoldsNothingBack) {
   EXPECT_EQ(due("webhook", kMorningMs + kTenYearsMs), (Seqs{1}));
 }
 
+TEST_F(DeliveriesTest, CorrectionsWaitInTheOrderOfWhatHappened) {
+  const auto correct = [&](std::uint64_t number, std::int64_t made_ms) {
+    const auto booked =
+        store_->corrections().add({"kitchen", number}, RenameItem{2, "bulgur"}, "chef", "", at(made_ms));
+    ASSERT_TRUE(booked.ok()) << booked.failure();
+    ASSERT_EQ(booked->refusal, "");
+  };
+  put(sample_document(1));
+  put(sample_document(2));
+  correct(1, kMorningMs + 5);
+  correct(2, kMorningMs + 6);
+  correct(1, kMorningMs + 7);
+  put(sample_document(3));
+  correct(3, kMorningMs + 8);
+  const auto told = [&] {
+    std::string text;
+    const auto due = store_->deliveries().due("webhook", kMorningMs, 100);
+    for (const PendingDelivery& delivery : *due)
+      text += std::to_string(delivery.id.number) + "." + std::to_string(delivery.correction) + " ";
+    return text;
+  };
+  EXPECT_EQ(told(), "1.0 2.0 1.1 2.1 1.2 3.0 3.1 ");
+  EXPECT_EQ((*store_->deliveries().due("webhook", kMorningMs, 5))[4].correction_ms, kMorningMs + 7);
+  ASSERT_TRUE(store_->deliveries().mark_delivered("webhook", Keys{{1}, {2}, {2, 2}}).ok());
+  reopen();
+  EXPECT_EQ(told(), "1.1 1.2 3.0 3.1 ");
+  ASSERT_TRUE(store_->deliveries().abandon("broker").ok());
+  EXPECT_EQ(*store_->deliveries().waiting_for(1), std::vector<std::string>{"webhook"});
+  EXPECT_EQ(*store_->deliveries().waiting_for(2), std::vector<std::string>());
+}
+
+TEST_F(DeliveriesTest, SaysWhichDestinationsAreNew) {
+  const std::vector<std::string> names{"till", "webhook"};
+  EXPECT_EQ(*store_->deliveries().configure(names), std::vector<std::string>{"till"});
+  EXPECT_EQ(*store_->deliveries().configure(names), std::vector<std::string>());
+}
+
 TEST_F(DeliveriesTest, CountsWhatWaits) {
   put(sample_document(1), at(kMorningMs + 1));
   put(sample_document(2), at(kMorningMs + 2));
-  ASSERT_TRUE(store_->deliveries().mark_delivered("broker", Seqs{1, 2}).ok());
-  ASSERT_TRUE(store_->deliveries().mark_delivered("webhook", Seqs{1}).ok());
+  ASSERT_TRUE(store_->deliveries().mark_delivered("broker", Keys{{1}, {2}}).ok());
+  ASSERT_TRUE(store_->deliveries().mark_delivered("webhook", Keys{{1}}).ok());
   const auto states = store_->deliveries().states();
   ASSERT_TRUE(states.ok()) << states.failure();
   ASSERT_EQ(states->size(), 2U);

@@ -162,6 +162,19 @@ TEST_F(RetentionTest, FreesSpaceOldestFirstAndSaysWhenItCannot) {
   EXPECT_NE(report.text.find("no further scan may be deleted"), std::string::npos) << report.text;
 }
 
+TEST_F(RetentionTest, AScanWhoseCorrectionWaitsStays) {
+  options_.destinations = {"webhook"};
+  reopen();
+  rules_.keep_newest = 1;
+  rules_.max_age = hours(24);
+  put_days(3, kMorningMs);
+  ASSERT_TRUE(store_->deliveries().mark_delivered("webhook", std::vector<DeliveryKey>{{1}, {2}, {3}}).ok());
+  ASSERT_TRUE(store_->corrections().add({"kitchen", 1}, MarkScanWrong{}, "chef", "", at(kMorningMs)).ok());
+  const WallTime later{kMorningMs + 100 * kDayMs, true};
+  while (run(later).has_more || numbers().size() > 2) steady_ += hours(24);
+  EXPECT_EQ(numbers(), (std::set<std::uint64_t>{1, 3}));
+}
+
 // Whatever the rules and the clock: what waits for somebody stays, and so do the newest.
 TEST_F(RetentionTest, NeverDeletesWhatWaitsNorTheNewest) {
   std::mt19937_64 random(random_seed());
@@ -173,10 +186,10 @@ TEST_F(RetentionTest, NeverDeletesWhatWaitsNorTheNewest) {
   for (int round = 0; round < 40; ++round) {
     put_days(static_cast<int>(random() % 6), kMorningMs + round * kDayMs, random() % 4 != 0);
     for (const char* const name : {"webhook", "broker"}) {
-      std::vector<std::int64_t> told;
+      std::vector<DeliveryKey> told;
       const auto due = store_->deliveries().due(name, kMorningMs, 1000);
       for (const PendingDelivery& delivery : *due) {
-        if (random() % 8 == 0) told.push_back(delivery.seq);
+        if (random() % 8 == 0) told.push_back(delivery.key);
       }
       ASSERT_TRUE(store_->deliveries().mark_delivered(name, told).ok());
     }

@@ -90,15 +90,15 @@ Expected<void> do_step(Store& store, const WorkStep& step) {
     case WorkStep::Kind::deliver: {
       const auto due = store.deliveries().due(destination, time_of(step), 2);
       if (!due.ok()) return Failure{due.failure()};
-      std::vector<std::int64_t> seqs;
-      for (const PendingDelivery& delivery : *due) seqs.push_back(delivery.seq);
-      return store.deliveries().mark_delivered(destination, seqs);
+      std::vector<DeliveryKey> keys;
+      for (const PendingDelivery& delivery : *due) keys.push_back(delivery.key);
+      return store.deliveries().mark_delivered(destination, keys);
     }
     case WorkStep::Kind::fail_delivery: {
       const auto due = store.deliveries().due(destination, time_of(step), 1);
       if (!due.ok()) return Failure{due.failure()};
       if (due->empty()) return change_nothing(store);
-      return store.deliveries().mark_failed(destination, due->front().seq, time_of(step),
+      return store.deliveries().mark_failed(destination, due->front().key, time_of(step),
                                             std::chrono::seconds(30), "no answer");
     }
     case WorkStep::Kind::retain:
@@ -115,8 +115,10 @@ std::string content_of(Store& store) {
         "||"
         " foods || body AS concat FROM scans JOIN documents USING (seq) ORDER BY seq)",
         "SELECT seq || ' ' || number || ' ' || author || action FROM corrections ORDER BY seq, number",
-        "SELECT name || ' ' || seq || ' ' || attempts || ' ' || next_ms || last_failure FROM deliveries"
-        " JOIN destinations ON key = destination ORDER BY name, seq",
+        "SELECT name || ' ' || place || ' ' || turn || ' ' || seq || ' ' || correction || ' ' || attempts || "
+        "' '"
+        " || next_ms || last_failure FROM deliveries JOIN destinations ON key = destination"
+        " ORDER BY name, place, turn",
         "SELECT why || ' ' || CAST(document AS TEXT) FROM set_aside ORDER BY number",
         "SELECT 'documents: ' || count(*) FROM documents",
         "SELECT 'quick check: ' || quick_check"
