@@ -78,17 +78,25 @@ function body_of(form) {
   };
   const body = { action, reason: data.get('reason').trim() };
   for (const name of kFields[action]) body[name] = parts[name];
-  if (data.has('author')) author = data.get('author').trim();
-  return { ...body, author: data.has('author') ? author : undefined };
+  return { ...body, author: author_of(form) };
 }
 
-function undo_button(last, send) {
+// The hub takes the name from a token that has one, else from the form.
+function author_of(form) {
+  const field = form.elements.author;
+  if (!field) return undefined;
+  author = field.value.trim();
+  return author;
+}
+
+function undo_button(last, form, send) {
   if (last === null) return null;
-  const author_of_undo = () => (session.name === '' ? author || word('correction.unnamed') : undefined);
-  return element('button', {
-    type: 'button', class: 'undo',
-    on: { click: () => send({ action: 'undo', number: last.correction, author: author_of_undo() }) },
-  }, word('correction.undo', { what: correction_text(last) }));
+  const undo = () => {
+    const name = author_of(form);
+    send({ action: 'undo', number: last.correction, author: name === '' ? word('correction.unnamed') : name });
+  };
+  return element('button', { type: 'button', class: 'undo', on: { click: undo } },
+    word('correction.undo', { what: correction_text(last) }));
 }
 
 // `on_saved(scan)` gets the scan as it is after the correction.
@@ -109,5 +117,5 @@ export function correction_panel(scan, corrections, on_saved) {
     send(body_of(form));
   });
   arrange(form);
-  return element('div', {}, undo_button(last_holding(corrections), send), form, problem);
+  return element('div', {}, undo_button(last_holding(corrections), form, send), form, problem);
 }

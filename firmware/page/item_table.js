@@ -27,12 +27,13 @@ function volume_cell(item) {
   return item.is_wrong ? [element('s', {}, text), ' ', element('span', { class: 'tag' }, word('item.wrong'))] : text;
 }
 
-// The measured name and volume, where a correction changed one of them.
+// The measured volume, and the measured name where a person gave another one.
 function measured_cell(item) {
   if (item.split_from !== null) return word('item.split_from', { label: item.split_from });
   const volume = item.measured_volume_ml === null ? word('item.no_volume')
     : format_measured(item.measured_volume_ml, item.measured_sigma_ml);
-  const name = item.measured_food === item.food ? '' : `${item.measured_food ?? word('item.without_name')}, `;
+  const is_renamed = item.measured_food !== null && item.measured_food !== item.food;
+  const name = is_renamed ? `${item.measured_food}, ` : '';
   const merged = item.merged.length > 0 ? ` ${word('item.merged', { labels: item.merged.join(', ') })}` : '';
   return name + volume + merged;
 }
@@ -65,7 +66,7 @@ function light_up(table, selection) {
 export function item_table(scan, selection) {
   const columns = columns_of(scan);
   const heads = columns.map((column) => element('th', { scope: 'col', class: column.class }, word(column.head)));
-  const table = element('table', { class: 'items' },
+  const table = element('table', { class: columns.length > 1 ? 'items is-wide' : 'items' },
     element('caption', { class: 'unseen' }, word('item.caption', { scan: scan.id })),
     element('thead', {}, element('tr', {}, element('th', { scope: 'col' }, word('item.food')), heads)),
     element('tbody', {}, scan.items.map((item) => row(item, scan, columns, selection))));

@@ -27,8 +27,13 @@ class Panel {
     this.buttons = Object.keys(kDrawings).map((name) => element('button', {
       type: 'button', class: 'choice', value: name, on: { click: () => this.choose(name) },
     }, word_of('drawing', name)));
-    const caption = element('p', { class: 'tray-caption', 'data-caption': '' }, caption_text(scan, selection));
-    selection.addEventListener('change', () => { caption.textContent = caption_text(scan, selection); });
+    const caption = element('p', { class: 'tray-caption', 'data-caption': '' });
+    const tell = () => {
+      caption.textContent = caption_text(scan, selection);
+      caption.classList.toggle('is-hint', selection.label === null);
+    };
+    selection.addEventListener('change', tell);
+    tell();
     const choices = element('div', { class: 'choices', role: 'group', 'aria-label': word('tray.drawings') },
       this.buttons);
     const mesh = element('a', { class: 'quiet note', href: `api/v1/scans/${encodeURIComponent(scan.id)}/mesh`, download: '' },

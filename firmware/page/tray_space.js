@@ -14,7 +14,7 @@ class Eye {
   constructor(size) {
     this.turn = -0.5;
     this.tilt = 0.85;
-    this.distance = size * 1.25;
+    this.distance = size * 1.3;
     this.nearest = size * 0.4;
     this.farthest = size * 3;
   }
@@ -118,7 +118,7 @@ class Scene {
   fit() {
     const width = this.canvas.parentElement.clientWidth;
     if (width === 0) return;
-    const height = Math.round(width * 0.75);
+    const height = Math.round(width * 0.68);
     this.renderer.setPixelRatio(Math.min(window.devicePixelRatio, 2));
     this.renderer.setSize(width, height);
     this.camera.aspect = width / height;

@@ -1,10 +1,10 @@
 // The live view: what each station does, and the last tray.
 import { element } from './elements.js';
-import { item_table, total_line } from './item_table.js';
 import { follow, live } from './live_data.js';
-import { scan_line, scan_notices } from './scan_head.js';
+import { scan_figures } from './scan_figures.js';
+import { scan_line } from './scan_head.js';
 import { Selection } from './selection.js';
-import { is_refused, scan_address, warning_list } from './sentences.js';
+import { scan_address } from './sentences.js';
 import { fault_lines, station_line } from './station_state.js';
 import { show_tray } from './tray_panel.js';
 import { word } from './words.js';
@@ -22,15 +22,6 @@ function show_stations(frame) {
   }));
 }
 
-function figures(scan, selection) {
-  const has_items = scan.items.length > 0;
-  return element('div', { class: 'figures' }, scan_notices(scan),
-    is_refused(scan) && !has_items ? null : total_line(scan),
-    has_items ? item_table(scan, selection) : null,
-    has_items ? element('p', { class: 'quiet note' }, word('item.sigma_note')) : null,
-    warning_list(scan));
-}
-
 // Returns what closes the drawing of the tray.
 function show_scan(frame, scan) {
   if (scan === null) {
@@ -45,7 +36,7 @@ function show_scan(frame, scan) {
     element('div', { class: 'scan-head' },
       element('h2', {}, word('live.last_tray')),
       element('a', { href: scan_address(scan.id), class: 'scan-id' }, scan.id), scan_line(scan)),
-    element('div', { class: 'scan-body' }, figures(scan, selection), tray));
+    element('div', { class: 'scan-body' }, scan_figures(scan, selection), tray));
   return close;
 }
 

@@ -2,14 +2,13 @@
 import { element } from './elements.js';
 import { error_note } from './error_note.js';
 import { get, get_picture } from './hub_api.js';
-import { item_table, total_line } from './item_table.js';
 import { live } from './live_data.js';
 import { correction_panel } from './correction_form.js';
 import { correction_list } from './correction_list.js';
 import { format_number } from './numbers.js';
-import { scan_line, scan_notices } from './scan_head.js';
+import { scan_figures } from './scan_figures.js';
+import { scan_line } from './scan_head.js';
 import { Selection } from './selection.js';
-import { is_refused, warning_list } from './sentences.js';
 import { format_time } from './times.js';
 import { show_tray } from './tray_panel.js';
 import { word } from './words.js';
@@ -41,15 +40,6 @@ function facts(scan) {
     element('dl', { class: 'facts' }, list),
     element('a', { href: `api/v1/scans/${encodeURIComponent(scan.id)}/document`, class: 'quiet-link', target: '_blank',
       rel: 'noopener' }, word('scan.document')));
-}
-
-function result(scan, selection) {
-  const has_items = scan.items.length > 0;
-  return element('div', { class: 'figures' }, scan_notices(scan),
-    is_refused(scan) && !has_items ? null : total_line(scan),
-    has_items ? item_table(scan, selection) : null,
-    has_items ? element('p', { class: 'quiet note' }, word('item.sigma_note')) : null,
-    warning_list(scan));
 }
 
 class ScanView {
@@ -86,6 +76,11 @@ class ScanView {
   }
 
   show(scan, corrections) {
+    // One correction is told twice, by the answer and by the event: the second changes nothing, and must not
+    // take focus or a filled form away.
+    const text = JSON.stringify([scan, corrections]);
+    if (text === this.shown_text) return;
+    this.shown_text = text;
     this.shown?.abort();
     this.shown = new AbortController();
     const { signal } = this.shown;
@@ -101,7 +96,7 @@ class ScanView {
       scan_line(scan),
       element('section', { class: 'card', 'aria-label': word('scan.result') },
         element('h2', { class: 'unseen' }, word('scan.result')),
-        element('div', { class: 'scan-body' }, result(scan, selection), element('div', {}, tray, picture))),
+        element('div', { class: 'scan-body' }, scan_figures(scan, selection), element('div', {}, tray, picture))),
       element('section', { class: 'card', 'aria-labelledby': 'corrections-head' },
         element('h2', { id: 'corrections-head', tabindex: '-1' }, word('correction.title')), saved,
         correction_list(corrections), panel),

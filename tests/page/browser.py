@@ -32,10 +32,10 @@ class Browser:
         self.driver = webdriver.Chrome(options=options, service=Service(driver, log_output=os.devnull))
         self.driver.set_script_timeout(20)
 
-    def set_size(self, name):
+    def set_size(self, name, scale=1):
         width, height = SIZES[name]
         self.driver.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", {
-            "width": width, "height": height, "deviceScaleFactor": 1, "mobile": False})
+            "width": width, "height": height, "deviceScaleFactor": scale, "mobile": False})
 
     def set_scheme(self, scheme):
         features = [{"name": "prefers-color-scheme", "value": scheme},

@@ -84,6 +84,12 @@ class HubRig:
         self.stations.append(station)
         return station
 
+    def play_demo(self):
+        """A real station named demo with the demo's two trays, until it has ended."""
+        subprocess.run([PROGRAM, "station", "--devices", f"simulator:{ROOT / 'simulator' / 'demo'}", "--hub",
+                        str(self.socket), "--keep", str(self.folder / "kept"), "--name", "demo"],
+                       check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, timeout=60)
+
     def close(self):
         for station in self.stations:
             station.close()

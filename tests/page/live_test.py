@@ -1,6 +1,5 @@
 """The page says what is, also when the hub is away, hangs or comes back."""
 import signal
-import subprocess
 
 import hub_rig
 import samples
@@ -87,9 +86,7 @@ class LiveTest(PageCase):
         rig = hub_rig.HubRig()
         try:
             self.show("#live", rig=rig)
-            subprocess.run([hub_rig.PROGRAM, "station", "--devices", "simulator:" + str(hub_rig.ROOT / "simulator/demo"),
-                            "--hub", str(rig.socket), "--keep", str(rig.folder / "kept"), "--name", "demo"],
-                           check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, timeout=60)
+            rig.play_demo()
             self.browser.wait_any(".outline path")
             self.browser.wait_text("demo-2", ".last-tray")
             shown = self.browser.find_all(".items tbody tr")

@@ -96,6 +96,9 @@ class RolesTest(PageCase):
         self.assertEqual(self.browser.find_all(".items .tag"), [])
         self.browser.errors()  # the refusals before the login
         self.check_page()
+        self.browser.set_size("phone")
+        self.check_page()
+        self.browser.set_size("desktop")
 
         self.choose("action", "scan_wrong")
         self.save()
