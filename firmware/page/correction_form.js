@@ -23,14 +23,18 @@ function labelled(name, key, field) {
     element('label', { for: field.id }, word(key)), field);
 }
 
+function item_line(item) {
+  return `${item.label}: ${item_sentence(item)}`;
+}
+
 function item_field(scan) {
-  const options = scan.items.map((item) => element('option', { value: item.label }, `${item.label}: ${item_sentence(item)}`));
+  const options = scan.items.map((item) => element('option', { value: item.label }, item_line(item)));
   return labelled('item', 'correction.item', element('select', { name: 'item' }, options));
 }
 
 function others_field(scan) {
   const boxes = scan.items.map((item) => element('label', { class: 'box', 'data-box': item.label },
-    element('input', { type: 'checkbox', name: 'others', value: item.label }), ` ${item.label}: ${item_sentence(item)}`));
+    element('input', { type: 'checkbox', name: 'others', value: item.label }), item_line(item)));
   return element('fieldset', { class: 'field boxes', 'data-field': 'others' },
     element('legend', {}, word('correction.others')), boxes);
 }

@@ -83,6 +83,11 @@ export function log_in(token) {
   return send('login', { token }, { is_login: true });
 }
 
+// Without a body: the hub takes none there.
+export function log_out() {
+  return request('api/v1/logout', { method: 'POST' });
+}
+
 export function get_health() {
   return request('health', { accepted: [503] });
 }

@@ -32,7 +32,7 @@ class LiveData extends EventTarget {
     setInterval(() => this.tick(), kTickMs);
     document.addEventListener('visibilitychange', () => this.note_visibility());
     window.addEventListener('pagehide', () => this.events.stop());
-    window.addEventListener('pageshow', (event) => event.persisted && this.events.start());
+    window.addEventListener('pageshow', (event) => event.persisted && this.note_visibility());
     this.poll_now();
   }
 
@@ -41,7 +41,7 @@ class LiveData extends EventTarget {
   note_visibility() {
     if (document.hidden) {
       this.events.stop();
-    } else {
+    } else if (!this.needs_login) {
       this.events.start();
       this.poll_now();
     }
@@ -58,9 +58,11 @@ class LiveData extends EventTarget {
     this.tell('age');
   }
 
+  // The hub makes who sends many wrong tokens wait: nothing is asked with a token that it refused.
   note_login() {
     if (this.needs_login) return;
     this.needs_login = true;
+    this.events.stop();
     this.tell('login');
   }
 

@@ -51,13 +51,15 @@ function show_session() {
   const who = session.name ? `${session.name} (${role})` : role;
   // On the hub's own machine nobody is logged in, and there is nothing to leave.
   const out = session.name === '' && session.role === 'manage' ? null
-    : element('button', { type: 'button', class: 'link', on: { click: leave } }, word('login.leave'));
-  by_id('session').replaceChildren(element('span', { class: 'quiet' }, who ?? ''), session.role === 'none' ? '' : out ?? '');
+    : element('button', { type: 'button', class: 'link', on: { click: () => live.note_login() } }, word('login.leave'));
+  const is_anybody = session.role !== 'none' && !live.needs_login;
+  by_id('session').replaceChildren(...(is_anybody ? [element('span', { class: 'quiet' }, who), out ?? ''] : []));
 }
 
-async function leave() {
-  await log_out().catch(() => {});
-  live.note_login();
+// Also where the hub no longer knows the token: a cookie that stays would count as a wrong token each time.
+function leave() {
+  log_out().catch(() => {});
+  show_view();
 }
 
 function show_view() {
@@ -101,13 +103,17 @@ async function use_language(chosen) {
   }
 }
 
+function result_sentence(scan) {
+  const result = is_refused(scan) ? word('scan.refused')
+    : `${format_volume(scan.volume_ml)}: ${scan.items.map(item_sentence).join(', ')}`;
+  return `${word('live.new_scan')} ${result}`;
+}
+
 function announce_results() {
   let last = null;
   live.addEventListener('latest', () => {
     const scan = live.latest;
-    const is_new = last !== null && scan !== null && scan.id !== last;
-    if (is_new && is_refused(scan)) announce(`${word('live.new_scan')} ${word('scan.refused')}`);
-    else if (is_new) announce(`${word('live.new_scan')} ${format_volume(scan.volume_ml)}: ${scan.items.map(item_sentence).join(', ')}`);
+    if (last !== null && scan !== null && scan.id !== last) announce(result_sentence(scan));
     last = scan?.id ?? '';
   });
 }
@@ -117,7 +123,7 @@ function listen() {
     show_view();
     by_id('main').focus();
   });
-  live.addEventListener('login', show_view);
+  live.addEventListener('login', leave);
   by_id('skip').addEventListener('click', () => by_id('main').focus());
   for (const button of by_id('languages').querySelectorAll('button')) {
     button.addEventListener('click', async () => {

@@ -1,5 +1,5 @@
 // Who looks at the page, and what they may do.
-import { get, log_in as ask_login, post } from './hub_api.js';
+import { get, log_in as ask_login, log_out as ask_logout } from './hub_api.js';
 
 // `role`: none, view, kiosk or manage; `name` is that of the token, empty where it has none.
 export const session = { role: 'none', name: '' };
@@ -14,6 +14,6 @@ export async function log_in(token) {
 
 // The cookie is the hub's: this page never holds the token after it was sent.
 export async function log_out() {
-  await post('logout', {});
+  await ask_logout();
   Object.assign(session, { role: 'none', name: '' });
 }

@@ -23,7 +23,8 @@ function triangles_of(dish) {
       const known = corners.filter((corner) => !Number.isNaN(height_at(dish, corner)));
       if (known.length === 4) indices.push(near, near + 1, far, near + 1, far + 1, far);
       // Along edges that run across, half of a cell is known. All triangles face upwards.
-      if (known.length === 3) indices.push(...(known.includes(far) && known.includes(far + 1) ? known.reverse() : known));
+      const turns_right = known[1] === far;
+      if (known.length === 3) indices.push(...(turns_right ? known.reverse() : known));
     }
   }
   return indices;

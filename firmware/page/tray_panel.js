@@ -36,8 +36,9 @@ class Panel {
     tell();
     const choices = element('div', { class: 'choices', role: 'group', 'aria-label': word('tray.drawings') },
       this.buttons);
-    const mesh = element('a', { class: 'quiet note', href: `api/v1/scans/${encodeURIComponent(scan.id)}/mesh`, download: '' },
-      word('tray.mesh'));
+    const mesh = element('a', {
+      class: 'quiet note', download: '', href: `api/v1/scans/${encodeURIComponent(scan.id)}/mesh`,
+    }, word('tray.mesh'));
     this.node = element('div', { class: 'tray-panel' }, choices, this.stage, caption, mesh);
     this.choose(chosen);
   }

@@ -16,7 +16,8 @@ function versions() {
 export function show_about(main) {
   const zone = `${time_zone()} (${word(is_zone_of_site() ? 'about.zone_site' : 'about.zone_browser')})`;
   const role = word_of('role', session.role) ?? '–';
-  const lines = [...versions(), [word('about.role'), role], [word('about.zone'), zone], [word('about.licence'), 'Apache-2.0']];
+  const lines = [...versions(), [word('about.role'), role], [word('about.zone'), zone],
+    [word('about.licence'), 'Apache-2.0']];
   main.append(element('h1', {}, word('about.title')),
     element('div', { class: 'card prose' },
       element('p', {}, word('about.what')),

@@ -13,6 +13,7 @@ import fake_station
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 PROGRAM = os.environ.get("TRAYGAUGE_PROGRAM", str(ROOT / "build" / "traygauge"))
 VIEW_TOKEN = "view-token-0123456789abcdef"
+REVOKED_TOKEN = "revoked-token-0123456789abcdef"
 MANAGE_TOKEN = "manage-token-0123456789abcdef"
 
 
@@ -49,11 +50,17 @@ class HubRig:
     def address(self):
         return f"http://127.0.0.1:{self.port}/" + ("kitchen/" if self.with_tokens else "")
 
+    def write_tokens(self, role, *lines):
+        """The hub reads the file again within a second."""
+        file = self.folder / f"{role}.tokens"
+        new = file.with_suffix(".new")
+        new.write_text("\n".join(lines) + "\n")
+        new.chmod(0o600)
+        new.rename(file)
+
     def _write_config(self):
-        for role, line in (("view", VIEW_TOKEN), ("manage", f"{MANAGE_TOKEN} ann")):
-            file = self.folder / f"{role}.tokens"
-            file.write_text(line + "\n")
-            file.chmod(0o600)
+        self.write_tokens("view", VIEW_TOKEN, REVOKED_TOKEN)
+        self.write_tokens("manage", f"{MANAGE_TOKEN} ann")
         (self.folder / "station.toml").write_text(
             '[station]\nname = "kitchen"\nsocket = "hub"\nfolder = "kept"\n'
             f'[hub]\nstore = "results.db"\nlisten = ["127.0.0.1:{self.port}"]\n'

@@ -2,7 +2,7 @@
 import urllib.parse
 
 import samples
-from hub_rig import MANAGE_TOKEN, VIEW_TOKEN, HubRig
+from hub_rig import MANAGE_TOKEN, REVOKED_TOKEN, VIEW_TOKEN, HubRig, wait_for
 from page_case import PageCase
 
 
@@ -28,6 +28,10 @@ class RolesTest(PageCase):
         field.send_keys(token)
         self.browser.find(".login .main-button").click()
 
+    def wait_without_cookie(self):
+        cookies = lambda: self.browser.driver.execute_cdp_cmd("Network.getAllCookies", {})["cookies"]
+        wait_for(lambda: not cookies(), "a browser without the token")
+
     def choose(self, name, value):
         self.browser.run("const field = document.querySelector(`.correction-form [name=${arguments[0]}]`);"
                          "field.value = arguments[1]; field.dispatchEvent(new Event('change', {bubbles: true}))",
@@ -52,6 +56,16 @@ class RolesTest(PageCase):
         self.assertNotIn(VIEW_TOKEN, urllib.parse.unquote(str(self.browser.requests())))
         self.browser.find("#session button").click()
         self.browser.wait_any("input[type=password]")
+        self.wait_without_cookie()
+        self.browser.errors()
+
+    def test_revoked_token(self):
+        """The page asks for another one, and no longer sends the old one, which would count as wrong each time."""
+        self.log_in("#live", REVOKED_TOKEN)
+        self.browser.wait_text("142 ml", ".last-tray")
+        self.rig.write_tokens("view", VIEW_TOKEN)
+        self.browser.wait_any("input[type=password]")
+        self.wait_without_cookie()
         self.browser.errors()
 
     def test_view_cannot_correct(self):
@@ -59,7 +73,8 @@ class RolesTest(PageCase):
         self.browser.wait_text("log in with a token that manages")
         self.assertEqual(self.browser.find_all(".correction-form"), [])
         status = self.browser.driver.execute_async_script(
-            "fetch('api/v1/scans/kitchen-3/corrections', {method: 'POST', headers: {'Content-Type': 'application/json'},"
+            "fetch('api/v1/scans/kitchen-3/corrections', {method: 'POST', "
+            "headers: {'Content-Type': 'application/json'},"
             "body: '{\"action\":\"scan_wrong\"}'}).then((answer) => arguments[0](answer.status))")
         self.assertEqual(status, 403)
         self.browser.errors()

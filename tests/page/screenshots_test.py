@@ -7,7 +7,8 @@ import urllib.request
 
 from page_case import PageCase, store_samples
 
-# name: view, size, pixels of the picture a pixel of the page, language, scheme, what has to be there, and what is pressed first
+# name: view, size, pixels of the picture for a pixel of the page, language, scheme, what has to be there, and
+# what is pressed first
 PICTURES = {
     "live": ("#live", "desktop", 0.6, "en", "light", ".outlines", None),
     "space": ("#scan/demo-1", "desktop", 0.6, "en", "dark", "canvas.space[data-drawn]", ".choice[value=space]"),

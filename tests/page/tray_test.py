@@ -11,7 +11,8 @@ class TrayTest(PageCase):
         store_samples(cls.rig)
 
     def focus_item(self, label, browser=None):
-        (browser or self.browser).run("document.querySelector(`.item-name[data-label='${arguments[0]}']`).focus()", label)
+        script = "document.querySelector(`.item-name[data-label='${arguments[0]}']`).focus()"
+        (browser or self.browser).run(script, label)
 
     def test_outlines_light_up(self):
         self.show("#live")
