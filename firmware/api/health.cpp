@@ -46,6 +46,8 @@ void examine_state(const std::string& station, const Json& state, std::vector<He
   }
   if (state.contains("disk") && state["disk"].is_string())
     parts.push_back({"disk of " + station, HealthState::failing, state["disk"].get<std::string>()});
+  if (const std::string problem = text_of(state, "configuration", ""); !problem.empty())
+    parts.push_back({"configuration of " + station, HealthState::warning, problem});
   const auto waiting = state.find("waiting_results");
   if (waiting != state.end() && waiting->is_number_unsigned() && *waiting > 0)
     parts.push_back({"queue of " + station, HealthState::warning,
@@ -103,6 +105,8 @@ Health examine_health(const HubSite& site) {
   Health health;
   health.parts.push_back(examine_disk(site.store));
   health.parts.push_back(examine_clock(site.wall_clock()));
+  if (!site.facts.configuration_problem.empty())
+    health.parts.push_back({"configuration", HealthState::warning, site.facts.configuration_problem});
   for (const auto& [name, live] : site.inbox.stations()) examine_station(name, live, health.parts);
   return health;
 }

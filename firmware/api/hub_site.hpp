@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <functional>
+#include <string>
 
 #include "firmware/base/wall_clock.hpp"
 #include "firmware/hub/hub_store.hpp"
@@ -14,11 +15,20 @@
 
 namespace traygauge {
 
+// What is told of the hub itself.
+struct SiteFacts {
+  std::string name;       // for people; empty: none
+  std::string time_zone;  // such as "Europe/Berlin"; empty: it has no name
+  std::string program_version;
+  std::string configuration_problem;  // empty: the configuration is the one that somebody wrote
+};
+
 struct HubSite {
   HubStore& store;
   StationInbox& inbox;
   const ShapeShelf& shapes;
   EventStreams& events;
+  SiteFacts facts;
   std::function<HttpCounts()> http;
   std::function<WallTime()> wall_clock = read_wall_clock;
   std::chrono::steady_clock::time_point started_at = std::chrono::steady_clock::now();
@@ -30,6 +40,7 @@ void add_next_tray_routes(Router& router, const HubSite& site);
 void add_shape_routes(Router& router, const HubSite& site);
 void add_correction_routes(Router& router, const HubSite& site);
 void add_export_routes(Router& router, const HubSite& site);
+void add_site_routes(Router& router, const HubSite& site);
 void add_station_routes(Router& router, const HubSite& site);
 void add_health_routes(Router& router, const HubSite& site);
 void add_metrics_route(Router& router, const HubSite& site);

@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "firmware/base/scan_id.hpp"
+#include "firmware/base/time_zone.hpp"
 #include "firmware/base/wall_clock.hpp"
 
 namespace traygauge {
@@ -55,6 +56,7 @@ Expected<Json> scan_answer(Store& store, const StoredScan& scan) {
                {"station", scan.id.station},
                {"number", scan.id.number},
                {"taken_at", utc_text(scan.taken.unix_ms)},
+               {"taken_at_local", local_text(scan.taken.unix_ms)},
                {"clock_synchronised", scan.taken.synchronised},
                {"received_at", utc_text(scan.received.unix_ms)},
                {"tray", of_document("tray")},

@@ -17,6 +17,9 @@ struct WallTime {
 
 WallTime read_wall_clock();
 
+// The last time that texts of ours have room for.
+inline constexpr std::int64_t kEndOf9999Ms = 253'402'300'799'999;
+
 // "2026-11-27T07:40:12.345Z", of the years 1970 to 9999; times outside are clamped to them.
 std::string utc_text(std::int64_t unix_ms);
 // Reads utc_text() back, with or without fractions of a second; none where the text is no such time.

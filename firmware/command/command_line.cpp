@@ -3,6 +3,7 @@
 #include <string>
 
 #include "firmware/check/check_command.hpp"
+#include "firmware/check/config_check.hpp"
 #include "firmware/command/program.hpp"
 #include "firmware/command/sibling_program.hpp"
 #include "firmware/command/stop_signal.hpp"
@@ -26,6 +27,7 @@ struct Options {
   SegmentOptions segment;
   StationCommand station;
   CheckOptions check;
+  ConfigCheckOptions config_check;
   RecordOptions record;
 };
 
@@ -51,6 +53,7 @@ int run_command(const Program& program, const Options& options, std::ostream& ou
     return run_station(options.station, open_recorded_captures, stop_on_signals(), out, error);
   }
   if (command == "check") return run_check(options.check, out);
+  if (command == "config check") return run_config_check(options.config_check, out);
   if (command == "calibrate") {
     return run_sibling_program("traygauge-calibrate", program.remaining());
   }
@@ -73,6 +76,7 @@ int run_command_line(int argument_count, const char* const* arguments, std::ostr
   add_memory_command(program, options.memory);
   add_station_command(program, options.station);
   add_check_command(program, options.check);
+  add_config_command(program, options.config_check);
   add_record_command(program, options.record);
   add_calibrate_command(program);
   add_hub_command(program);

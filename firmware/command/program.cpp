@@ -101,6 +101,11 @@ void Program::add_version(const std::string& version) {
   app_->set_version_flag("--version", version);
 }
 
+Command Command::add_command(const std::string& name, const std::string& text) {
+  app_->require_subcommand(1);
+  return Command(*app_->add_subcommand(name, text));
+}
+
 Command Program::add_command(const std::string& name, const std::string& text) {
   return Command(*app_->add_subcommand(name, text));
 }
@@ -135,7 +140,10 @@ int Program::run(int argument_count, const char* const* arguments, const std::fu
 }
 
 std::string Program::chosen() const {
-  return app_->get_subcommands().front()->get_name();
+  const CLI::App* const command = app_->get_subcommands().front();
+  std::string name = command->get_name();
+  for (const CLI::App* const part : command->get_subcommands()) name += " " + part->get_name();
+  return name;
 }
 
 std::vector<std::string> Program::remaining() const {

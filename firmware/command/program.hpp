@@ -54,6 +54,8 @@ class Command {
   CommandOption add_action(const std::string& name, const std::function<void()>& action,
                            const std::string& text);
 
+  // A command of this one, which then needs one of them.
+  Command add_command(const std::string& name, const std::string& text);
   // Takes nothing itself, not even --help: all that follows is Program::remaining().
   void take_nothing();
 
@@ -82,7 +84,8 @@ class Program {
   int run(int argument_count, const char* const* arguments, const std::function<int()>& action,
           std::ostream& out, std::ostream& error);
 
-  // For the action: the command that was typed, and what it did not take.
+  // For the action: the command that was typed, as "config check" where it is one of another's, and what it
+  // did not take.
   std::string chosen() const;
   std::vector<std::string> remaining() const;
 

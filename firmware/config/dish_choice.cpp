@@ -1,6 +1,7 @@
 #include "firmware/config/dish_choice.hpp"
 
 #include <algorithm>
+#include <system_error>
 #include <utility>
 
 #include "core/labels/label_regions.hpp"
@@ -26,6 +27,13 @@ void require_one_dish(const Capture& capture) {
 
 std::vector<DishDescription> choose_dishes(const Capture& capture, const std::string& config) {
   return capture.dishes.empty() ? read_dish_library(find_config_folder(config)) : capture.dishes;
+}
+
+std::vector<DishDescription> read_station_dishes(const std::filesystem::path& station_file) {
+  const std::filesystem::path folder = std::filesystem::absolute(station_file).parent_path();
+  std::error_code ignored;
+  const bool has_own = std::filesystem::is_directory(folder / "dishes", ignored);
+  return read_dish_library(find_config_folder(has_own ? folder.string() : ""));
 }
 
 Expected<std::vector<DishDescription>> find_dishes(const std::vector<std::string>& styles,

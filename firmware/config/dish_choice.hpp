@@ -1,6 +1,7 @@
 // The dishes that a capture is measured with.
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -19,6 +20,10 @@ void require_one_dish(const Capture& capture);
 // The capture's dishes, or where it names none, those of the library in the folder `config` (empty: the usual
 // one) as candidates for the only dish. Throws InputError.
 std::vector<DishDescription> choose_dishes(const Capture& capture, const std::string& config);
+
+// The dishes that a station knows: those in dishes/ beside its file, or where there is none, the usual ones.
+// Throws InputError.
+std::vector<DishDescription> read_station_dishes(const std::filesystem::path& station_file);
 
 // The dishes of a tray by their styles, each with a label of its own. The failure is the first style that is
 // not in `library`.

@@ -38,6 +38,8 @@ WebConfig read_web(const JsonNode& table, const std::filesystem::path& folder) {
   if (const auto names = table.find("host_names")) web.host_names = read_texts(*names);
   if (const auto proxies = table.find("trusted_proxies")) web.trusted_proxies = read_texts(*proxies);
   if (const auto base = table.find("base_path")) web.base_path = base->text();
+  if (const auto name = table.find("site_name")) web.site_name = name->text();
+  if (const auto zone = table.find("time_zone")) web.time_zone = zone->text();
   return web;
 }
 
@@ -62,7 +64,8 @@ HandoverConfig read_handover_table(const JsonNode& table, const std::filesystem:
 
 HubConfig read_hub_table(const JsonNode& table, const std::filesystem::path& folder) {
   expect(table, {"store", "keep_days", "keep_free_mib", "listen", "view_tokens", "kiosk_tokens",
-                 "manage_tokens", "local_without_token", "host_names", "trusted_proxies", "base_path"});
+                 "manage_tokens", "local_without_token", "host_names", "trusted_proxies", "base_path",
+                 "site_name", "time_zone"});
   HubConfig config;
   config.store = folder / table.member("store").text();
   if (const auto days = table.find("keep_days")) config.keep_days = days->integer(1, kMaxDays);
@@ -71,11 +74,20 @@ HubConfig read_hub_table(const JsonNode& table, const std::filesystem::path& fol
   return config;
 }
 
-HubFile read_hub_file(const std::filesystem::path& file) {
-  const JsonDocument document = read_toml(file, kMaxFileBytes, "a station in TOML");
+OnBadConfig read_on_bad_config(const JsonNode& root) {
+  const auto node = root.find("on_bad_config");
+  if (!node) return OnBadConfig::keep;
+  const std::string text = node->text();
+  if (text == "keep") return OnBadConfig::keep;
+  if (text == "stop") return OnBadConfig::stop;
+  node->fail(R"("keep" or "stop")", "correct the value");
+}
+
+HubFile read_hub_file(const std::filesystem::path& file, const std::filesystem::path& content) {
+  const JsonDocument document = read_toml(content, kMaxFileBytes, "a station in TOML");
   const JsonNode root = document.root();
   const std::filesystem::path folder = file.parent_path();
-  return {read_handover_table(root.member("station"), folder).socket,
+  return {read_on_bad_config(root), read_handover_table(root.member("station"), folder).socket,
           read_hub_table(root.member("hub"), folder)};
 }
 

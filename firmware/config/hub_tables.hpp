@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "firmware/config/last_good.hpp"
 #include "simulator/capture/json_node.hpp"
 
 namespace traygauge {
@@ -30,6 +31,8 @@ struct WebConfig {
   std::vector<std::string> host_names;       // of the hub, beside localhost and literal addresses
   std::vector<std::string> trusted_proxies;  // addresses whose X-Forwarded-For is believed
   std::string base_path;                     // under which a proxy shows the hub
+  std::string site_name;                     // for people; empty: none
+  std::string time_zone;                     // see set_time_zone(); empty: this machine's
 };
 
 struct HubConfig {
@@ -43,13 +46,18 @@ struct HubConfig {
 HandoverConfig read_handover_table(const JsonNode& table, const std::filesystem::path& folder);
 HubConfig read_hub_table(const JsonNode& table, const std::filesystem::path& folder);
 
+// The key of a file that says what becomes of the program when the next one is bad.
+OnBadConfig read_on_bad_config(const JsonNode& root);
+
 // What a hub needs of a station file.
 struct HubFile {
+  OnBadConfig on_bad_config = OnBadConfig::keep;
   std::filesystem::path socket;
   HubConfig hub;
 };
 
-// Throws InputError where the file cannot be read, and where [hub] or the key station.socket is absent.
-HubFile read_hub_file(const std::filesystem::path& file);
+// Paths are relative to `file`; `content` is read, which is another file where that is the last good one.
+// Throws InputError where it cannot be read, and where [hub] or the key station.socket is absent.
+HubFile read_hub_file(const std::filesystem::path& file, const std::filesystem::path& content);
 
 }  // namespace traygauge

@@ -307,14 +307,15 @@ void read_trays(const JsonNode& table, const fs::path& folder, StationFile& stat
 
 }  // namespace
 
-StationFile read_station_file(const fs::path& file) {
-  const JsonDocument document = read_toml(file, kMaxFileBytes, "a station in TOML");
+StationFile read_station_file(const fs::path& file, const fs::path& content) {
+  const JsonDocument document = read_toml(content, kMaxFileBytes, "a station in TOML");
   const JsonNode root = document.root();
   expect(root, {"camera", "second_camera", "button", "lamp", "arm", "arm_geometry", "lens", "second_lens",
-                "card", "trays", "station", "hub"});
+                "card", "trays", "station", "hub", "on_bad_config"});
   const fs::path folder = file.parent_path();
   StationFile station;
   station.file = file;
+  station.on_bad_config = read_on_bad_config(root);
   station.camera = read_camera(root.member("camera"));
   station.button = read_button(root.member("button"));
   if (const auto node = root.member("button").find("long_press_s"))
@@ -336,7 +337,10 @@ StationFile read_station_file(const fs::path& file) {
   if (const auto card = root.find("card")) station.card = read_card(*card, folder);
   if (const auto trays = root.find("trays")) read_trays(*trays, folder, station);
   if (const auto handover = root.find("station")) station.handover = read_handover_table(*handover, folder);
-  if (const auto hub = root.find("hub")) read_hub_table(*hub, folder);
+  if (const auto hub = root.find("hub")) {
+    read_hub_table(*hub, folder);
+    station.has_hub = true;
+  }
   return station;
 }
 

@@ -72,10 +72,16 @@ struct StationFile {
   std::vector<std::string> dishes;
   int items = 0;                           // on every tray; 0: not known
   std::optional<HandoverConfig> handover;  // none: results are printed alone
+  bool has_hub = false;                    // [hub] is read by the hub, and checked here
+  OnBadConfig on_bad_config = OnBadConfig::keep;
 };
 
-// Unknown keys are errors: they are typing mistakes. Paths in the file are relative to it. Throws InputError.
-StationFile read_station_file(const std::filesystem::path& file);
+// Unknown keys are errors: they are typing mistakes. Paths are relative to `file`; `content` is read, which
+// is another file where that is the last good one. Throws InputError.
+StationFile read_station_file(const std::filesystem::path& file, const std::filesystem::path& content);
+inline StationFile read_station_file(const std::filesystem::path& file) {
+  return read_station_file(file, file);
+}
 
 // What has changed since a lens was calibrated, and what to do; empty when nothing is known to have. `focus`:
 // the camera's now, where it says.

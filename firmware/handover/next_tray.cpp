@@ -10,6 +10,7 @@ using Json = nlohmann::ordered_json;
 
 // As many as labels can tell apart; see core's kMaxItems.
 constexpr int kMaxFoods = 198;
+constexpr std::size_t kMaxDishes = 8;  // see core's kMaxPlacedDishes
 constexpr std::int64_t kLongestMs = 3'600'000;
 constexpr std::size_t kMaxTrayBytes = 64;
 
@@ -35,7 +36,7 @@ Expected<std::vector<std::string>> read_dishes(const Json& json,
     if (!is_known) return Failure{"dishes: expected some of " + joined(dish_styles)};
     dishes.push_back(dish.get<std::string>());
   }
-  if (dishes.size() > dish_styles.size()) return Failure{"dishes: expected each style once"};
+  if (dishes.size() > kMaxDishes) return Failure{"dishes: expected at most " + std::to_string(kMaxDishes)};
   return dishes;
 }
 

@@ -46,21 +46,20 @@ Nanoseconds repeat_time(const HandoverConfig& config) {
 }
 
 struct ResultRoute::Handover {
-  Handover(const HandoverConfig& config, std::vector<std::string> dish_styles, ScanPrinter& printer,
-           std::ostream& log)
+  Handover(const HandoverConfig& config, StationFacts facts, ScanPrinter& printer, std::ostream& log)
       : kept(open_kept(config)),
         link(link_params(config)),
-        sink(printer, link, kept, log, {.dish_styles = std::move(dish_styles)}) {}
+        sink(printer, link, kept, log, {.facts = std::move(facts)}) {}
 
   KeptResults kept;
   HubLink link;
   ScanHandover sink;
 };
 
-ResultRoute::ResultRoute(const std::optional<HandoverConfig>& handover, std::vector<std::string> dish_styles,
+ResultRoute::ResultRoute(const std::optional<HandoverConfig>& handover, StationFacts facts,
                          ScanPrinter& printer, std::ostream& log)
     : printer_(printer) {
-  if (handover) handover_ = std::make_unique<Handover>(*handover, std::move(dish_styles), printer, log);
+  if (handover) handover_ = std::make_unique<Handover>(*handover, std::move(facts), printer, log);
 }
 
 ResultRoute::~ResultRoute() = default;

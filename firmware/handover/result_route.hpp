@@ -4,11 +4,10 @@
 #include <iosfwd>
 #include <memory>
 #include <optional>
-#include <string>
-#include <vector>
 
 #include "drivers/clock.hpp"
 #include "firmware/config/hub_tables.hpp"
+#include "firmware/handover/station_facts.hpp"
 #include "firmware/station/scan_printer.hpp"
 
 namespace traygauge {
@@ -19,9 +18,8 @@ Nanoseconds repeat_time(const HandoverConfig& config);
 class ResultRoute {
  public:
   // Throws InputError where the folder of waiting results cannot be used.
-  // `dish_styles`: what the hub may say that the next tray carries.
-  ResultRoute(const std::optional<HandoverConfig>& handover, std::vector<std::string> dish_styles,
-              ScanPrinter& printer, std::ostream& log);
+  ResultRoute(const std::optional<HandoverConfig>& handover, StationFacts facts, ScanPrinter& printer,
+              std::ostream& log);
   ResultRoute(const ResultRoute&) = delete;
   ResultRoute& operator=(const ResultRoute&) = delete;
   ~ResultRoute();

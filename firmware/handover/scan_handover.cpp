@@ -125,7 +125,7 @@ void ScanHandover::report_recovery(std::string_view what) {
 void ScanHandover::hear_next_tray() {
   const std::optional<std::string> text = link_.take_next_tray();
   if (!text) return;
-  const Expected<ToldTray> told = read_told_tray(*text, params_.dish_styles);
+  const Expected<ToldTray> told = read_told_tray(*text, params_.facts.dish_styles);
   if (told.ok()) {
     next_tray_.tell(*told, SteadyClock::now());
   } else {
@@ -146,12 +146,15 @@ void ScanHandover::tell_state() {
   Json faults = Json::array();
   for (const auto& [device, text] : faults_) faults.push_back({{"device", device}, {"message", text}});
   const std::optional<ToldTray> next = next_tray_.at(SteadyClock::now());
-  const Json json = {{"state", state_},
-                     {"dishes", params_.dish_styles},
-                     {"next_tray", next ? Json::parse(told_tray_json(*next)) : Json()},
-                     {"waiting_results", kept_.waiting_count()},
-                     {"disk", disk_problem_.empty() ? Json() : Json(disk_problem_)},
-                     {"faults", faults}};
+  const Json json = {
+      {"state", state_},
+      {"configuration",
+       params_.facts.configuration_problem.empty() ? Json() : Json(params_.facts.configuration_problem)},
+      {"dishes", params_.facts.dish_styles},
+      {"next_tray", next ? Json::parse(told_tray_json(*next)) : Json()},
+      {"waiting_results", kept_.waiting_count()},
+      {"disk", disk_problem_.empty() ? Json() : Json(disk_problem_)},
+      {"faults", faults}};
   link_.tell({MessageType::state, json.dump(-1, ' ', false, Json::error_handler_t::replace), {}});
   told_at_ = SteadyClock::now();
 }

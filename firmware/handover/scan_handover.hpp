@@ -14,19 +14,19 @@
 #include "firmware/handover/hub_link.hpp"
 #include "firmware/handover/kept_results.hpp"
 #include "firmware/handover/next_tray.hpp"
+#include "firmware/handover/station_facts.hpp"
 #include "firmware/station/scan_result.hpp"
 
 namespace traygauge {
 
 struct ScanHandoverParams {
+  StationFacts facts;
   // Presses wait while kept results are handed over.
   Milliseconds longest_attention{300};
   // A hub that refuses or hangs is asked again so much later.
   Milliseconds retry_after{2000};
   // A shape has some 200 kB, of which a socket holds half.
   Milliseconds longest_shape{100};
-  // The styles of dishes that the next tray may be said to carry.
-  std::vector<std::string> dish_styles;
   // The hub calls a station silent that says nothing for longer: see its health.
   Milliseconds heartbeat{2000};
 };

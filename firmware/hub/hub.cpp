@@ -13,9 +13,8 @@ Expected<std::unique_ptr<Hub>> Hub::start(HubParams params, HubLog log) {
   if (!store.ok()) return Failure{store.failure()};
   for (const std::string& notice : store->notices()) log(notice);
   std::unique_ptr<Hub> hub(new Hub(std::move(*store), std::move(*listener), params, std::move(log)));
-  if (params.web.listen.empty()) return hub;
-  Expected<std::unique_ptr<HubWeb>> web =
-      HubWeb::start(params.web, params.page, hub->store_, hub->inbox_, hub->shapes_);
+  if (params.web.config.listen.empty()) return hub;
+  Expected<std::unique_ptr<HubWeb>> web = HubWeb::start(params.web, hub->store_, hub->inbox_, hub->shapes_);
   if (!web.ok()) return Failure{web.failure()};
   hub->web_ = std::move(*web);
   return hub;

@@ -21,8 +21,7 @@ struct HubParams {
   std::filesystem::path socket;
   HubStoreParams store;
   StationInboxParams inbox;
-  WebConfig web;                              // without addresses nothing is served
-  std::optional<std::filesystem::path> page;  // the folder of the page's files; none: only the API is served
+  HubWebParams web;
 };
 
 // One sentence for each thing that happened.

@@ -1,6 +1,7 @@
 #include "firmware/hub/hub_command.hpp"
 
 #include <chrono>
+#include <filesystem>
 #include <ostream>
 #include <utility>
 
@@ -15,22 +16,32 @@ namespace traygauge {
 namespace {
 
 // What is said on the command line counts; the rest is the file's.
-HubFile choose(const HubCommand& command) {
-  HubFile chosen;
-  if (!command.config.empty()) chosen = read_hub_file(command.config);
+ChosenConfig<HubFile> choose(const HubCommand& command) {
+  ChosenConfig<HubFile> read;
+  HubFile& chosen = read.config;
+  if (!command.config.empty()) {
+    const auto read_checked = [&command](const std::filesystem::path& content) {
+      HubFile file = read_hub_file(command.config, content);
+      const Expected<void> checked = HubWeb::check(file.hub.web);
+      if (!checked.ok()) throw UsageError(content.string() + ": " + checked.failure());
+      return file;
+    };
+    read = read_or_last_good(command.config, command.last_good, read_checked,
+                             [](const HubFile& file) { return file.on_bad_config; });
+  }
   if (!command.socket.empty()) chosen.socket = command.socket;
   if (!command.store.empty()) chosen.hub.store = command.store;
   if (!command.listen.empty()) chosen.hub.web.listen = command.listen;
   if (chosen.socket.empty() || chosen.hub.store.empty())
     throw UsageError("expected --config FILE, or --socket PATH and --store FILE");
-  return chosen;
+  return read;
 }
 
 HubParams params_of(const HubFile& file) {
   constexpr std::int64_t kBytesPerMib = 1024 * 1024;
   HubParams params;
   params.socket = file.socket;
-  params.web = file.hub.web;
+  params.web.config = file.hub.web;
   params.store.options.file = file.hub.store;
   if (file.hub.keep_days) params.store.retention.max_age = std::chrono::days(*file.hub.keep_days);
   params.store.retention.min_free_bytes = file.hub.keep_free_mib * kBytesPerMib;
@@ -46,14 +57,26 @@ void add_hub_options(Program& program, HubCommand& command) {
   hub.add_option("--store", command.store, "The file that results are stored in; made where there is none");
   hub.add_option("--listen", command.listen,
                  "Where the API is served, such as 127.0.0.1:8080; may be given several times");
+  hub.add_option("--last-good", command.last_good,
+                 "Where a copy of the station file is kept, which counts where a later one is bad "
+                 "(on_bad_config in the file)");
+  hub.add_flag("--check", command.only_check, "Only say whether the configuration is as expected");
 }
 
 int run_hub(const HubCommand& command, const std::atomic<bool>& stop, std::ostream& out, std::ostream& log) {
-  const HubFile file = choose(command);
+  const ChosenConfig<HubFile> chosen = choose(command);
+  const HubFile& file = chosen.config;
+  if (!chosen.problem.empty()) log << chosen.problem << std::endl;
+  if (command.only_check) {
+    out << command.config << ": as expected for a hub; results go to " << file.hub.store.string() << "."
+        << std::endl;
+    return kExitMeasured;
+  }
   const auto write = [&log](const std::string& sentence) { log << sentence << std::endl; };
   HubParams params = params_of(file);
-  params.page = find_page_folder();
-  const bool has_page = params.page.has_value();
+  params.web.configuration_problem = chosen.problem;
+  params.web.page = find_page_folder();
+  const bool has_page = params.web.page.has_value();
   const Expected<std::unique_ptr<Hub>> hub = Hub::start(std::move(params), write);
   if (!hub.ok()) throw UsageError(hub.failure());
   out << "The hub stores results in " << file.hub.store.string() << " and listens at " << file.socket.string()

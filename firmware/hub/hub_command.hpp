@@ -14,6 +14,8 @@ struct HubCommand {
   std::string config;  // a station file; empty: socket and store are given
   std::string socket;
   std::string store;
+  std::string last_good;    // where the last good station file is kept; empty: nowhere
+  bool only_check = false;  // says whether the configuration is as expected, and ends
   std::vector<std::string> listen;
 };
 

@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "firmware/base/time_zone.hpp"
 #include "firmware/hub/page_files.hpp"
 #include "firmware/web/login.hpp"
 
@@ -43,26 +44,54 @@ Expected<std::vector<ListenAddress>> listen_addresses(const WebConfig& config) {
 
 }  // namespace
 
-Expected<std::unique_ptr<HubWeb>> HubWeb::start(const WebConfig& config,
-                                                const std::optional<std::filesystem::path>& page,
-                                                HubStore& store, StationInbox& inbox,
-                                                const ShapeShelf& shapes) {
+struct HubWeb::Parts {
+  AccessParams access;
+  SiteParams site;
+  std::vector<ListenAddress> addresses;
+  SiteFacts facts;
+};
+
+// What of a configuration can be judged before anything is opened.
+Expected<HubWeb::Parts> HubWeb::parts_of(const WebConfig& config) {
   Expected<AccessParams> access = access_params(config);
   if (!access.ok()) return Failure{access.failure()};
-  const Expected<std::vector<ListenAddress>> addresses = listen_addresses(config);
+  Expected<std::vector<ListenAddress>> addresses = listen_addresses(config);
   if (!addresses.ok()) return Failure{addresses.failure()};
   Expected<std::vector<std::string>> base = parse_base_path(config.base_path);
   if (!base.ok()) return of_key("base_path", base);
-  std::unique_ptr<HubWeb> web(
-      new HubWeb(std::move(*access), {config.host_names, std::move(*base)}, store, inbox, shapes));
-  if (const Expected<void> may = web->access_.check_listen(*addresses); !may.ok())
+  if (!config.time_zone.empty()) {
+    if (const auto set = set_time_zone(config.time_zone); !set.ok()) return of_key("time_zone", set);
+  }
+  SiteFacts facts;
+  facts.name = config.site_name;
+  facts.time_zone = config.time_zone.empty() ? machine_time_zone() : config.time_zone;
+  facts.program_version = TRAYGAUGE_VERSION;
+  return Parts{
+      std::move(*access), {config.host_names, std::move(*base)}, std::move(*addresses), std::move(facts)};
+}
+
+Expected<void> HubWeb::check(const WebConfig& config) {
+  Expected<Parts> parts = parts_of(config);
+  if (!parts.ok()) return Failure{parts.failure()};
+  const Expected<void> may = Access(std::move(parts->access)).check_listen(parts->addresses);
+  return may.ok() ? Expected<void>() : of_key("listen", may);
+}
+
+Expected<std::unique_ptr<HubWeb>> HubWeb::start(const HubWebParams& params, HubStore& store,
+                                                StationInbox& inbox, const ShapeShelf& shapes) {
+  Expected<Parts> parts = parts_of(params.config);
+  if (!parts.ok()) return Failure{parts.failure()};
+  parts->facts.configuration_problem = params.configuration_problem;
+  const std::vector<ListenAddress> addresses = parts->addresses;
+  std::unique_ptr<HubWeb> web(new HubWeb(std::move(*parts), store, inbox, shapes));
+  if (const Expected<void> may = web->access_.check_listen(addresses); !may.ok())
     return of_key("listen", may);
-  if (page) {
-    const Expected<void> read = read_page(*page, web->files_);
+  if (params.page) {
+    const Expected<void> read = read_page(*params.page, web->files_);
     if (!read.ok()) return Failure{read.failure()};
   }
   std::vector<Listener> listeners;
-  for (const ListenAddress& address : *addresses) {
+  for (const ListenAddress& address : addresses) {
     Expected<Listener> listener = Listener::open(address);
     if (!listener.ok()) return of_key("listen", listener);
     listeners.push_back(std::move(*listener));
@@ -73,22 +102,22 @@ Expected<std::unique_ptr<HubWeb>> HubWeb::start(const WebConfig& config,
   return web;
 }
 
-HubWeb::HubWeb(AccessParams access, SiteParams site, HubStore& store, StationInbox& inbox,
-               const ShapeShelf& shapes)
-    : access_(std::move(access)),
+HubWeb::HubWeb(Parts parts, HubStore& store, StationInbox& inbox, const ShapeShelf& shapes)
+    : access_(std::move(parts.access)),
       events_(EventStreamLimits{}),
-      hub_site_{store, inbox, shapes, events_, [this] { return server_->counts(); }} {
+      hub_site_{store, inbox, shapes, events_, std::move(parts.facts), [this] { return server_->counts(); }} {
   add_login_routes(router_, access_);
   add_scan_routes(router_, hub_site_);
   add_next_tray_routes(router_, hub_site_);
   add_shape_routes(router_, hub_site_);
   add_correction_routes(router_, hub_site_);
   add_export_routes(router_, hub_site_);
+  add_site_routes(router_, hub_site_);
   add_station_routes(router_, hub_site_);
   add_health_routes(router_, hub_site_);
   add_metrics_route(router_, hub_site_);
   add_description_route(router_);
-  site_.emplace(std::move(site), access_, router_, files_, events_);
+  site_.emplace(std::move(parts.site), access_, router_, files_, events_);
 }
 
 void HubWeb::tell_scan(const ScanId& id) {

@@ -20,15 +20,21 @@
 
 namespace traygauge {
 
+struct HubWebParams {
+  WebConfig config;                           // without addresses nothing is served
+  std::optional<std::filesystem::path> page;  // the folder of the page's files; none: only the API is served
+  std::string configuration_problem;          // for people; empty: there is none
+};
+
 // Served by the hub's loop: descriptor(), timeout(), run().
 class HubWeb {
  public:
   // Fails, with the key, where an address or a token file is of no use, and where others than this machine
-  // would be served without a token; and where a file of the page, in the folder `page`, cannot be read.
-  static Expected<std::unique_ptr<HubWeb>> start(const WebConfig& config,
-                                                 const std::optional<std::filesystem::path>& page,
-                                                 HubStore& store, StationInbox& inbox,
-                                                 const ShapeShelf& shapes);
+  // would be served without a token; and where a file of the page cannot be read.
+  static Expected<std::unique_ptr<HubWeb>> start(const HubWebParams& params, HubStore& store,
+                                                 StationInbox& inbox, const ShapeShelf& shapes);
+  // Whether start() would take this configuration; opens nothing.
+  static Expected<void> check(const WebConfig& config);
   HubWeb(const HubWeb&) = delete;
   HubWeb& operator=(const HubWeb&) = delete;
 
@@ -45,8 +51,9 @@ class HubWeb {
   const Router& router() const { return router_; }
 
  private:
-  HubWeb(AccessParams access, SiteParams site, HubStore& store, StationInbox& inbox,
-         const ShapeShelf& shapes);
+  struct Parts;
+  static Expected<Parts> parts_of(const WebConfig& config);
+  HubWeb(Parts parts, HubStore& store, StationInbox& inbox, const ShapeShelf& shapes);
 
   Access access_;
   Router router_;

@@ -1,9 +1,12 @@
 #include "firmware/station/hardware_station.hpp"
 
+#include <memory>
+#include <utility>
+
 #include "firmware/base/exit_status.hpp"
 #include "firmware/command/service_manager.hpp"
-#include "firmware/config/config_folder.hpp"
-#include "firmware/config/dish_library.hpp"
+#include "firmware/config/dish_choice.hpp"
+#include "firmware/config/last_good.hpp"
 #include "firmware/handover/result_route.hpp"
 #include "firmware/station/hardware.hpp"
 #include "firmware/station/scan_printer.hpp"
@@ -11,17 +14,6 @@
 #include "simulator/capture/input_error.hpp"
 
 namespace traygauge {
-namespace {
-
-// Those beside the station file, or where it has none, the usual ones.
-std::vector<DishDescription> read_dishes(const std::filesystem::path& file) {
-  const std::filesystem::path folder = std::filesystem::absolute(file).parent_path();
-  const bool has_own = std::filesystem::is_directory(folder / "dishes");
-  return read_dish_library(find_config_folder(has_own ? folder.string() : ""));
-}
-
-}  // namespace
-
 int run_hardware_station(const StationCommand& command, const std::filesystem::path& file,
                          const std::atomic<bool>& stop, std::ostream& out, std::ostream& log) {
   if (!command.faults.empty()) throw UsageError("--faults: only simulated devices fail as a script says");
@@ -35,15 +27,24 @@ int run_hardware_station(const StationCommand& command, const std::filesystem::p
     throw UsageError("--labels, --items: for played captures; a station's are in " + file.string() +
                      ", under [trays]");
   }
-  const StationFile station_file = read_station_file(file);
+  // What a station file names, such as the card's print, may be as bad as the file.
+  const auto chosen = read_or_last_good(
+      file, command.last_good,
+      [&file](const std::filesystem::path& content) {
+        StationFile station = read_station_file(file, content);
+        require_geometry(station);
+        auto scene = std::make_unique<SiteScene>(station, read_station_dishes(file));
+        return std::pair(std::move(station), std::move(scene));
+      },
+      [](const auto& config) { return config.first.on_bad_config; });
+  const auto& [station_file, scene] = chosen.config;
+  if (!chosen.problem.empty()) log << chosen.problem << std::endl;
   if (command.by_hand && station_file.arm) {
     throw UsageError("--by-hand: " + station_file.file.string() + " has an [arm]; remove one of the two");
   }
-  require_geometry(station_file);
-  SiteScene scene(station_file, read_dishes(file));
-  EstimatorMeasurer measurer(scene, scene.limits(), command.seed);
+  EstimatorMeasurer measurer(*scene, scene->limits(), command.seed);
   ScanPrinter printer(out, log, command.json ? ScanPrinter::Format::json : ScanPrinter::Format::text);
-  const ResultRoute route(station_file.handover, scene.dish_styles(), printer, log);
+  const ResultRoute route(station_file.handover, {scene->dish_styles(), chosen.problem}, printer, log);
   Hardware hardware(station_file);
   warn_of_changed_lenses(station_file, hardware, log);
   StationParams params = hardware_params(station_file);

@@ -132,6 +132,9 @@ void add_station_command(Program& program, StationCommand& command) {
                      "Hand results to the hub that listens at this socket; a real station's is in its file");
   station.add_option("--keep", command.hub.folder, "The folder where results wait for the hub");
   station.add_option("--name", command.hub.name, "What the station is called in the hub").show_default();
+  station.add_option("--last-good", command.last_good,
+                     "Where a copy of the station file is kept, which counts where a later one is bad "
+                     "(on_bad_config in the file)");
   station.add_option("--seed", command.seed, "Seed of the random samples").show_default();
 }
 
@@ -150,6 +153,8 @@ int run_station(const StationCommand& command, OpenCaptures& open_captures, cons
     throw InputError({folder, ""}, "capture.json here, or captures in the folders below", "neither",
                      "name a capture, or a folder of captures");
   }
+  if (!command.last_good.empty())
+    throw UsageError("--last-good: for a station file; played captures have none");
   const FaultPlan faults = command.faults.empty() ? FaultPlan() : read_fault_file(command.faults);
   if (command.by_hand && !faults.of(SimulatedDevice::arm).empty()) {
     throw UsageError("--faults: the script has faults of the arm, and --by-hand plays none; remove one");

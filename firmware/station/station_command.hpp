@@ -24,8 +24,9 @@ struct StationCommand {
   bool by_hand = false;  // no arm: a second press takes the second view
   double second_view_deg = StationParams{}.second_view_deg;
   std::uint64_t seed = 0;
-  LabelChoice labels;  // of captures
-  HandoverConfig hub;  // of played captures; without a socket there is none
+  LabelChoice labels;     // of captures
+  std::string last_good;  // where the last good station file is kept; empty: nowhere
+  HandoverConfig hub;     // of played captures; without a socket there is none
 };
 
 // Adds the command; when it is given, parsing fills `command`.

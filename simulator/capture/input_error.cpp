@@ -7,6 +7,7 @@ namespace {
 
 std::string compose(const InputProblem& problem) {
   std::string text = problem.file.string();
+  if (problem.line > 0) text += ":" + std::to_string(problem.line);
   if (!problem.key.empty()) text += ": " + problem.key;
   text += ": expected " + problem.expected;
   if (!problem.found.empty()) text += ", found " + problem.found;
@@ -20,7 +21,8 @@ InputError::InputError(InputProblem problem)
     : std::runtime_error(compose(problem)), problem_(std::move(problem)) {}
 
 InputError::InputError(const InputFile& file, std::string expected, std::string found, std::string hint)
-    : InputError(InputProblem{file.path, file.key, std::move(expected), std::move(found), std::move(hint)}) {}
+    : InputError(
+          InputProblem{file.path, file.key, std::move(expected), std::move(found), std::move(hint), 0}) {}
 
 std::string printable(const std::string& text) {
   std::string safe;

@@ -13,13 +13,14 @@ struct InputFile {
   std::string key;
 };
 
-// Which file, which key of it, what was expected there, what was found, and what to do.
+// Which file, where in it, what was expected there, what was found, and what to do.
 struct InputProblem {
   std::filesystem::path file;
   std::string key;
   std::string expected;
   std::string found;
   std::string hint;
+  int line = 0;  // from 1; 0: not known
 };
 
 // what() is the whole sentence, on one line.

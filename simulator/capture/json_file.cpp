@@ -26,7 +26,7 @@ JsonDocument read_json(const std::filesystem::path& file) {
     return true;
   };
   try {
-    return {file, nlohmann::json::parse(bytes.begin(), bytes.end(), limit_depth)};
+    return {{file, {}}, nlohmann::json::parse(bytes.begin(), bytes.end(), limit_depth)};
   } catch (const nlohmann::json::parse_error& error) {
     throw InputError(input, kJson, "an error at byte " + std::to_string(error.byte),
                      bytes.empty() ? "the file is empty" : "check commas, quotes and brackets there");

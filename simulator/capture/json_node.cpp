@@ -33,11 +33,16 @@ std::string format(double number) {
 
 }  // namespace
 
-JsonNode::JsonNode(const nlohmann::json& value, const std::filesystem::path& file, std::string key)
-    : value_(&value), file_(&file), key_(std::move(key)) {}
+JsonNode::JsonNode(const nlohmann::json& value, const JsonOrigin& origin, std::string key)
+    : value_(&value), origin_(&origin), key_(std::move(key)) {}
+
+int JsonNode::line() const {
+  const auto found = origin_->lines.find(key_);
+  return found == origin_->lines.end() ? 0 : found->second;
+}
 
 void JsonNode::fail(const std::string& expected, const std::string& hint) const {
-  throw InputError(InputProblem{*file_, key_, expected, describe(*value_), hint});
+  throw InputError(InputProblem{origin_->file, key_, expected, describe(*value_), hint, line()});
 }
 
 void JsonNode::require_object() const {
@@ -48,14 +53,14 @@ std::optional<JsonNode> JsonNode::find(const char* name) const {
   require_object();
   const auto found = value_->find(name);
   if (found == value_->end()) return std::nullopt;
-  return JsonNode(*found, *file_, key_.empty() ? name : key_ + "." + name);
+  return JsonNode(*found, *origin_, key_.empty() ? name : key_ + "." + name);
 }
 
 JsonNode JsonNode::member(const char* name) const {
   const std::optional<JsonNode> found = find(name);
   if (found) return *found;
   const std::string key = key_.empty() ? name : key_ + "." + name;
-  throw InputError(InputProblem{*file_, key, "this key", "nothing", "add it"});
+  throw InputError(InputProblem{origin_->file, key, "this key", "nothing", "add it", line()});
 }
 
 std::vector<JsonNode> JsonNode::elements(std::size_t min_count, std::size_t max_count) const {
@@ -69,7 +74,7 @@ std::vector<JsonNode> JsonNode::elements(std::size_t min_count, std::size_t max_
   std::vector<JsonNode> nodes;
   nodes.reserve(count);
   for (std::size_t i = 0; i < count; ++i) {
-    nodes.emplace_back((*value_)[i], *file_, key_ + "[" + std::to_string(i) + "]");
+    nodes.emplace_back((*value_)[i], *origin_, key_ + "[" + std::to_string(i) + "]");
   }
   return nodes;
 }
@@ -135,8 +140,8 @@ std::vector<double> JsonNode::numbers(std::size_t count, NumberRange range) cons
   return numbers;
 }
 
-JsonDocument::JsonDocument(const std::filesystem::path& file, nlohmann::json value)
-    : file_(file), value_(std::make_shared<const nlohmann::json>(std::move(value))) {}
+JsonDocument::JsonDocument(JsonOrigin origin, nlohmann::json value)
+    : origin_(std::move(origin)), value_(std::make_shared<const nlohmann::json>(std::move(value))) {}
 
 std::string JsonDocument::dump() const {
   return value_->dump(-1, ' ', true, nlohmann::json::error_handler_t::replace);

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
@@ -19,10 +20,16 @@ struct NumberRange {
   double max = 0.0;
 };
 
+// Where a document came from, for who has to correct it.
+struct JsonOrigin {
+  std::filesystem::path file;
+  std::map<std::string, int> lines;  // of the values by their keys, from 1; empty where they are not known
+};
+
 // Refers to the document, which must outlive it. Every reader throws InputError.
 class JsonNode {
  public:
-  JsonNode(const nlohmann::json& value, const std::filesystem::path& file, std::string key = {});
+  JsonNode(const nlohmann::json& value, const JsonOrigin& origin, std::string key = {});
 
   JsonNode member(const char* name) const;  // of an object; must be there
   std::optional<JsonNode> find(const char* name) const;
@@ -37,29 +44,30 @@ class JsonNode {
   bool truth() const;  // true or false
   std::vector<double> numbers(std::size_t count, NumberRange range) const;
 
-  const std::filesystem::path& file() const { return *file_; }
+  const std::filesystem::path& file() const { return origin_->file; }
   const std::string& key() const { return key_; }
   [[noreturn]] void fail(const std::string& expected, const std::string& hint) const;
 
  private:
   void require_object() const;
+  int line() const;
 
   const nlohmann::json* value_;
-  const std::filesystem::path* file_;
+  const JsonOrigin* origin_;
   std::string key_;
 };
 
 // What a file held. Its nodes refer to it.
 class JsonDocument {
  public:
-  JsonDocument(const std::filesystem::path& file, nlohmann::json value);
+  JsonDocument(JsonOrigin origin, nlohmann::json value);
 
-  JsonNode root() const { return {*value_, file_}; }
+  JsonNode root() const { return {*value_, origin_}; }
   const nlohmann::json& value() const { return *value_; }
   std::string dump() const;  // in one line of ASCII
 
  private:
-  std::filesystem::path file_;
+  JsonOrigin origin_;
   std::shared_ptr<const nlohmann::json> value_;  // shared: knows how to delete what is not defined here
 };
 

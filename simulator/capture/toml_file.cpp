@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "simulator/capture/input_bytes.hpp"
@@ -14,15 +16,24 @@
 namespace traygauge {
 namespace {
 
-nlohmann::json to_json(const toml::node& node) {
+// Keys as a JsonNode names them: "camera.gain", "trays.dishes[1]".
+nlohmann::json to_json(const toml::node& node, const std::string& key, std::map<std::string, int>& lines) {
+  if (node.source().begin) lines[key] = static_cast<int>(node.source().begin.line);
   if (const auto* table = node.as_table()) {
     nlohmann::json object = nlohmann::json::object();
-    for (const auto& [key, value] : *table) object[std::string(key.str())] = to_json(value);
+    for (const auto& [name, value] : *table) {
+      std::string below = key.empty() ? std::string() : key + ".";
+      below += name.str();
+      object[std::string(name.str())] = to_json(value, below, lines);
+    }
     return object;
   }
   if (const auto* array = node.as_array()) {
     nlohmann::json list = nlohmann::json::array();
-    for (const toml::node& value : *array) list.push_back(to_json(value));
+    for (const toml::node& value : *array) {
+      const std::string index = std::to_string(list.size());
+      list.push_back(to_json(value, key + "[" + index + "]", lines));
+    }
     return list;
   }
   if (const auto* text = node.as_string()) return text->get();
@@ -39,10 +50,13 @@ JsonDocument read_toml(const std::filesystem::path& file, std::size_t max_bytes,
   const std::vector<std::uint8_t> bytes = read_bytes(input, max_bytes, expected);
   try {
     const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-    return {file, to_json(toml::parse(text))};
+    JsonOrigin origin{file, {}};
+    nlohmann::json value = to_json(toml::parse(text), "", origin.lines);
+    return {std::move(origin), std::move(value)};
   } catch (const toml::parse_error& error) {
-    throw InputError(input, expected, std::string(error.description()),
-                     "correct line " + std::to_string(error.source().begin.line));
+    const auto line = static_cast<int>(error.source().begin.line);
+    throw InputError(InputProblem{file, "", expected, std::string(error.description()),
+                                  "correct line " + std::to_string(line), line});
   }
 }
 

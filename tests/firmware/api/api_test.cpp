@@ -254,7 +254,7 @@ TEST(Api, OthersAreNotServedWithoutTokens) {
   HubParams params;
   params.socket = folder.path() / "hub";
   params.store.options.file = folder.path() / "results.db";
-  params.web.listen = {"0.0.0.0:0"};
+  params.web.config.listen = {"0.0.0.0:0"};
   const auto hub = Hub::start(params, [](const std::string&) {});
   ASSERT_FALSE(hub.ok());
   EXPECT_NE(hub.failure().find("hub.listen"), std::string::npos) << hub.failure();

@@ -86,7 +86,7 @@ HubRig::HubRig(WebConfig web) {
   HubParams params;
   params.socket = folder_.path() / "hub";
   params.store.options.file = folder_.path() / "results.db";
-  params.web = web;
+  params.web.config = web;
   auto hub = Hub::start(params, [](const std::string&) {});
   if (!hub.ok()) throw std::runtime_error(hub.failure());
   hub_ = std::move(*hub);

@@ -61,7 +61,8 @@ TEST(NextTrayRoutes, SayWhatIsWrong) {
     EXPECT_EQ(message(body).find("foods:"), 0U) << body;
   }
   EXPECT_EQ(message(R"({"dishes":["bowl"]})"), "dishes: expected some of dinner");
-  EXPECT_EQ(message(R"({"dishes":["dinner","dinner"]})"), "dishes: expected each style once");
+  EXPECT_EQ(message(nlohmann::json({{"dishes", std::vector<std::string>(9, "dinner")}}).dump()),
+            "dishes: expected at most 8");
   EXPECT_EQ(message(R"({"dishes":"dinner"})").find("dishes:"), 0U);
   EXPECT_EQ(message(R"({"tray":7})").find("tray:"), 0U);
   EXPECT_EQ(message(R"({"tray":")" + std::string(65, 'x') + "\"}").find("tray:"), 0U);

@@ -19,7 +19,7 @@ class HubTables : public ::testing::Test {
  protected:
   HubFile read(const std::string& text) const {
     std::ofstream(file()) << text;
-    return read_hub_file(file());
+    return read_hub_file(file(), file());
   }
   std::filesystem::path file() const { return folder_.path() / "station.toml"; }
   // The key that is blamed.

@@ -70,8 +70,9 @@ TEST_F(StationFileTest, TheOneThatIsShippedExplainsEveryKey) {
     for (std::sregex_iterator key(names.begin(), names.end(), word); key != end; ++key) {
       ++keys;
       const std::string name = (*key)[1];
-      const bool is_table = (*at)[1] == "root";
-      const std::regex explained(is_table ? "\\[" + name + "\\]" : "(^|\n)(# )?" + name + " = ");
+      const std::string as_key = "(^|\n)(# )?" + name + " = ";
+      const bool may_be_table = (*at)[1] == "root";
+      const std::regex explained(may_be_table ? "\\[" + name + "\\]|" + as_key : as_key);
       EXPECT_TRUE(std::regex_search(shipped, explained)) << name;
     }
   }
