@@ -5,11 +5,14 @@ import { language, word, word_of } from './words.js';
 
 const kMarks = { ok: 'good', warning: 'warning', failing: 'fault' };
 
+// The hub's own parts have the names of a station's parts, but no station.
+const kHubParts = { disk: 'hub_disk', configuration: 'hub_configuration' };
+
 // The hub's names: "disk", "clock", "station NAME", "disk of NAME", "queue of NAME", "DEVICE of NAME".
 function split_name(name) {
   if (name.startsWith('station ')) return { kind: 'station', station: name.slice('station '.length) };
   const [what, station] = name.split(' of ');
-  if (station === undefined) return { kind: what === 'disk' ? 'hub_disk' : what, station: '' };
+  if (station === undefined) return { kind: kHubParts[what] ?? what, station: '' };
   return { kind: what, station };
 }
 

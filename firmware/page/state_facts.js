@@ -5,10 +5,11 @@ import { format_bytes, format_number } from './numbers.js';
 import { format_time } from './times.js';
 import { word, word_of } from './words.js';
 
-const kShownElsewhere = ['state', 'faults', 'disk'];
+const kShownElsewhere = ['state', 'faults', 'disk', 'configuration', 'next_tray'];
 const kMostText = 200;
 
 function value_text(key, value) {
+  if (Array.isArray(value)) return value.join(', ').slice(0, kMostText);
   if (typeof value === 'boolean') return word(value ? 'fact.yes' : 'fact.no');
   if (typeof value === 'number') {
     if (key.endsWith('_c')) return `${format_number(value, 1)} °C`;
@@ -24,14 +25,15 @@ function value_text(key, value) {
 
 // {"calibration": {"grade": 0.2}} is told as "calibration.grade".
 function flat(state, prefix = '') {
-  return Object.entries(state).flatMap(([key, value]) => {
+  const own = Object.entries(state).filter(([key]) => !kShownElsewhere.includes(key));
+  return own.flatMap(([key, value]) => {
     const is_group = value !== null && typeof value === 'object' && !Array.isArray(value);
     return is_group && prefix === '' ? flat(value, `${key}.`) : [[prefix + key, value]];
   });
 }
 
 export function state_facts(station) {
-  const facts = flat(station.state ?? {}).filter(([key, value]) => !kShownElsewhere.includes(key) && value !== null);
+  const facts = flat(station.state ?? {}).filter(([, value]) => value !== null && value?.length !== 0);
   if (station.program) facts.push(['program', station.program]);
   return element('dl', { class: 'facts' }, facts.map(([key, value]) => element('div', {},
     element('dt', {}, word_of('fact', key) ?? key), element('dd', {}, value_text(key, value)))));

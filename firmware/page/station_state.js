@@ -3,7 +3,7 @@ import { element } from './elements.js';
 import { mark } from './marks.js';
 import { kFreshSeconds, live, station_age } from './live_data.js';
 import { format_age } from './numbers.js';
-import { word, word_of } from './words.js';
+import { word, word_count, word_of } from './words.js';
 
 const kKinds = {
   starting: 'busy', waiting: 'good', taking_first_view: 'hold', awaiting_second_view: 'busy',
@@ -30,21 +30,36 @@ export function describe_station(station) {
   return { kind: kKinds[state.state] ?? 'busy', text, is_fresh: true };
 }
 
+// What a till told of the next tray: "Next tray: 17, 3 foods, dinner"; null where it told nothing.
+function next_tray_text(station) {
+  const next = station.state?.next_tray;
+  if (!next || !live.is_fresh()) return null;
+  const parts = [next.tray, next.foods && word_count('station.foods', next.foods), ...(next.dishes ?? [])];
+  return word('station.next_tray', { what: parts.filter((part) => part).join(', ') });
+}
+
+export function next_tray_line(station) {
+  const text = next_tray_text(station);
+  return text === null ? null : element('p', { class: 'next-tray' }, text);
+}
+
 export function station_line(station) {
   const { kind, text, is_fresh } = describe_station(station);
   return element('div', { class: `station ${is_fresh ? '' : 'is-old'}`, 'data-station': station.name },
     mark(kind),
     element('div', { class: 'station-words' },
       element('h3', {}, station.name),
-      element('p', { class: 'station-state' }, text),
+      element('p', { class: 'station-state' }, text), next_tray_line(station),
       element('p', { class: 'quiet' }, word('station.age', { age: format_age(station_age(station)) }))));
 }
 
-// Faults are the station's own sentences.
+// Faults are the station's own sentences, and so is what is wrong with its file.
 export function fault_lines(station) {
   const state = station.state ?? {};
   const faults = Array.isArray(state.faults) ? state.faults : [];
   const lines = faults.map((fault) => element('li', { lang: 'en' }, String(fault?.message ?? fault?.device ?? '')));
-  if (typeof state.disk === 'string') lines.push(element('li', { lang: 'en' }, state.disk));
+  for (const text of [state.disk, state.configuration]) {
+    if (typeof text === 'string') lines.push(element('li', { lang: 'en' }, text));
+  }
   return lines.length > 0 ? element('ul', { class: 'faults' }, lines) : null;
 }

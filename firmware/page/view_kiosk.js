@@ -6,7 +6,7 @@ import { mark } from './marks.js';
 import { format_measured, format_volume } from './numbers.js';
 import { scan_notices } from './scan_head.js';
 import { is_refused, item_name, warning_list, why_no_volume } from './sentences.js';
-import { describe_station } from './station_state.js';
+import { describe_station, next_tray_line } from './station_state.js';
 import { format_recent } from './times.js';
 import { word } from './words.js';
 
@@ -14,7 +14,7 @@ function state_block(station) {
   const { kind, text, is_fresh } = describe_station(station);
   return element('div', { class: `kiosk-state kiosk-${kind} ${is_fresh ? '' : 'is-old'}` }, mark(kind),
     element('div', {}, element('p', { class: 'kiosk-station' }, station.name),
-      element('p', { class: 'kiosk-words' }, text)));
+      element('p', { class: 'kiosk-words' }, text), next_tray_line(station)));
 }
 
 function show_states(frame, name) {

@@ -36,6 +36,8 @@ class LiveTest(PageCase):
         self.browser.wait_text("Not measured.", "#announcements")
         self.station.tell_state("measuring")
         self.browser.wait_text("Measuring", ".stations")
+        self.station.tell_state(next_tray={"tray": "17", "foods": 3, "dishes": ["dinner"], "valid_ms": 9000})
+        self.browser.wait_text("Next tray: 17, 3 foods, dinner", ".stations")
         self.station.tell_state(faults=[{"device": "camera", "message": "camera: It is <gone>."}])
         self.browser.wait_text("camera: It is <gone>.", ".stations")
 
