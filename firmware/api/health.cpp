@@ -70,6 +70,16 @@ void examine_station(const std::string& name, const LiveStation& live, std::vect
   if (station.state == HealthState::ok) examine_state(name, Json::parse(live.state, nullptr, false), parts);
 }
 
+HealthPart examine_webhook(const Webhook& webhook) {
+  const WebhookState& state = webhook.state();
+  if (!webhook.has_waited_long() && !state.is_refused) return {"webhook", HealthState::ok, {}};
+  const Expected<std::int64_t> waiting = webhook.count_waiting();
+  std::string text = waiting.ok() ? "Scans and corrections wait to be told: " + std::to_string(*waiting) + "."
+                                  : waiting.failure();
+  if (!state.last_failure.empty()) text += " " + state.last_failure;
+  return {"webhook", HealthState::warning, text};
+}
+
 HttpResponse answer_health(const HubSite& site) {
   const Health health = examine_health(site);
   Json json = {{"status", name(health.worst())}, {"parts", Json::array()}};
@@ -107,6 +117,7 @@ Health examine_health(const HubSite& site) {
   health.parts.push_back(examine_clock(site.wall_clock()));
   if (!site.facts.configuration_problem.empty())
     health.parts.push_back({"configuration", HealthState::warning, site.facts.configuration_problem});
+  if (site.webhook != nullptr) health.parts.push_back(examine_webhook(*site.webhook));
   for (const auto& [name, live] : site.inbox.stations()) examine_station(name, live, health.parts);
   return health;
 }

@@ -12,6 +12,7 @@
 #include "firmware/web/event_streams.hpp"
 #include "firmware/web/http_server.hpp"
 #include "firmware/web/router.hpp"
+#include "firmware/webhook/webhook.hpp"
 
 namespace traygauge {
 
@@ -32,6 +33,7 @@ struct HubSite {
   std::function<HttpCounts()> http;
   std::function<WallTime()> wall_clock = read_wall_clock;
   std::chrono::steady_clock::time_point started_at = std::chrono::steady_clock::now();
+  const Webhook* webhook = nullptr;  // null: nobody is told
 };
 
 // Everything below /api/v1, /health and /metrics; firmware/README.md lists it.

@@ -60,6 +60,18 @@ void add_stations(const HubSite& site, Metrics& metrics) {
   }
 }
 
+void add_webhook(const Webhook& webhook, Metrics& metrics) {
+  const WebhookState& state = webhook.state();
+  metrics.one("traygauge_webhook_delivered_total", "counter",
+              "Scans and corrections that the webhook took since the start.", state.delivered);
+  metrics.one("traygauge_webhook_failed_attempts_total", "counter",
+              "Attempts to tell the webhook that failed since the start.", state.failed_attempts);
+  const Expected<std::int64_t> waiting = webhook.count_waiting();
+  if (waiting.ok())
+    metrics.one("traygauge_webhook_waiting", "gauge", "Scans and corrections that wait to be told.",
+                static_cast<std::uint64_t>(*waiting));
+}
+
 HttpResponse answer_metrics(const HubSite& site) {
   Metrics metrics;
   const std::chrono::duration<double> up = std::chrono::steady_clock::now() - site.started_at;
@@ -67,6 +79,7 @@ HttpResponse answer_metrics(const HubSite& site) {
   metrics.one("traygauge_healthy", "gauge", "1 while no part of hub and stations fails.",
               std::uint64_t{examine_health(site).worst() != HealthState::failing});
   if (Store* const store = site.store.store()) add_store(*store, metrics);
+  if (site.webhook != nullptr) add_webhook(*site.webhook, metrics);
   add_stations(site, metrics);
   const HttpCounts http = site.http();
   metrics.one("traygauge_http_requests_total", "counter", "Requests answered since the start.",

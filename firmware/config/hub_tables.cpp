@@ -3,6 +3,8 @@
 #include <string_view>
 
 #include "firmware/base/scan_id.hpp"
+#include "firmware/webhook/webhook_address.hpp"
+#include "simulator/capture/input_error.hpp"
 #include "simulator/capture/toml_file.hpp"
 
 namespace traygauge {
@@ -43,6 +45,26 @@ WebConfig read_web(const JsonNode& table, const std::filesystem::path& folder) {
   return web;
 }
 
+std::optional<WebhookConfig> read_webhook(const JsonNode& table, const std::filesystem::path& folder) {
+  const auto address = table.find("webhook");
+  const auto secret = table.find("webhook_secret");
+  const auto trusted = table.find("webhook_ca");
+  if (!address) {
+    if (secret) secret->fail("the key webhook beside this one", "add it, or remove this one");
+    if (trusted) trusted->fail("the key webhook beside this one", "add it, or remove this one");
+    return std::nullopt;
+  }
+  WebhookConfig config;
+  config.address = address->text();
+  // What was found is described, not repeated: an address may hold secrets.
+  if (const auto parsed = parse_webhook_address(config.address); !parsed.ok())
+    throw InputError(InputProblem{address->file(), address->key(), kExpectedWebhookAddress, parsed.failure(),
+                                  "correct the value"});
+  if (secret) config.secret = folder / secret->text();
+  if (trusted) config.trusted = folder / trusted->text();
+  return config;
+}
+
 }  // namespace
 
 HandoverConfig read_handover_table(const JsonNode& table, const std::filesystem::path& folder) {
@@ -65,12 +87,13 @@ HandoverConfig read_handover_table(const JsonNode& table, const std::filesystem:
 HubConfig read_hub_table(const JsonNode& table, const std::filesystem::path& folder) {
   expect(table, {"store", "keep_days", "keep_free_mib", "listen", "view_tokens", "kiosk_tokens",
                  "manage_tokens", "local_without_token", "host_names", "trusted_proxies", "base_path",
-                 "site_name", "time_zone"});
+                 "site_name", "time_zone", "webhook", "webhook_secret", "webhook_ca"});
   HubConfig config;
   config.store = folder / table.member("store").text();
   if (const auto days = table.find("keep_days")) config.keep_days = days->integer(1, kMaxDays);
   if (const auto free = table.find("keep_free_mib")) config.keep_free_mib = free->integer(0, kMaxFreeMib);
   config.web = read_web(table, folder);
+  config.webhook = read_webhook(table, folder);
   return config;
 }
 

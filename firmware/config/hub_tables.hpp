@@ -35,11 +35,19 @@ struct WebConfig {
   std::string time_zone;                     // see set_time_zone(); empty: this machine's
 };
 
+// Who is told of each scan.
+struct WebhookConfig {
+  std::string address;                           // see parse_webhook_address()
+  std::optional<std::filesystem::path> secret;   // a file, by whose content messages are signed
+  std::optional<std::filesystem::path> trusted;  // a file with certificates; none: the system's
+};
+
 struct HubConfig {
   std::filesystem::path store;   // a file
   std::optional<int> keep_days;  // none: as long as there is space
   int keep_free_mib = 500;       // of the file system
   WebConfig web;
+  std::optional<WebhookConfig> webhook;
 };
 
 // Both read a table whose unknown keys are errors. Relative paths are relative to `folder`, the file's.

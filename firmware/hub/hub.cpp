@@ -9,14 +9,18 @@ Expected<std::unique_ptr<Hub>> Hub::start(HubParams params, HubLog log) {
   // The socket first: who has it is the only hub, and waits for no other one's file.
   Expected<LocalListener> listener = LocalListener::open(params.socket);
   if (!listener.ok()) return Failure{listener.failure()};
+  if (params.webhook) params.store.options.destinations.emplace_back(kWebhookDestination);
   Expected<HubStore> store = HubStore::open(params.store);
   if (!store.ok()) return Failure{store.failure()};
   for (const std::string& notice : store->notices()) log(notice);
   std::unique_ptr<Hub> hub(new Hub(std::move(*store), std::move(*listener), params, std::move(log)));
+  if (const auto started = hub->start_webhook(params.webhook, params.webhook_limits); !started.ok())
+    return Failure{started.failure()};
   if (params.web.config.listen.empty()) return hub;
   Expected<std::unique_ptr<HubWeb>> web = HubWeb::start(params.web, hub->store_, hub->inbox_, hub->shapes_);
   if (!web.ok()) return Failure{web.failure()};
   hub->web_ = std::move(*web);
+  if (hub->webhook_ != nullptr) hub->web_->show_webhook(*hub->webhook_);
   return hub;
 }
 
@@ -41,9 +45,17 @@ void Hub::step(std::chrono::milliseconds longest_wait) {
     descriptors.push_back({web_->descriptor(), POLLIN, 0});
     if (const auto timeout = web_->timeout()) longest_wait = std::min(longest_wait, *timeout);
   }
+  if (webhook_ != nullptr) {
+    webhook_->add_descriptors(descriptors);
+    if (const auto timeout = webhook_->timeout()) longest_wait = std::min(longest_wait, *timeout);
+  }
   ::poll(descriptors.data(), descriptors.size(), static_cast<int>(longest_wait.count()));
   inbox_.attend();
   if (web_ != nullptr) web_->run();
+  // After the others, who may have stored what it tells at once.
+  if (webhook_ != nullptr) {
+    for (const std::string& sentence : webhook_->attend()) log_(sentence);
+  }
   for (const std::string& sentence : store_.tend(std::chrono::steady_clock::now())) log_(sentence);
 }
 
@@ -63,6 +75,23 @@ StationListener Hub::listener_for_inbox() {
   };
   listener.on_problem = [this](const std::string& problem) { log_problem(problem); };
   return listener;
+}
+
+// Where the key is gone, what waits for the receiver goes, too: it would keep old scans from being deleted.
+Expected<void> Hub::start_webhook(const std::optional<WebhookConfig>& config, const WebhookLimits& limits) {
+  if (!config) {
+    const Expected<std::int64_t> gone = store_.store()->deliveries().abandon(kWebhookDestination);
+    if (!gone.ok()) return Failure{gone.failure()};
+    if (*gone > 0)
+      log_("No webhook is configured any more: " + std::to_string(*gone) +
+           " scans and corrections that waited for it will not be told.");
+    return {};
+  }
+  Expected<std::unique_ptr<Webhook>> webhook = Webhook::start(*config, store_, limits);
+  if (!webhook.ok()) return Failure{webhook.failure()};
+  webhook_ = std::move(*webhook);
+  if (const std::string warning = webhook_->warning(); !warning.empty()) log_(warning);
+  return {};
 }
 
 // A station asks again every few seconds: the same answer is told once.

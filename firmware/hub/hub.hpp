@@ -14,6 +14,7 @@
 #include "firmware/hub/hub_web.hpp"
 #include "firmware/hub/shape_shelf.hpp"
 #include "firmware/hub/station_inbox.hpp"
+#include "firmware/webhook/webhook.hpp"
 
 namespace traygauge {
 
@@ -22,6 +23,8 @@ struct HubParams {
   HubStoreParams store;
   StationInboxParams inbox;
   HubWebParams web;
+  std::optional<WebhookConfig> webhook;  // none: nobody is told
+  WebhookLimits webhook_limits;
 };
 
 // One sentence for each thing that happened.
@@ -47,6 +50,7 @@ class Hub {
  private:
   Hub(HubStore store, LocalListener listener, const HubParams& params, HubLog log);
   StationListener listener_for_inbox();
+  Expected<void> start_webhook(const std::optional<WebhookConfig>& config, const WebhookLimits& limits);
   void log_problem(const std::string& problem);
 
   HubLog log_;
@@ -54,6 +58,7 @@ class Hub {
   HubStore store_;
   ShapeShelf shapes_;
   StationInbox inbox_;
+  std::unique_ptr<Webhook> webhook_;
   std::unique_ptr<HubWeb> web_;
 };
 

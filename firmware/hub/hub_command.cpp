@@ -24,6 +24,10 @@ ChosenConfig<HubFile> choose(const HubCommand& command) {
       HubFile file = read_hub_file(command.config, content);
       const Expected<void> checked = HubWeb::check(file.hub.web);
       if (!checked.ok()) throw UsageError(content.string() + ": " + checked.failure());
+      if (file.hub.webhook) {
+        const Expected<void> webhook = Webhook::check(*file.hub.webhook);
+        if (!webhook.ok()) throw UsageError(content.string() + ": " + webhook.failure());
+      }
       return file;
     };
     read = read_or_last_good(command.config, command.last_good, read_checked,
@@ -42,6 +46,7 @@ HubParams params_of(const HubFile& file) {
   HubParams params;
   params.socket = file.socket;
   params.web.config = file.hub.web;
+  params.webhook = file.hub.webhook;
   params.store.options.file = file.hub.store;
   if (file.hub.keep_days) params.store.retention.max_age = std::chrono::days(*file.hub.keep_days);
   params.store.retention.min_free_bytes = file.hub.keep_free_mib * kBytesPerMib;

@@ -21,6 +21,10 @@ Expected<std::vector<std::string>> HubStore::reopen() {
   }
   store_ = std::move(opened->store);
   problem_.clear();
+  ++openings_;
+  for (const std::string& name : opened->new_destinations)
+    opened->notices.push_back("From now on the " + name +
+                              " is told of scans and corrections; it is not told of earlier ones.");
   for (const std::string& notice : opened->notices) add_notice(notice);
   return std::move(opened->notices);
 }

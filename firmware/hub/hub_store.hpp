@@ -2,6 +2,7 @@
 #pragma once
 
 #include <chrono>
+#include <cstdint>
 #include <deque>
 #include <memory>
 #include <string>
@@ -29,6 +30,8 @@ class HubStore {
   // Null while the file cannot be used: problem() says why.
   Store* store() { return store_.get(); }
   const std::string& problem() const { return problem_; }
+  // How often it was opened: what was remembered of one store means nothing in the next one.
+  std::uint64_t openings() const { return openings_; }
   // What people have to know of the file's past, the newest last: damaged files that were put aside, scans
   // that were deleted.
   const std::deque<std::string>& notices() const { return notices_; }
@@ -47,6 +50,7 @@ class HubStore {
   HubStoreParams params_;
   std::unique_ptr<Store> store_;
   std::string problem_;
+  std::uint64_t openings_ = 0;
   std::deque<std::string> notices_;
   std::chrono::steady_clock::time_point tidied_at_;
   std::chrono::steady_clock::time_point tried_at_;

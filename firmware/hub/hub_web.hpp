@@ -42,6 +42,9 @@ class HubWeb {
   std::optional<std::chrono::milliseconds> timeout() const { return server_->timeout(); }
   void run() { server_->run(); }
 
+  // Health and figures tell of it, too; it outlives this.
+  void show_webhook(const Webhook& webhook) { hub_site_.webhook = &webhook; }
+
   void tell_scan(const ScanId& id);
   void tell_shape(const ScanId& id);
   void tell_station(const std::string& station);

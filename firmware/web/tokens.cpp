@@ -1,20 +1,12 @@
 #include "firmware/web/tokens.hpp"
 
-#include <fcntl.h>
-#include <sys/stat.h>
-#include <unistd.h>
-
 #include <algorithm>
-#include <cerrno>
-#include <system_error>
 #include <utility>
 
-#include "firmware/base/file_descriptor.hpp"
+#include "firmware/web/secret_file.hpp"
 
 namespace traygauge {
 namespace {
-
-constexpr std::size_t kMaxFileBytes = 64UL * 1024;
 
 bool is_token_character(char c) {
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
@@ -31,40 +23,6 @@ std::string_view without_spaces(std::string_view text) {
   const std::size_t first = text.find_first_not_of(kSpaces);
   if (first == std::string_view::npos) return {};
   return text.substr(first, text.find_last_not_of(kSpaces) - first + 1);
-}
-
-// Of the open file, so that it cannot be exchanged between the check and the reading.
-std::string refusal_of(const struct stat& found, const std::string& path) {
-  if (!S_ISREG(found.st_mode)) return path + ": expected a file with tokens, found something else";
-  if ((found.st_mode & (S_IRWXG | S_IRWXO)) != 0)
-    return path + ": others can read or change these tokens: chmod 600 " + path;
-  if (found.st_uid != ::geteuid() && found.st_uid != 0)
-    return path + ": expected a file of the hub's user or root: chown it, or name another file";
-  if (static_cast<std::size_t>(found.st_size) > kMaxFileBytes)
-    return path + ": expected at most " + std::to_string(kMaxFileBytes) + " bytes of tokens";
-  return {};
-}
-
-Expected<std::string> read_secret_file(const std::string& path) {
-  // A pipe must not stop the hub.
-  const FileDescriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
-  if (!file.is_open()) return Failure{path + ": cannot be read: " + std::system_category().message(errno)};
-  struct stat found {};
-  if (::fstat(file.number(), &found) != 0) return Failure{path + ": cannot be looked at"};
-  if (const std::string refusal = refusal_of(found, path); !refusal.empty()) return Failure{refusal};
-  std::string text(kMaxFileBytes + 1, '\0');
-  std::size_t bytes = 0;
-  while (bytes < text.size()) {
-    const ssize_t got = ::read(file.number(), text.data() + bytes, text.size() - bytes);
-    if (got == 0) break;
-    if (got > 0) bytes += static_cast<std::size_t>(got);
-    if (got < 0 && errno != EINTR)
-      return Failure{path + ": cannot be read: " + std::system_category().message(errno)};
-  }
-  if (bytes > kMaxFileBytes)
-    return Failure{path + ": expected at most " + std::to_string(kMaxFileBytes) + " bytes of tokens"};
-  text.resize(bytes);
-  return text;
 }
 
 }  // namespace
@@ -110,7 +68,7 @@ Expected<void> TokenList::add(std::string_view line, Role role, const std::strin
 }
 
 Expected<void> TokenList::read(const TokenFile& file) {
-  const Expected<std::string> text = read_secret_file(file.path.string());
+  const Expected<std::string> text = read_secret_file(file.path.string(), "tokens");
   if (!text.ok()) return Failure{text.failure()};
   std::string_view rest = *text;
   const std::size_t before = tokens_.size();
