@@ -30,10 +30,11 @@ export function describe_station(station) {
   return { kind: kKinds[state.state] ?? 'busy', text, is_fresh: true };
 }
 
-// What a till told of the next tray: "Next tray: 17, 3 foods, dinner"; null where it told nothing.
+// What a till told of the next tray: "Next tray: 17, 3 foods, dinner"; null where it told nothing, and while
+// a tray is being measured.
 function next_tray_text(station) {
   const next = station.state?.next_tray;
-  if (!next || !live.is_fresh()) return null;
+  if (!next || station.state.state !== 'waiting' || !live.is_fresh()) return null;
   const parts = [next.tray, next.foods && word_count('station.foods', next.foods), ...(next.dishes ?? [])];
   return word('station.next_tray', { what: parts.filter((part) => part).join(', ') });
 }

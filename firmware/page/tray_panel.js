@@ -61,6 +61,7 @@ class Panel {
 export function show_tray(frame, scan, selection) {
   const closing = new AbortController();
   const { signal } = closing;
+  if (scan.items.length === 0) return () => {};  // nothing was found that could be drawn
   let panel = null;
   const read = async () => {
     if (panel !== null) return;

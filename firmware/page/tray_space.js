@@ -164,7 +164,7 @@ async function open_scene(frame, shape, scan, selection, signal) {
 }
 
 export function show_space(shape, scan, selection, signal) {
-  const frame = element('div', { class: 'space-frame' }, element('p', { class: 'quiet' }, word('tray.loading')));
+  const frame = element('div', {}, element('p', { class: 'quiet' }, word('tray.loading')));
   open_scene(frame, shape, scan, selection, signal).catch((error) => {
     const key = error.message === 'tray.no_library' ? error.message : 'tray.no_webgl';
     frame.replaceChildren(sentence(key));

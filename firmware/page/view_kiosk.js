@@ -63,7 +63,6 @@ export function show_kiosk(main, parameters, signal) {
   const name = parameters.path[0] ?? null;
   const states = element('section', { class: 'kiosk-states', 'aria-label': word('live.stations') });
   const last = element('section', { class: 'kiosk-scan', 'aria-label': word('live.last_tray') });
-  main.classList.add('kiosk');
   main.append(element('h1', { class: 'unseen' }, word('kiosk.title')), states, last);
   follow(['stations', 'age'], signal, () => show_states(states, name));
   follow(['latest'], signal, async () => {

@@ -1,7 +1,7 @@
 // The live view: what each station does, and the last tray.
 import { element } from './elements.js';
 import { follow, live } from './live_data.js';
-import { scan_figures } from './scan_figures.js';
+import { scan_body } from './scan_figures.js';
 import { scan_line } from './scan_head.js';
 import { Selection } from './selection.js';
 import { scan_address } from './sentences.js';
@@ -30,13 +30,13 @@ function show_scan(frame, scan) {
     return () => {};
   }
   const selection = new Selection();
-  const tray = element('div', { class: 'tray' });
+  const tray = element('div', {});
   const close = show_tray(tray, scan, selection);
   frame.replaceChildren(
     element('div', { class: 'scan-head' },
       element('h2', {}, word('live.last_tray')),
-      element('a', { href: scan_address(scan.id), class: 'scan-id' }, scan.id), scan_line(scan)),
-    element('div', { class: 'scan-body' }, scan_figures(scan, selection), tray));
+      element('a', { href: scan_address(scan.id) }, scan.id), scan_line(scan)),
+    scan_body(scan, selection, tray));
   return close;
 }
 
@@ -48,7 +48,6 @@ export function show_live(main, parameters, signal) {
     element('section', { class: 'card', 'aria-label': word('live.stations') },
       element('h2', { class: 'unseen' }, word('live.stations')), stations),
     last);
-  main.classList.add('live');
   follow(['stations', 'age'], signal, () => show_stations(stations));
   let close = () => {};
   let shown;

@@ -6,7 +6,7 @@ import { live } from './live_data.js';
 import { correction_panel } from './correction_form.js';
 import { correction_list } from './correction_list.js';
 import { format_number } from './numbers.js';
-import { scan_figures } from './scan_figures.js';
+import { scan_body } from './scan_figures.js';
 import { scan_line } from './scan_head.js';
 import { Selection } from './selection.js';
 import { format_time } from './times.js';
@@ -38,7 +38,7 @@ function facts(scan) {
   return element('section', { class: 'card', 'aria-labelledby': 'facts-head' },
     element('h2', { id: 'facts-head' }, word('scan.facts')),
     element('dl', { class: 'facts' }, list),
-    element('a', { href: `api/v1/scans/${encodeURIComponent(scan.id)}/document`, class: 'quiet-link', target: '_blank',
+    element('a', { href: `api/v1/scans/${encodeURIComponent(scan.id)}/document`, target: '_blank',
       rel: 'noopener' }, word('scan.document')));
 }
 
@@ -85,7 +85,7 @@ class ScanView {
     this.shown = new AbortController();
     const { signal } = this.shown;
     const selection = new Selection();
-    const tray = element('div', { class: 'tray' });
+    const tray = element('div', {});
     const picture = element('div', {});
     const close = show_tray(tray, scan, selection);
     signal.addEventListener('abort', close);
@@ -96,7 +96,7 @@ class ScanView {
       scan_line(scan),
       element('section', { class: 'card', 'aria-label': word('scan.result') },
         element('h2', { class: 'unseen' }, word('scan.result')),
-        element('div', { class: 'scan-body' }, scan_figures(scan, selection), element('div', {}, tray, picture))),
+        scan_body(scan, selection, tray, picture)),
       element('section', { class: 'card', 'aria-labelledby': 'corrections-head' },
         element('h2', { id: 'corrections-head', tabindex: '-1' }, word('correction.title')), saved,
         correction_list(corrections), panel),

@@ -1,4 +1,5 @@
 """Who may do what: login, corrections as manage, none as view. The hub stands below /kitchen, as behind a proxy."""
+import datetime
 import urllib.parse
 
 import samples
@@ -66,6 +67,16 @@ class RolesTest(PageCase):
         self.rig.write_tokens("view", VIEW_TOKEN)
         self.browser.wait_any("input[type=password]")
         self.wait_without_cookie()
+        self.browser.errors()
+
+    def test_site_and_its_time_zone(self):
+        self.log_in("#about", VIEW_TOKEN)
+        self.browser.wait_text("Asia/Tokyo (of the site)", ".facts")
+        self.assertIn("North canteen", self.browser.run("return document.title"))
+        self.browser.wait_text("North canteen", "#site-name")
+        self.browser.run("location.hash = '#scan/kitchen-1'")
+        tokyo = datetime.datetime.now(datetime.timezone(datetime.timedelta(hours=9)))
+        self.browser.wait_text(f"{tokyo:%b} {tokyo.day}, {tokyo.year}", ".facts")
         self.browser.errors()
 
     def test_view_cannot_correct(self):
