@@ -1,6 +1,7 @@
 // Requests to the hub's API. All addresses are relative: the page may lie below a path of a proxy.
 
-const kTimeoutMs = 4000;
+// A shape of 200 kB or a long history over a weak network.
+const kTimeoutMs = 20000;
 
 export class HubError extends Error {
   // `status` 0: the hub did not answer. `code` and `message` are the hub's.
@@ -11,24 +12,21 @@ export class HubError extends Error {
   }
 }
 
-const listeners = { answered: () => {}, silent: () => {}, unknown: () => {} };
+let tell_login_needed = () => {};
 
-// Who wants to know that the hub answered, that it did not, and that it asks for a token.
-export function observe_hub(observers) {
-  Object.assign(listeners, observers);
+export function on_login_needed(action) {
+  tell_login_needed = action;
 }
 
 async function ask(path, options) {
   const aborter = new AbortController();
-  const timer = setTimeout(() => aborter.abort(), kTimeoutMs);
+  const timer = setTimeout(() => aborter.abort(), options.timeout_ms ?? kTimeoutMs);
   try {
     const answer = await fetch(path, { ...options, signal: aborter.signal, cache: 'no-store' });
     // The body belongs to the answer: a hub that stops in the middle has not answered.
     const body = options.binary && answer.ok ? await answer.blob() : await answer.text();
-    listeners.answered();
     return { answer, body };
   } catch {
-    listeners.silent();
     throw new HubError(0, 'silent', '');
   } finally {
     clearTimeout(timer);
@@ -46,14 +44,14 @@ function parsed(text) {
 async function request(path, options = {}) {
   const { answer, body } = await ask(path, options);
   if (answer.ok) return options.plain || options.binary ? body : parsed(body);
-  if (answer.status === 401 && !options.is_login) listeners.unknown();
+  if (answer.status === 401 && !options.is_login) tell_login_needed();
   if (options.accepted?.includes(answer.status)) return parsed(body);
   const error = parsed(body)?.error ?? {};
   throw new HubError(answer.status, error.code ?? String(answer.status), error.message ?? '');
 }
 
-export function get(path) {
-  return request(`api/v1/${path}`);
+export function get(path, options = {}) {
+  return request(`api/v1/${path}`, options);
 }
 
 // Null where the hub has no such thing.

@@ -1,10 +1,12 @@
 // What the hub says now: its stations, the scan that arrived last, and how old all of that is.
-import { get, get_if_there, observe_hub } from './hub_api.js';
+import { get, get_if_there, on_login_needed } from './hub_api.js';
 import { HubEvents } from './hub_events.js';
 
 // Older than this, what is shown is no longer called live.
 export const kFreshSeconds = 5;
 const kPollMs = 2000;
+// Shorter than kFreshSeconds: a hub that hangs is told from one that is slow once.
+const kPollTimeoutMs = 4000;
 const kTickMs = 500;
 
 class LiveData extends EventTarget {
@@ -12,6 +14,7 @@ class LiveData extends EventTarget {
     super();
     this.stations = [];
     this.latest = null;
+    this.is_latest_known = false;  // null may mean that nothing was measured
     this.store_problem = null;
     this.answered_at = null;  // of performance.now()
     this.silent_since = null;  // of Date.now(); null while the hub answers
@@ -23,11 +26,7 @@ class LiveData extends EventTarget {
   }
 
   start() {
-    observe_hub({
-      answered: () => this.note_answer(),
-      silent: () => this.note_silence(),
-      unknown: () => this.note_login(),
-    });
+    on_login_needed(() => this.note_login());
     this.events.start();
     setInterval(() => this.tick(), kTickMs);
     document.addEventListener('visibilitychange', () => this.note_visibility());
@@ -47,14 +46,16 @@ class LiveData extends EventTarget {
     }
   }
 
+  // Only what a poll brought makes the page live: other answers say nothing of stations and trays.
   note_answer() {
     this.answered_at = performance.now();
-    if (this.silent_since !== null) this.demand_latest();
     this.silent_since = null;
+    this.tell('age');
   }
 
-  note_silence() {
-    this.silent_since ??= Date.now();
+  note_failure(error) {
+    if (error.status === 0) this.silent_since ??= Date.now();
+    this.latest_demanded = true;
     this.tell('age');
   }
 
@@ -110,12 +111,13 @@ class LiveData extends EventTarget {
     this.asked_at = performance.now();
     try {
       const heard_at = performance.now();
-      const { stations } = await get('stations');
+      const { stations } = await get('stations', { timeout_ms: kPollTimeoutMs });
       this.stations = stations.map((station) => ({ ...station, heard_at }));
-      this.tell('stations');
       if (this.latest_demanded || !this.events.is_open) await this.read_latest();
-    } catch {
-      // The observers were told; the next poll tries again.
+      this.note_answer();
+      this.tell('stations');
+    } catch (error) {
+      this.note_failure(error);
     } finally {
       this.is_asking = false;
     }
@@ -124,11 +126,12 @@ class LiveData extends EventTarget {
   async read_latest() {
     this.latest_demanded = false;
     try {
-      this.latest = await get_if_there('scans/latest');
+      this.latest = await get_if_there('scans/latest', { timeout_ms: kPollTimeoutMs });
+      this.is_latest_known = true;
       this.store_problem = null;
     } catch (error) {
-      this.latest_demanded = true;
-      if (error.status === 0 || error.status === 401) throw error;
+      if (error.status !== 503) throw error;
+      this.latest_demanded = true;  // the hub lives, and its store does not: the band says so
       this.store_problem = error.message;
     }
     this.tell('latest');

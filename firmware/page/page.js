@@ -58,7 +58,7 @@ function show_session() {
 
 // Also where the hub no longer knows the token: a cookie that stays would count as a wrong token each time.
 function leave() {
-  log_out().catch(() => {});
+  log_out();
   show_view();
 }
 

@@ -1,5 +1,6 @@
 // What has to be said about a scan before its figures: when, where, and everything that makes it doubtful.
 import { element, hub_text } from './elements.js';
+import { live } from './live_data.js';
 import { mark } from './marks.js';
 import { is_refused, sentence_with_scan, status_text } from './sentences.js';
 import { format_recent } from './times.js';
@@ -27,6 +28,12 @@ export function scan_notices(scan) {
   if (scan.supersedes) notices.push(notice('busy', sentence_with_scan('scan.supersedes', scan.supersedes)));
   if (scan.clock_synchronised === false) notices.push(notice('warning', word('scan.clock')));
   return notices;
+}
+
+// In place of the last tray, where none can be shown.
+export function no_scan_text() {
+  if (live.store_problem !== null) return word('error.store');
+  return word(live.is_latest_known ? 'live.no_scan' : 'page.loading');
 }
 
 export function scan_line(scan) {

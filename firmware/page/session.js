@@ -8,12 +8,16 @@ export async function read_session() {
   Object.assign(session, await get('session'));
 }
 
+let leaving = Promise.resolve();
+
 export async function log_in(token) {
+  // The answer to a logout takes the cookie away, whenever it comes.
+  await leaving;
   Object.assign(session, await ask_login(token));
 }
 
 // The cookie is the hub's: this page never holds the token after it was sent.
-export async function log_out() {
-  await ask_logout();
+export function log_out() {
   Object.assign(session, { role: 'none', name: '' });
+  leaving = ask_logout().catch(() => {});
 }

@@ -4,7 +4,7 @@ import { get } from './hub_api.js';
 import { follow, live } from './live_data.js';
 import { mark } from './marks.js';
 import { format_measured, format_volume } from './numbers.js';
-import { scan_notices } from './scan_head.js';
+import { no_scan_text, scan_notices } from './scan_head.js';
 import { is_refused, item_name, warning_list, why_no_volume } from './sentences.js';
 import { describe_station, next_tray_line } from './station_state.js';
 import { format_recent } from './times.js';
@@ -38,7 +38,7 @@ function size_of(count) {
 
 function show_scan(frame, scan) {
   if (scan === null) {
-    frame.replaceChildren(element('p', { class: 'quiet' }, word('live.no_scan')));
+    frame.replaceChildren(element('p', { class: 'quiet' }, no_scan_text()));
     return;
   }
   const items = scan.items.filter((item) => !item.is_wrong);

@@ -2,7 +2,7 @@
 import { element } from './elements.js';
 import { follow, live } from './live_data.js';
 import { scan_body } from './scan_figures.js';
-import { scan_line } from './scan_head.js';
+import { no_scan_text, scan_line } from './scan_head.js';
 import { Selection } from './selection.js';
 import { scan_address } from './sentences.js';
 import { fault_lines, station_line } from './station_state.js';
@@ -25,8 +25,7 @@ function show_stations(frame) {
 // Returns what closes the drawing of the tray.
 function show_scan(frame, scan) {
   if (scan === null) {
-    const key = live.store_problem === null ? 'live.no_scan' : 'error.store';
-    frame.replaceChildren(element('p', { class: 'quiet' }, word(live.answered_at === null ? 'page.loading' : key)));
+    frame.replaceChildren(element('p', { class: 'quiet' }, no_scan_text()));
     return () => {};
   }
   const selection = new Selection();
@@ -53,7 +52,7 @@ export function show_live(main, parameters, signal) {
   let shown;
   follow(['latest'], signal, () => {
     // The same scan is left alone, so that neither focus nor a turned drawing is lost.
-    const text = JSON.stringify([live.latest, live.store_problem, live.answered_at === null]);
+    const text = JSON.stringify([live.latest, no_scan_text()]);
     if (text === shown) return;
     shown = text;
     close();

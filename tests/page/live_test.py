@@ -93,6 +93,8 @@ class LiveTest(PageCase):
         rig = hub_rig.HubRig()
         try:
             self.show("#live", rig=rig)
+            self.browser.wait_text("No station has connected to this hub yet.", ".stations")
+            self.browser.wait_text("Nothing has been measured yet.", ".last-tray")
             rig.play_demo()
             self.browser.wait_any(".outline path")
             self.browser.wait_text("demo-2", ".last-tray")
