@@ -1,7 +1,7 @@
 #include "firmware/station/station.hpp"
 
 #include <algorithm>
-#include <array>
+#include <cassert>
 #include <cstddef>
 #include <optional>
 #include <utility>
@@ -43,14 +43,6 @@ Signal signal_after(Delivery delivery, Signal signal) {
 
 }  // namespace
 
-const char* name(StationState state) {
-  static constexpr auto kNames =
-      std::to_array<const char*>({"starting", "waiting", "taking_first_view", "awaiting_second_view",
-                                  "taking_second_view", "measuring", "finished"});
-  static_assert(kNames.size() == static_cast<std::size_t>(StationState::finished) + 1);
-  return kNames[static_cast<std::size_t>(state)];
-}
-
 Station::Station(const StationDevices& devices, Measurer& measurer, ResultSink& sink,
                  const std::atomic<bool>& stop, const StationParams& params)
     : devices_(devices), measurer_(measurer), sink_(sink), stop_(stop), params_(params) {
@@ -89,6 +81,7 @@ StationState Station::step() {
     case StationState::finished:
       break;
   }
+  assert(before == StationState::finished || may_follow(before, state_));
   if (state_ == StationState::finished) close_all();
   if (state_ != before) sink_.report_state(name(state_));
   return state_;

@@ -18,6 +18,7 @@
 #include "firmware/station/block_means.hpp"
 #include "firmware/station/measurer.hpp"
 #include "firmware/station/scan_result.hpp"
+#include "firmware/station/station_state.hpp"
 
 namespace traygauge {
 
@@ -65,17 +66,6 @@ struct StationParams {
   std::uint64_t max_scans = 0;  // then the loop ends; 0: never
   int max_retries = 0;          // of failed devices in a row, then the loop ends; 0: never
 };
-
-enum class StationState : std::uint8_t {
-  starting,  // opens what is not open; after a failure again and again
-  waiting,   // for a press
-  taking_first_view,
-  awaiting_second_view,  // the arm moves, or the hand
-  taking_second_view,
-  measuring,
-  finished,
-};
-const char* name(StationState state);
 
 struct StationTotals {
   std::uint64_t scans = 0;
