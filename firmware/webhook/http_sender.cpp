@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <csignal>
+#include <cstdint>
 #include <map>
 #include <string_view>
 #include <utility>
@@ -15,8 +16,9 @@ namespace traygauge {
 namespace {
 
 using SteadyClock = std::chrono::steady_clock;
+using CurlLong = long;  // NOLINT(google-runtime-int): libcurl reads its options as such
 
-int curl_events(short revents) {
+int curl_events(std::int16_t revents) {
   int events = 0;
   if ((revents & (POLLIN | POLLHUP)) != 0) events |= CURL_CSELECT_IN;
   if ((revents & POLLOUT) != 0) events |= CURL_CSELECT_OUT;
@@ -24,11 +26,11 @@ int curl_events(short revents) {
   return events;
 }
 
-short poll_events(int what) {
+std::int16_t poll_events(int what) {
   int events = 0;
   if (what == CURL_POLL_IN || what == CURL_POLL_INOUT) events |= POLLIN;
   if (what == CURL_POLL_OUT || what == CURL_POLL_INOUT) events |= POLLOUT;
-  return static_cast<short>(events);
+  return static_cast<std::int16_t>(events);
 }
 
 }  // namespace
@@ -64,7 +66,7 @@ class HttpSender::Transfer {
   bool count(std::size_t bytes);
 
   static int on_socket(CURL* easy, curl_socket_t socket, int what, void* self, void* of_socket);
-  static int on_timer(CURLM* multi, long timeout_ms, void* self);
+  static int on_timer(CURLM* multi, CurlLong timeout_ms, void* self);
   static std::size_t on_head(const char* data, std::size_t size, std::size_t count, void* self);
   static std::size_t on_body(const char* data, std::size_t size, std::size_t count, void* self);
 
@@ -82,7 +84,7 @@ class HttpSender::Transfer {
   std::string body_;
   std::array<char, CURL_ERROR_SIZE> detail_{};
   std::unique_ptr<curl_slist, FreeHeaders> headers_;
-  std::map<curl_socket_t, short> sockets_;
+  std::map<curl_socket_t, std::int16_t> sockets_;
   std::optional<SteadyClock::time_point> deadline_;
   std::size_t read_bytes_ = 0;
   bool is_head_complete_ = false;
@@ -104,17 +106,17 @@ bool HttpSender::Transfer::prepare() {
 
 bool HttpSender::Transfer::set_limits() {
   return set(CURLOPT_URL, params_.url.c_str()) && set(CURLOPT_PROTOCOLS_STR, "http,https") &&
-         set(CURLOPT_HTTP_VERSION, long{CURL_HTTP_VERSION_1_1}) && set(CURLOPT_FOLLOWLOCATION, 0L) &&
+         set(CURLOPT_HTTP_VERSION, CurlLong{CURL_HTTP_VERSION_1_1}) && set(CURLOPT_FOLLOWLOCATION, 0L) &&
          set(CURLOPT_PROXY, "") && set(CURLOPT_USERAGENT, "traygauge") &&
-         set(CURLOPT_CONNECTTIMEOUT_MS, long{params_.connect_within.count()}) &&
-         set(CURLOPT_TIMEOUT_MS, long{params_.answer_within.count()}) && set(CURLOPT_NOSIGNAL, 1L) &&
+         set(CURLOPT_CONNECTTIMEOUT_MS, CurlLong{params_.connect_within.count()}) &&
+         set(CURLOPT_TIMEOUT_MS, CurlLong{params_.answer_within.count()}) && set(CURLOPT_NOSIGNAL, 1L) &&
          // A thread that asks for a name is left behind, not waited for, where the name server hangs.
          set(CURLOPT_QUICK_EXIT, 1L);
 }
 
 bool HttpSender::Transfer::set_trust() {
   const bool is_set = set(CURLOPT_SSL_VERIFYPEER, 1L) && set(CURLOPT_SSL_VERIFYHOST, 2L) &&
-                      set(CURLOPT_SSLVERSION, long{CURL_SSLVERSION_TLSv1_2});
+                      set(CURLOPT_SSLVERSION, CurlLong{CURL_SSLVERSION_TLSv1_2});
   if (!is_set) return false;
   // libcurl's own defaults would be trusted beside.
   if (params_.trusted_file)
@@ -187,7 +189,7 @@ std::optional<SendOutcome> HttpSender::Transfer::attend() {
 // Once the head has come the receiver has said what it wanted to say, however its body goes on. A head that
 // is cut off says nothing, though libcurl is content with its first line.
 SendOutcome HttpSender::Transfer::outcome_of(CURLcode result) {
-  long status = 0;
+  CurlLong status = 0;
   curl_easy_getinfo(easy_.get(), CURLINFO_RESPONSE_CODE, &status);
   if (status >= 200 && is_head_complete_) return {static_cast<int>(status), {}};
   SendProblem problem;
@@ -195,11 +197,12 @@ SendOutcome HttpSender::Transfer::outcome_of(CURLcode result) {
   problem.detail = detail_.data();
   problem.receiver = params_.shown;
   problem.is_too_long = read_bytes_ > params_.max_answer_bytes;
-  curl_easy_getinfo(easy_.get(), CURLINFO_OS_ERRNO, &problem.system_error);
-  curl_off_t connected_us = 0;
-  curl_easy_getinfo(easy_.get(), CURLINFO_APPCONNECT_TIME_T, &connected_us);
-  if (connected_us == 0) curl_easy_getinfo(easy_.get(), CURLINFO_CONNECT_TIME_T, &connected_us);
-  problem.was_connected = connected_us > 0;
+  CurlLong system_error = 0;
+  curl_easy_getinfo(easy_.get(), CURLINFO_OS_ERRNO, &system_error);
+  problem.system_error = static_cast<int>(system_error);
+  curl_off_t begun_us = 0;
+  curl_easy_getinfo(easy_.get(), CURLINFO_PRETRANSFER_TIME_T, &begun_us);
+  problem.was_connected = begun_us > 0;
   return {0, describe(problem)};
 }
 
@@ -219,7 +222,7 @@ int HttpSender::Transfer::on_socket(CURL* /*easy*/, curl_socket_t socket, int wh
   return 0;
 }
 
-int HttpSender::Transfer::on_timer(CURLM* /*multi*/, long timeout_ms, void* self) {
+int HttpSender::Transfer::on_timer(CURLM* /*multi*/, CurlLong timeout_ms, void* self) {
   auto& deadline = static_cast<Transfer*>(self)->deadline_;
   deadline.reset();
   if (timeout_ms >= 0) deadline = SteadyClock::now() + std::chrono::milliseconds(timeout_ms);

@@ -12,9 +12,8 @@ std::string describe(const SendProblem& problem) {
       return "The name in " + receiver + " cannot be looked up; check the address and the name server.";
     case CURLE_COULDNT_CONNECT:
       return receiver + " takes no connection" +
-             (problem.system_error != 0
-                  ? " (" + std::system_category().message(static_cast<int>(problem.system_error)) + ")."
-                  : ".");
+             (problem.system_error != 0 ? " (" + std::system_category().message(problem.system_error) + ")."
+                                        : ".");
     case CURLE_OPERATION_TIMEDOUT:
       return problem.was_connected ? receiver + " took the message and did not answer in time."
                                    : receiver + " could not be reached in time.";

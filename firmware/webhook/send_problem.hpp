@@ -11,8 +11,8 @@ struct SendProblem {
   CURLcode code = CURLE_OK;
   std::string detail;          // libcurl's, which names host and port at most
   std::string receiver;        // what to call it
-  long system_error = 0;       // an errno, where the system refused; 0: it did not
-  bool was_connected = false;  // it took the connection
+  int system_error = 0;        // an errno, where the system refused; 0: it did not
+  bool was_connected = false;  // TLS included
   bool is_too_long = false;    // its answer
 };
 
