@@ -7,10 +7,9 @@ function rgb(three, text) {
   return new three.Color(text || '#cccccc');
 }
 
-// A cell without food shows the dish.
+// A cell whose surface is not known shows the dish.
 function height_at(dish, index) {
-  const known = Number.isNaN(dish.surface[index]) ? dish.inner[index] : dish.surface[index];
-  return known;
+  return Number.isNaN(dish.surface[index]) ? dish.inner[index] : dish.surface[index];
 }
 
 function triangles_of(dish) {
@@ -64,7 +63,9 @@ export function make_mesh(three, dish, scan, centre) {
   geometry.setAttribute('color', new three.BufferAttribute(new Float32Array(count * 3), 3));
   geometry.setIndex(triangles_of(dish));
   geometry.computeVertexNormals();
-  const material = new three.MeshLambertMaterial({ vertexColors: three.VertexColors ?? true, side: three.DoubleSide });
+  // Older libraries have a constant where newer ones have true.
+  const vertexColors = three.VertexColors ?? true;
+  const material = new three.MeshLambertMaterial({ vertexColors, side: three.DoubleSide });
   const mesh = new three.Mesh(geometry, material);
   paint_mesh(three, mesh, dish, scan, null);
   return mesh;

@@ -1,4 +1,4 @@
-// Run inside of the page by accessibility.py: returns what hinders people, a sentence each, and the lowest contrast.
+// Run inside of the page by page_case.py: returns what hinders people, a sentence each, and the lowest contrast.
 const problems = [];
 const name_of = (node) => `<${node.tagName.toLowerCase()} class="${node.getAttribute('class') ?? ''}">`;
 const is_shown = (node) => node.getClientRects().length > 0 && getComputedStyle(node).visibility !== 'hidden';
@@ -49,26 +49,31 @@ function check_contrast() {
     const [text, back] = colours_of(node);
     const found = contrast(over(text, back), back);
     lowest = Math.min(lowest, found);
-    if (found < 4.5) problems.push(`contrast ${found.toFixed(2)}: "${walker.currentNode.data.slice(0, 40)}" in ${name_of(node)}`);
+    const what = `"${walker.currentNode.data.slice(0, 40)}" in ${name_of(node)}`;
+    if (found < 4.5) problems.push(`contrast ${found.toFixed(2)}: ${what}`);
   }
   return lowest;
 }
 
 function accessible_name(node) {
   const labels = [...(node.labels ?? [])].map((label) => label.textContent).join(' ');
-  const by = (node.getAttribute('aria-labelledby') ?? '').split(' ').map((id) => document.getElementById(id)?.textContent ?? '');
-  return [node.getAttribute('aria-label') ?? '', ...by, labels, node.matches('button, a') ? node.textContent : ''].join('').trim();
+  const text_of = (id) => document.getElementById(id)?.textContent ?? '';
+  const by = (node.getAttribute('aria-labelledby') ?? '').split(' ').map(text_of);
+  const own = node.matches('button, a') ? node.textContent : '';
+  return [node.getAttribute('aria-label') ?? '', ...by, labels, own].join('').trim();
 }
 
 function check_names() {
-  for (const node of document.querySelectorAll('a, button, input, select, nav, section, [role=group], [role=application], svg[role=img], canvas[role=img], [role=search]')) {
+  const roles = ['group', 'application', 'img', 'search'].map((role) => `:not(img)[role=${role}]`);
+  for (const node of document.querySelectorAll(['a, button, input, select, nav, section', ...roles].join())) {
     if (is_shown(node) && accessible_name(node) === '') problems.push(`no name: ${name_of(node)}`);
   }
   for (const image of document.querySelectorAll('img')) {
     if (!image.hasAttribute('alt')) problems.push(`no alt: ${name_of(image)}`);
   }
   for (const canvas of document.querySelectorAll('canvas')) {
-    if (!canvas.hasAttribute('role') && !canvas.closest('[aria-hidden=true]')) problems.push(`no role: ${name_of(canvas)}`);
+    const is_told = canvas.hasAttribute('role') || canvas.closest('[aria-hidden=true]');
+    if (!is_told) problems.push(`no role: ${name_of(canvas)}`);
   }
 }
 
@@ -77,9 +82,12 @@ function check_structure() {
   if (count('h1') !== 1) problems.push(`${count('h1')} h1`);
   if (count('main') !== 1) problems.push(`${count('main')} main`);
   if (count('[aria-live=polite]') < 1) problems.push('no live region');
-  if (document.documentElement.lang !== document.querySelector('#languages [aria-pressed=true]').value) problems.push('lang');
+  const chosen = document.querySelector('#languages [aria-pressed=true]').value;
+  if (document.documentElement.lang !== chosen) problems.push('lang');
   const levels = [...document.querySelectorAll('h1, h2, h3, h4')].map((head) => Number(head.tagName[1]));
-  levels.forEach((level, i) => { if (i > 0 && level > levels[i - 1] + 1) problems.push(`h${level} after h${levels[i - 1]}`); });
+  levels.forEach((level, i) => {
+    if (i > 0 && level > levels[i - 1] + 1) problems.push(`h${level} after h${levels[i - 1]}`);
+  });
   for (const table of document.querySelectorAll('table')) {
     if (!table.caption) problems.push('a table without a caption');
     for (const head of table.querySelectorAll('th')) if (!head.scope) problems.push('a th without scope');
@@ -91,11 +99,15 @@ function check_references() {
   ids.filter((id, i) => ids.indexOf(id) !== i).forEach((id) => problems.push(`twice: #${id}`));
   for (const name of ['for', 'aria-labelledby', 'aria-describedby', 'list']) {
     for (const node of document.querySelectorAll(`[${name}]`)) {
-      for (const id of node.getAttribute(name).split(' ')) if (!ids.includes(id)) problems.push(`${name} names no element: ${id}`);
+      for (const id of node.getAttribute(name).split(' ')) {
+        if (!ids.includes(id)) problems.push(`${name} names no element: ${id}`);
+      }
     }
   }
   for (const node of document.querySelectorAll('[tabindex]')) if (node.tabIndex > 0) problems.push('a tabindex above 0');
-  for (const node of document.querySelectorAll('[aria-hidden=true] :is(a, button, input)')) problems.push(`hidden but focused: ${name_of(node)}`);
+  for (const node of document.querySelectorAll('[aria-hidden=true] :is(a, button, input)')) {
+    problems.push(`hidden but focused: ${name_of(node)}`);
+  }
   for (const node of document.querySelectorAll('[style]')) {
     if (!node.matches('canvas')) problems.push(`a style in line: ${name_of(node)}`);
   }

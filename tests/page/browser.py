@@ -42,6 +42,13 @@ class Browser:
                     {"name": "prefers-reduced-motion", "value": "reduce"}]
         self.driver.execute_cdp_cmd("Emulation.setEmulatedMedia", {"features": features})
 
+    def answer_itself(self, ending, script):
+        """From the next page on, requests for addresses with that ending are answered by an expression."""
+        source = ("const real = window.fetch; window.fetch = (path, ...rest) => String(path).endsWith('%s') "
+                  "? Promise.resolve(%s) : real(path, ...rest)" % (ending, script))
+        added = self.driver.execute_cdp_cmd("Page.addScriptToEvaluateOnNewDocument", {"source": source})
+        return lambda: self.driver.execute_cdp_cmd("Page.removeScriptToEvaluateOnNewDocument", added)
+
     def open(self, address):
         self.driver.get("about:blank")  # so that a change of the part after "#" alone loads the page, too
         self.driver.get(address)

@@ -64,7 +64,8 @@ class HubRig:
         (self.folder / "station.toml").write_text(
             '[station]\nname = "kitchen"\nsocket = "hub"\nfolder = "kept"\n'
             f'[hub]\nstore = "results.db"\nlisten = ["127.0.0.1:{self.port}"]\n'
-            'site_name = "North canteen"\ntime_zone = "Asia/Tokyo"\nbase_path = "/kitchen"\nview_tokens = "view.tokens"\nmanage_tokens = "manage.tokens"\n')
+            'site_name = "North canteen"\ntime_zone = "Asia/Tokyo"\n'
+            'base_path = "/kitchen"\nview_tokens = "view.tokens"\nmanage_tokens = "manage.tokens"\n')
 
     def start(self):
         options = ["--config", "station.toml"] if self.with_tokens else [

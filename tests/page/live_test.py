@@ -24,8 +24,10 @@ class LiveTest(PageCase):
     def check_same_document(self):
         self.assertTrue(self.browser.run("return window.is_same_document === true"), "the page was loaded anew")
 
-    def test_new_result_is_shown_and_announced(self):
+    def test_results_and_states_are_shown(self):
+        other = self.rig.station("buffet")  # which says nothing but its name
         self.show("#live")
+        self.browser.wait_text("buffet", ".stations")
         self.browser.wait_text("Ready: put a tray down", ".stations")
         self.station.hand_over(samples.meal(1))
         self.browser.wait_text("142 ml ± 5 ml", ".last-tray")
@@ -40,6 +42,9 @@ class LiveTest(PageCase):
         self.browser.wait_text("Next tray: 17, 3 foods, dinner", ".stations")
         self.station.tell_state(faults=[{"device": "camera", "message": "camera: It is <gone>."}])
         self.browser.wait_text("camera: It is <gone>.", ".stations")
+        self.browser.wait_text("Has said nothing for", "[data-station=buffet].is-old", 15)
+        other.close()
+        self.browser.wait_text("Not connected for", "[data-station=buffet].is-old")
 
     def test_stopped_hub_and_restart(self):
         self.station.hand_over(samples.meal(10))
@@ -74,19 +79,26 @@ class LiveTest(PageCase):
             self.rig.process.send_signal(signal.SIGCONT)
         self.check_recovery()
 
+    def test_hub_that_answers_without_news(self):
+        """Events and other answers come, stations do not: the page must not look live."""
+        restore = self.browser.answer_itself(
+            "/stations", "window.refuse ? new Response('{}', {status: 500}) : real(path, ...rest)")
+        try:
+            self.show("#live")
+            self.browser.wait_text("Live.", "#connection")
+            self.browser.run("window.refuse = true")
+            self.browser.wait_text("Not live: nothing new from the hub for", "#connection", 15)
+            self.assertTrue(self.is_stale())
+            self.browser.run("window.refuse = false")
+            wait_for(lambda: not self.is_stale(), "a page that is live again", 15)
+        finally:
+            restore()
+
     def check_recovery(self):
         wait_for(lambda: not self.is_stale(), "a page that is live again", 15)
         self.browser.wait_text("Live.", "#connection")
         self.check_same_document()
         self.browser.errors()  # the requests that failed are told there
-
-    def test_silent_and_absent_station(self):
-        other = self.rig.station("buffet")
-        self.show("#live")
-        self.browser.wait_text("buffet", ".stations")
-        self.browser.wait_text("Has said nothing for", "[data-station=buffet].is-old", 15)
-        other.close()
-        self.browser.wait_text("Not connected for", "[data-station=buffet].is-old")
 
     def test_demo_station(self):
         """The real station with the demo's trays, whose shapes are measured."""

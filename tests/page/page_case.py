@@ -29,7 +29,7 @@ class Shared:
 
 
 def store_samples(rig):
-    """Scan 1: marked as wrong later; 5: refused; 6 superseded by 7; 8 doubtful; 9 forty items; 10 the last."""
+    """Scan 5 is refused, 6 superseded by 7, 8 doubtful; 9 has forty items, 10 is the last and has a shape."""
     station = rig.station()
     station.tell_state(temperature_c=51.2, under_voltage=False, calibration={"grade_percent": 0.31})
     for number in range(1, 5):

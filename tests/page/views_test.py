@@ -1,5 +1,6 @@
 """Every view in both languages and on each size of screen."""
 import samples
+from hub_rig import wait_for
 from page_case import PageCase, Shared, store_samples
 
 # What shows that the view has its data, and a word of it in each language.
@@ -72,6 +73,20 @@ class ViewsTest(PageCase):
         self.show("#scan/kitchen-777", "de")
         self.browser.wait_text("Diese Messung gibt es nicht.", "[role=alert]")
         self.assertIn("404", "".join(self.browser.errors()))
+
+    def test_picture_is_shown_where_there_is_one(self):
+        self.show("#scan/kitchen-10")
+        self.browser.wait_any(".outlines")
+        self.assertEqual(self.browser.find_all("main img"), [])
+        restore = self.browser.answer_itself("/picture", "real('icon.svg')")
+        try:
+            self.show("#scan/kitchen-10")
+            self.browser.wait_any(".picture img")
+            wait_for(lambda: self.browser.run("return document.querySelector('.picture img').naturalWidth > 0"),
+                     "a picture that is drawn")
+            self.check_page()
+        finally:
+            restore()
 
     def test_language_is_switched_and_remembered(self):
         self.show("#about")
