@@ -72,6 +72,7 @@ void TlsReceiver::serve() {
     const std::string answer = "HTTP/1.1 200 OK\r\nContent-Length: 0\r\nConnection: close\r\n\r\n";
     SSL_write(connection.get(), answer.data(), static_cast<int>(answer.size()));
     SSL_shutdown(connection.get());
+    ++answered_;
   }
 }
 

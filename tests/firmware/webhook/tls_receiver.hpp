@@ -46,6 +46,8 @@ class TlsReceiver {
   TlsReceiver(const TlsReceiver&) = delete;
   TlsReceiver& operator=(const TlsReceiver&) = delete;
   std::uint16_t port() const { return port_; }
+  // How many requests it answered.
+  int answered() const { return answered_; }
 
  private:
   void serve();
@@ -54,6 +56,7 @@ class TlsReceiver {
   FileDescriptor listener_;
   std::unique_ptr<SSL_CTX, FreeBy<SSL_CTX_free>> context_;
   std::atomic<bool> stop_{false};
+  std::atomic<int> answered_{0};
   std::thread thread_;
 };
 

@@ -1,27 +1,15 @@
 #include "tests/firmware/webhook/webhook_rig.hpp"
 
-#include <sys/resource.h>
-
 #include <algorithm>
 #include <stdexcept>
 
 #include "tests/firmware/store/sample_scan.hpp"
+#include "tests/firmware/webhook/call_time.hpp"
 
 namespace traygauge::test {
 
 using std::chrono::milliseconds;
 using SteadyClock = std::chrono::steady_clock;
-
-namespace {
-
-// How often the kernel let others have the processor, though this thread had something to do.
-std::int64_t interruptions_of_this_thread() {
-  rusage usage{};
-  ::getrusage(RUSAGE_THREAD, &usage);
-  return usage.ru_nivcsw;
-}
-
-}  // namespace
 
 WebhookLimits quick_limits() {
   WebhookLimits limits;
@@ -72,11 +60,10 @@ void WebhookRig::step(milliseconds longest_wait) {
   webhook_->add_descriptors(descriptors);
   const milliseconds wait = std::min(longest_wait, webhook_->timeout().value_or(longest_wait));
   ::poll(descriptors.data(), descriptors.size(), static_cast<int>(wait.count()));
-  const std::int64_t interruptions = interruptions_of_this_thread();
-  const auto begin = SteadyClock::now();
-  for (std::string& sentence : webhook_->attend()) log_.push_back(std::move(sentence));
-  const auto took = std::chrono::duration_cast<std::chrono::microseconds>(SteadyClock::now() - begin);
-  if (interruptions_of_this_thread() == interruptions) longest_call_ = std::max(longest_call_, took);
+  longest_call_ = std::max(longest_call_, call_time([this] {
+                             for (std::string& sentence : webhook_->attend())
+                               log_.push_back(std::move(sentence));
+                           }));
 }
 
 bool WebhookRig::run_until(const std::function<bool()>& is_done, milliseconds limit) {
