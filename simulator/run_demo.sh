@@ -35,7 +35,7 @@ sed -n 's/^The page is at \(.*\)\.$/Open in a browser: \1/p' "$folder/hub.log"
 
 if [ -n "${DEMO_SCANS:-}" ]; then end_after="--scans $DEMO_SCANS"; else end_after=--repeat; fi
 # shellcheck disable=SC2086 # an option and its value
-"$program" station --devices "simulator:$(dirname "$0")/demo" $end_after --real-time \
+"$program" station --devices "simulator:$(dirname "$0")/demo" $end_after --real-time --show-pictures \
   --hub "$folder/hub" --keep "$folder/waiting" --name demo 2>"$folder/station.log" &
 station=$!
 wait "$station" || {

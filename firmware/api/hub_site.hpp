@@ -7,6 +7,7 @@
 
 #include "firmware/base/wall_clock.hpp"
 #include "firmware/hub/hub_store.hpp"
+#include "firmware/hub/picture_shelf.hpp"
 #include "firmware/hub/shape_shelf.hpp"
 #include "firmware/hub/station_inbox.hpp"
 #include "firmware/web/event_streams.hpp"
@@ -28,6 +29,7 @@ struct HubSite {
   HubStore& store;
   StationInbox& inbox;
   const ShapeShelf& shapes;
+  const PictureShelf& pictures;
   EventStreams& events;
   SiteFacts facts;
   std::function<HttpCounts()> http;

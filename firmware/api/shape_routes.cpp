@@ -11,16 +11,16 @@ HttpResponse no_shape(const std::string& id) {
   return error_response(404, "no_shape", message);
 }
 
-HttpResponse answer_shape(const ShapeShelf& shapes, const ScanId& id) {
-  std::shared_ptr<const std::string> json = shapes.find(id);
+HttpResponse answer_shape(const HubSite& site, const ScanId& id) {
+  std::shared_ptr<const std::string> json = site.shapes.find(id);
   if (json == nullptr) return no_shape(scan_id_text(id));
   HttpResponse response = json_response({});
   response.body = std::move(json);
   return response;
 }
 
-HttpResponse answer_mesh(const ShapeShelf& shapes, const ScanId& id) {
-  const std::shared_ptr<const std::string> json = shapes.find(id);
+HttpResponse answer_mesh(const HubSite& site, const ScanId& id) {
+  const std::shared_ptr<const std::string> json = site.shapes.find(id);
   if (json == nullptr) return no_shape(scan_id_text(id));
   const Expected<ReadShape> shape = read_shape(*json);
   if (!shape.ok()) return error_response(500, "shape", shape.failure());
@@ -32,18 +32,32 @@ HttpResponse answer_mesh(const ShapeShelf& shapes, const ScanId& id) {
   return response;
 }
 
+HttpResponse answer_picture(const HubSite& site, const ScanId& id) {
+  std::shared_ptr<const std::string> jpeg = site.pictures.find(id);
+  if (jpeg == nullptr) {
+    std::string message = "There is no picture of scan " + scan_id_text(id);
+    message += ": the owner does not show pictures, or it is gone.";
+    return error_response(404, "no_picture", message);
+  }
+  HttpResponse response;
+  response.content_type = "image/jpeg";
+  response.headers = {{"Cache-Control", "no-store"}};
+  response.body = std::move(jpeg);
+  return response;
+}
+
 }  // namespace
 
 void add_shape_routes(Router& router, const HubSite& site) {
-  const auto add = [&](const char* path, HttpResponse (*answer)(const ShapeShelf&, const ScanId&)) {
-    router.add({"GET", path, Role::view, 0,
-                [&store = site.store, &shapes = site.shapes, answer](const HttpRequest& request) {
-                  return with_scan(store, request,
-                                   [&](Store&, const StoredScan& scan) { return answer(shapes, scan.id); });
+  const auto add = [&](const char* path, HttpResponse (*answer)(const HubSite&, const ScanId&)) {
+    router.add({"GET", path, Role::view, 0, [&site, answer](const HttpRequest& request) {
+                  return with_scan(site.store, request,
+                                   [&](Store&, const StoredScan& scan) { return answer(site, scan.id); });
                 }});
   };
   add("/api/v1/scans/{id}/shape", answer_shape);
   add("/api/v1/scans/{id}/mesh", answer_mesh);
+  add("/api/v1/scans/{id}/picture", answer_picture);
 }
 
 }  // namespace traygauge

@@ -65,10 +65,18 @@ std::optional<WebhookConfig> read_webhook(const JsonNode& table, const std::file
   return config;
 }
 
+PicturePolicy read_picture_policy(const JsonNode& node) {
+  const std::string text = node.text();
+  if (text == "hide") return PicturePolicy::hide;
+  if (text == "show") return PicturePolicy::show;
+  if (text == "keep") return PicturePolicy::keep;
+  node.fail(R"("hide", "show" or "keep")", "correct the value");
+}
+
 }  // namespace
 
 HandoverConfig read_handover_table(const JsonNode& table, const std::filesystem::path& folder) {
-  expect(table, {"name", "socket", "folder", "waiting_mib", "repeat_within_s"});
+  expect(table, {"name", "socket", "folder", "waiting_mib", "repeat_within_s", "pictures"});
   HandoverConfig config;
   const JsonNode name = table.member("name");
   config.name = name.text();
@@ -81,17 +89,20 @@ HandoverConfig read_handover_table(const JsonNode& table, const std::filesystem:
   if (const auto waiting = table.find("waiting_mib")) config.waiting_mib = waiting->integer(1, kMaxMib);
   if (const auto repeat = table.find("repeat_within_s"))
     config.repeat_within_s = repeat->number({0.0, 600.0});
+  if (const auto pictures = table.find("pictures")) config.pictures = read_picture_policy(*pictures);
   return config;
 }
 
 HubConfig read_hub_table(const JsonNode& table, const std::filesystem::path& folder) {
-  expect(table, {"store", "keep_days", "keep_free_mib", "listen", "view_tokens", "kiosk_tokens",
-                 "manage_tokens", "local_without_token", "host_names", "trusted_proxies", "base_path",
-                 "site_name", "time_zone", "webhook", "webhook_secret", "webhook_ca"});
+  expect(table, {"store", "keep_days", "keep_free_mib", "pictures_mib", "listen", "view_tokens",
+                 "kiosk_tokens", "manage_tokens", "local_without_token", "host_names", "trusted_proxies",
+                 "base_path", "site_name", "time_zone", "webhook", "webhook_secret", "webhook_ca"});
   HubConfig config;
   config.store = folder / table.member("store").text();
   if (const auto days = table.find("keep_days")) config.keep_days = days->integer(1, kMaxDays);
   if (const auto free = table.find("keep_free_mib")) config.keep_free_mib = free->integer(0, kMaxFreeMib);
+  if (const auto pictures = table.find("pictures_mib"))
+    config.pictures_mib = pictures->integer(1, kMaxFreeMib);
   config.web = read_web(table, folder);
   config.webhook = read_webhook(table, folder);
   return config;

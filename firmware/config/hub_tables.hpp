@@ -1,6 +1,7 @@
 // The tables of a station file that say where results go: [station] and [hub].
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -11,6 +12,13 @@
 
 namespace traygauge {
 
+// What becomes of the trays' photographs.
+enum class PicturePolicy : std::uint8_t {
+  hide,  // they never leave the station's memory
+  show,  // the hub has the last ones in its memory
+  keep,  // the hub keeps them on its disk, as long as their scans
+};
+
 // How a station hands its results over.
 struct HandoverConfig {
   std::string name = "station";   // see is_station_name()
@@ -18,6 +26,7 @@ struct HandoverConfig {
   std::filesystem::path folder;   // where results wait, and where the last scan's number stands
   int waiting_mib = 16;           // about 4,000 results
   double repeat_within_s = 20.0;  // 0: every press counts
+  PicturePolicy pictures = PicturePolicy::hide;
 };
 
 // Where the hub serves its API, and to whom.
@@ -46,6 +55,7 @@ struct HubConfig {
   std::filesystem::path store;   // a file
   std::optional<int> keep_days;  // none: as long as there is space
   int keep_free_mib = 500;       // of the file system
+  int pictures_mib = 1024;       // of pictures that are kept, at most
   WebConfig web;
   std::optional<WebhookConfig> webhook;
 };

@@ -11,7 +11,7 @@ constexpr std::string_view kMagic = "TGM1";
 constexpr std::size_t kHeaderBytes = kMagic.size() + 1 + 2 * sizeof(std::uint32_t);
 
 constexpr auto kNames = std::to_array<const char*>(
-    {"hello", "scan", "state", "shape", "stored", "set_aside", "refused", "next_tray"});
+    {"hello", "scan", "state", "shape", "picture", "stored", "set_aside", "refused", "next_tray"});
 static_assert(kNames.size() == static_cast<std::size_t>(MessageType::next_tray) + 1);
 
 void append_length(std::size_t length, std::string& out) {

@@ -17,6 +17,7 @@ enum class MessageType : std::uint8_t {
   scan,   // {"id"} and, as bytes, the scan's document, to be stored; answered by stored, set_aside or refused
   state,  // what the station does now: {"state",…}; not answered
   shape,  // {"id"} and, as bytes, what the scan's tray looks like: see compose_shape(); not answered
+  picture,  // {"id","keep"} and, as bytes, a JPEG of the scan's tray, where the owner allows it; not answered
   // from the hub
   stored,     // {"id"}: the scan is on disk, now or since an earlier delivery
   set_aside,  // {"id","why"}: kept on disk, but it is no scan that can be booked
@@ -28,7 +29,7 @@ const char* name(MessageType type);
 struct Message {
   MessageType type = MessageType::hello;
   std::string text;   // JSON, at most kMaxTextBytes
-  std::string bytes;  // at most kMaxBodyBytes; of scan and shape alone
+  std::string bytes;  // at most kMaxBodyBytes; of scan, shape and picture alone
 
   friend bool operator==(const Message&, const Message&) = default;
 };

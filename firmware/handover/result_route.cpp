@@ -49,7 +49,7 @@ struct ResultRoute::Handover {
   Handover(const HandoverConfig& config, StationFacts facts, ScanPrinter& printer, std::ostream& log)
       : kept(open_kept(config)),
         link(link_params(config)),
-        sink(printer, link, kept, log, {.facts = std::move(facts)}) {}
+        sink(printer, link, kept, log, {.facts = std::move(facts), .pictures = config.pictures}) {}
 
   KeptResults kept;
   HubLink link;

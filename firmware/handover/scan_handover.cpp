@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "firmware/handover/scan_shape.hpp"
+#include "firmware/handover/tray_picture.hpp"
 #include "firmware/station/scan_printer.hpp"
 
 namespace traygauge {
@@ -30,6 +31,7 @@ Delivery ScanHandover::deliver(const ScanResult& result) {
   const std::string document = scan_json(result, &identity);
   const std::string text = scan_id_text(*id);
   shape_ = result.measurement != nullptr ? compose_shape(*result.measurement, text) : std::string();
+  picture_ = params_.pictures != PicturePolicy::hide ? compose_picture(result.picture) : std::string();
   // In the order in which they were measured: what waits goes first.
   const bool waits_already = kept_.waiting_count() > 0;
   if (!waits_already && hand_over(text, document)) return Delivery::done;
@@ -92,7 +94,7 @@ void ScanHandover::attend() {
   link_.attend();
   hear_next_tray();
   hand_over_kept();
-  tell_shape();
+  tell_appearance();
   if (link_.take_is_new() || SteadyClock::now() - told_at_ >= params_.heartbeat) tell_state();
 }
 
@@ -135,10 +137,14 @@ void ScanHandover::hear_next_tray() {
 }
 
 // Only for looking at: who presses the button does not wait for it, and none is kept for a hub that is away.
-void ScanHandover::tell_shape() {
-  if (shape_.empty()) return;
-  const nlohmann::json text = {{"id", scan_id_text(*last_id_)}};
-  link_.tell({MessageType::shape, text.dump(), std::exchange(shape_, {})}, params_.longest_shape);
+void ScanHandover::tell_appearance() {
+  using Json = nlohmann::json;
+  if (!shape_.empty())
+    link_.tell({MessageType::shape, Json{{"id", scan_id_text(*last_id_)}}.dump(), std::exchange(shape_, {})},
+               params_.longest_shape);
+  if (picture_.empty()) return;
+  const Json text = {{"id", scan_id_text(*last_id_)}, {"keep", params_.pictures == PicturePolicy::keep}};
+  link_.tell({MessageType::picture, text.dump(), std::exchange(picture_, {})}, params_.longest_shape);
 }
 
 void ScanHandover::tell_state() {

@@ -11,6 +11,7 @@
 
 #include "firmware/base/scan_id.hpp"
 #include "firmware/base/wall_clock.hpp"
+#include "firmware/config/hub_tables.hpp"
 #include "firmware/handover/hub_link.hpp"
 #include "firmware/handover/kept_results.hpp"
 #include "firmware/handover/next_tray.hpp"
@@ -21,6 +22,7 @@ namespace traygauge {
 
 struct ScanHandoverParams {
   StationFacts facts;
+  PicturePolicy pictures = PicturePolicy::hide;
   // Presses wait while kept results are handed over.
   Milliseconds longest_attention{300};
   // A hub that refuses or hangs is asked again so much later.
@@ -53,7 +55,7 @@ class ScanHandover final : public ResultSink {
   bool hand_over(const std::string& id, const std::string& document);
   bool hand_over_kept();
   void hear_next_tray();
-  void tell_shape();
+  void tell_appearance();
   void tell_state();
   void log_notices();
   void note_hub(const HubReply& reply);
@@ -69,6 +71,7 @@ class ScanHandover final : public ResultSink {
   std::string state_ = "starting";
   WallTime pressed_at_;
   std::optional<ScanId> last_id_;                           // of the last result with a measurement
+  std::string picture_;                                     // of that result, where it may be shown
   std::string shape_;                                       // of that result; empty once the hub was told
   std::map<std::string, std::string, std::less<>> faults_;  // sentences by device
   std::string hub_problem_;                                 // empty while the hub takes what it is given

@@ -17,7 +17,8 @@ Expected<std::unique_ptr<Hub>> Hub::start(HubParams params, HubLog log) {
   if (const auto started = hub->start_webhook(params.webhook, params.webhook_limits); !started.ok())
     return Failure{started.failure()};
   if (params.web.config.listen.empty()) return hub;
-  Expected<std::unique_ptr<HubWeb>> web = HubWeb::start(params.web, hub->store_, hub->inbox_, hub->shapes_);
+  Expected<std::unique_ptr<HubWeb>> web =
+      HubWeb::start(params.web, {hub->store_, hub->inbox_, hub->shapes_, hub->pictures_});
   if (!web.ok()) return Failure{web.failure()};
   hub->web_ = std::move(*web);
   if (hub->webhook_ != nullptr) hub->web_->show_webhook(*hub->webhook_);
@@ -27,6 +28,7 @@ Expected<std::unique_ptr<Hub>> Hub::start(HubParams params, HubLog log) {
 Hub::Hub(HubStore store, LocalListener listener, const HubParams& params, HubLog log)
     : log_(std::move(log)),
       store_(std::move(store)),
+      pictures_(params.pictures),
       inbox_(std::move(listener), store_, listener_for_inbox(), params.inbox) {}
 
 void Hub::run(const std::atomic<bool>& stop, const std::function<void()>& after_step) {
@@ -57,6 +59,20 @@ void Hub::step(std::chrono::milliseconds longest_wait) {
     for (const std::string& sentence : webhook_->attend()) log_(sentence);
   }
   for (const std::string& sentence : store_.tend(std::chrono::steady_clock::now())) log_(sentence);
+  tidy_pictures();
+}
+
+// Once an hour, as the store's retention runs: a picture goes with its scan. A scan that cannot be looked for
+// keeps its picture.
+void Hub::tidy_pictures() {
+  constexpr std::chrono::hours kEvery{1};
+  const auto now = std::chrono::steady_clock::now();
+  if (now - tidied_at_ < kEvery || store_.store() == nullptr) return;
+  tidied_at_ = now;
+  pictures_.tidy([this](const ScanId& id) {
+    const Expected<std::optional<StoredScan>> scan = store_.store()->scans().find(id);
+    return !scan.ok() || scan->has_value();
+  });
 }
 
 StationListener Hub::listener_for_inbox() {
@@ -72,6 +88,11 @@ StationListener Hub::listener_for_inbox() {
     if (const Expected<void> put = shapes_.put(id, std::move(shape)); !put.ok())
       return log_problem(put.failure());
     if (web_ != nullptr) web_->tell_shape(id);
+  };
+  listener.on_picture = [this](const ScanId& id, std::string jpeg, bool is_kept) {
+    const Expected<void> put =
+        is_kept ? pictures_.keep(id, std::move(jpeg)) : pictures_.show(id, std::move(jpeg));
+    if (!put.ok()) log_problem(put.failure());
   };
   listener.on_problem = [this](const std::string& problem) { log_problem(problem); };
   return listener;

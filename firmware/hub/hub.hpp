@@ -12,6 +12,7 @@
 #include "firmware/base/expected.hpp"
 #include "firmware/hub/hub_store.hpp"
 #include "firmware/hub/hub_web.hpp"
+#include "firmware/hub/picture_shelf.hpp"
 #include "firmware/hub/shape_shelf.hpp"
 #include "firmware/hub/station_inbox.hpp"
 #include "firmware/webhook/webhook.hpp"
@@ -23,6 +24,7 @@ struct HubParams {
   HubStoreParams store;
   StationInboxParams inbox;
   HubWebParams web;
+  PictureShelfParams pictures;
   std::optional<WebhookConfig> webhook;  // none: nobody is told
   WebhookLimits webhook_limits;
 };
@@ -50,6 +52,7 @@ class Hub {
  private:
   Hub(HubStore store, LocalListener listener, const HubParams& params, HubLog log);
   StationListener listener_for_inbox();
+  void tidy_pictures();
   Expected<void> start_webhook(const std::optional<WebhookConfig>& config, const WebhookLimits& limits);
   void log_problem(const std::string& problem);
 
@@ -57,6 +60,8 @@ class Hub {
   std::string last_problem_;
   HubStore store_;
   ShapeShelf shapes_;
+  PictureShelf pictures_;
+  std::chrono::steady_clock::time_point tidied_at_;  // the pictures
   StationInbox inbox_;
   std::unique_ptr<Webhook> webhook_;
   std::unique_ptr<HubWeb> web_;

@@ -48,6 +48,8 @@ HubParams params_of(const HubFile& file) {
   params.web.config = file.hub.web;
   params.webhook = file.hub.webhook;
   params.store.options.file = file.hub.store;
+  params.pictures.folder = file.hub.store.parent_path() / "pictures";
+  params.pictures.max_bytes_on_disk = static_cast<std::uint64_t>(file.hub.pictures_mib * kBytesPerMib);
   if (file.hub.keep_days) params.store.retention.max_age = std::chrono::days(*file.hub.keep_days);
   params.store.retention.min_free_bytes = file.hub.keep_free_mib * kBytesPerMib;
   return params;

@@ -77,13 +77,12 @@ Expected<void> HubWeb::check(const WebConfig& config) {
   return may.ok() ? Expected<void>() : of_key("listen", may);
 }
 
-Expected<std::unique_ptr<HubWeb>> HubWeb::start(const HubWebParams& params, HubStore& store,
-                                                StationInbox& inbox, const ShapeShelf& shapes) {
+Expected<std::unique_ptr<HubWeb>> HubWeb::start(const HubWebParams& params, const HubParts& hub) {
   Expected<Parts> parts = parts_of(params.config);
   if (!parts.ok()) return Failure{parts.failure()};
   parts->facts.configuration_problem = params.configuration_problem;
   const std::vector<ListenAddress> addresses = parts->addresses;
-  std::unique_ptr<HubWeb> web(new HubWeb(std::move(*parts), store, inbox, shapes));
+  std::unique_ptr<HubWeb> web(new HubWeb(std::move(*parts), hub));
   if (const Expected<void> may = web->access_.check_listen(addresses); !may.ok())
     return of_key("listen", may);
   if (params.page) {
@@ -102,10 +101,12 @@ Expected<std::unique_ptr<HubWeb>> HubWeb::start(const HubWebParams& params, HubS
   return web;
 }
 
-HubWeb::HubWeb(Parts parts, HubStore& store, StationInbox& inbox, const ShapeShelf& shapes)
+HubWeb::HubWeb(Parts parts, const HubParts& hub)
     : access_(std::move(parts.access)),
       events_(EventStreamLimits{}),
-      hub_site_{store, inbox, shapes, events_, std::move(parts.facts), [this] { return server_->counts(); }} {
+      hub_site_{hub.store, hub.inbox, hub.shapes, hub.pictures, events_, std::move(parts.facts), [this] {
+                  return server_->counts();
+                }} {
   add_login_routes(router_, access_);
   add_scan_routes(router_, hub_site_);
   add_next_tray_routes(router_, hub_site_);

@@ -26,13 +26,20 @@ struct HubWebParams {
   std::string configuration_problem;          // for people; empty: there is none
 };
 
+// What is served. All of it outlives the server.
+struct HubParts {
+  HubStore& store;
+  StationInbox& inbox;
+  const ShapeShelf& shapes;
+  const PictureShelf& pictures;
+};
+
 // Served by the hub's loop: descriptor(), timeout(), run().
 class HubWeb {
  public:
   // Fails, with the key, where an address or a token file is of no use, and where others than this machine
   // would be served without a token; and where a file of the page cannot be read.
-  static Expected<std::unique_ptr<HubWeb>> start(const HubWebParams& params, HubStore& store,
-                                                 StationInbox& inbox, const ShapeShelf& shapes);
+  static Expected<std::unique_ptr<HubWeb>> start(const HubWebParams& params, const HubParts& hub);
   // Whether start() would take this configuration; opens nothing.
   static Expected<void> check(const WebConfig& config);
   HubWeb(const HubWeb&) = delete;
@@ -56,7 +63,7 @@ class HubWeb {
  private:
   struct Parts;
   static Expected<Parts> parts_of(const WebConfig& config);
-  HubWeb(Parts parts, HubStore& store, StationInbox& inbox, const ShapeShelf& shapes);
+  HubWeb(Parts parts, const HubParts& hub);
 
   Access access_;
   Router router_;

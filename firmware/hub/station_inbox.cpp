@@ -90,7 +90,8 @@ void StationInbox::take_on(Peer& peer, Message message) {
     case MessageType::state:
       return hear_state(peer, std::move(message));
     case MessageType::shape:
-      return hear_shape(peer, std::move(message));
+    case MessageType::picture:
+      return hear_appearance(peer, std::move(message));
     default:
       report("station " + peer.station + " sent " + name(message.type) + ", which a hub says");
   }
@@ -158,11 +159,17 @@ void StationInbox::hear_state(const Peer& peer, Message message) {
   if (told_.on_state) told_.on_state(peer.station);
 }
 
-void StationInbox::hear_shape(const Peer& peer, Message message) const {
-  const std::optional<ScanId> id = parse_scan_id(text_of(parsed(message.text), "id"));
+void StationInbox::hear_appearance(const Peer& peer, Message message) const {
+  const Json text = parsed(message.text);
+  const std::optional<ScanId> id = parse_scan_id(text_of(text, "id"));
   if (!id || id->station != peer.station)
-    return report("station " + peer.station + ": expected the shape of a scan of its own, found another");
-  if (told_.on_shape) told_.on_shape(*id, std::move(message.bytes));
+    return report("station " + peer.station + ": expected the " + name(message.type) +
+                  " of a scan of its own, found another");
+  if (message.type == MessageType::shape && told_.on_shape) told_.on_shape(*id, std::move(message.bytes));
+  // Only what says so is kept.
+  const bool is_kept = text.contains("keep") && text["keep"] == true;
+  if (message.type == MessageType::picture && told_.on_picture)
+    told_.on_picture(*id, std::move(message.bytes), is_kept);
 }
 
 bool StationInbox::tell(const std::string& station, const Message& message) {

@@ -39,6 +39,7 @@ struct StationListener {
   std::function<void(const ScanId& id)> on_stored;  // new in the store
   std::function<void(const std::string& station)> on_state;
   std::function<void(const ScanId& id, std::string shape)> on_shape;
+  std::function<void(const ScanId& id, std::string jpeg, bool is_kept)> on_picture;
   std::function<void(const std::string& problem)> on_problem;  // a sentence for the log
 };
 
@@ -74,7 +75,7 @@ class StationInbox {
   void keep(Peer& peer, const Message& message);
   Message store(const Peer& peer, const std::string& id, const std::string& document);
   void hear_state(const Peer& peer, Message message);
-  void hear_shape(const Peer& peer, Message message) const;
+  void hear_appearance(const Peer& peer, Message message) const;
   static bool send(Peer& peer, const Message& message);
   void forget(Peer& peer);
   void report(const std::string& problem) const;

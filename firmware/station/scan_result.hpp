@@ -5,6 +5,7 @@
 #include <optional>
 #include <string_view>
 
+#include "core/image_view/image_view.hpp"
 #include "drivers/clock.hpp"
 #include "drivers/device_status.hpp"
 #include "firmware/base/scan_id.hpp"
@@ -34,6 +35,7 @@ struct ScanResult {
   std::string_view tray;
   ScanOutcome outcome = ScanOutcome::measured;
   const Measurement* measurement = nullptr;  // set when measured or not_measurable
+  FrameView picture;                         // the first view, with a measurement; valid during the call
   DeviceFailure failure;                     // set when device_failed
   bool was_held = false;                     // the button, which cancelled the scan
   bool repeats_last = false;                 // pressed again soon after the last result, for the same tray

@@ -242,6 +242,7 @@ StationState Station::measure() {
   ScanResult result;
   result.outcome = measured ? ScanOutcome::measured : ScanOutcome::not_measurable;
   result.measurement = &measurement;
+  result.picture = first_.frame.view;
   if (stood_elsewhere) {
     result.outcome = ScanOutcome::device_failed;
     result.measurement = nullptr;

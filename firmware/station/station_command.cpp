@@ -131,6 +131,9 @@ void add_station_command(Program& program, StationCommand& command) {
   station.add_option("--hub", command.hub.socket,
                      "Hand results to the hub that listens at this socket; a real station's is in its file");
   station.add_option("--keep", command.hub.folder, "The folder where results wait for the hub");
+  station.add_action(
+      "--show-pictures", [&command] { command.hub.pictures = PicturePolicy::show; },
+      "Let the hub show the trays' photographs, from its memory; a real station's are in its file");
   station.add_option("--name", command.hub.name, "What the station is called in the hub").show_default();
   station.add_option("--last-good", command.last_good,
                      "Where a copy of the station file is kept, which counts where a later one is bad "

@@ -4,7 +4,7 @@ import socket
 import struct
 
 MAGIC = b"TGM1"
-KINDS = ["hello", "scan", "state", "shape", "stored", "set_aside", "refused"]
+KINDS = ["hello", "scan", "state", "shape", "picture", "stored", "set_aside", "refused"]
 
 
 class FakeStation:

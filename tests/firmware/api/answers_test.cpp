@@ -154,6 +154,7 @@ TEST(ApiAnswers, EachThatIsDescribedIsGiven) {
   HubRig lost;
   open.station().tell({MessageType::shape, R"({"id":"kitchen-1"})", sample_shape({"kitchen", 1}).dump()},
                       Milliseconds(1000));
+  open.station().tell({MessageType::picture, R"({"id":"kitchen-1"})", "\xFF\xD8\xFF"}, Milliseconds(1000));
   open.store(1, 100.0);
   expect_success(open);
   expect_refusals(open);

@@ -43,6 +43,20 @@ TEST(ShapeRoutes, AnswerAMeshOfWhatIsKnown) {
   EXPECT_EQ(mesh.body.size(), header + 5 * 13 + 3 * 13);
 }
 
+TEST(ShapeRoutes, ShowAPictureWhereTheStationSentOne) {
+  HubRig rig;
+  rig.store(1, 100.0);
+  const std::string jpeg = "\xFF\xD8\xFF and so on";
+  rig.station().tell({MessageType::picture, R"({"id":"kitchen-1","keep":false})", jpeg}, Milliseconds(1000));
+  rig.station().tell({MessageType::picture, R"({"id":"canteen-1","keep":true})", jpeg}, Milliseconds(1000));
+  rig.store(2, 100.0);
+  const Answer picture = rig.get("/api/v1/scans/kitchen-1/picture");
+  ASSERT_EQ(picture.status, 200) << picture.body;
+  EXPECT_EQ(picture.body, jpeg);
+  EXPECT_EQ(picture.header("Content-Type"), "image/jpeg");
+  EXPECT_EQ(rig.get("/api/v1/scans/kitchen-2/picture").json()["error"]["code"], "no_picture");
+}
+
 TEST(ShapeRoutes, TakeNoShapeOfAnotherStation) {
   HubRig rig;
   rig.store(1, 100.0);

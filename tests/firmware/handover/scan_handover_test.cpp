@@ -98,6 +98,26 @@ FakeHub::Answer tell_of(const std::string& next_tray) {
   };
 }
 
+TEST_F(Handover, ShowsAPictureOnlyWhereTheOwnerAllowsIt) {
+  const std::vector<std::uint8_t> gray(64UL * 48UL, 100);
+  result_.picture = {gray.data(), 64, 48, 64, PixelFormat::gray8};
+  const FakeHub hub(socket(), store_all);
+  for (const PicturePolicy policy : {PicturePolicy::hide, PicturePolicy::show, PicturePolicy::keep}) {
+    Run run(folder_.path(), out_, log_);
+    run.params.pictures = policy;
+    ScanHandover sink(run.printer, run.link, run.kept, log_, run.params);
+    const std::size_t before = hub.received(MessageType::picture).size();
+    EXPECT_EQ(sink.deliver(result_), Delivery::done);
+    sink.attend();
+    EXPECT_EQ(sink.deliver(result_), Delivery::done);  // everything before it has arrived
+    const std::vector<Message> pictures = hub.received(MessageType::picture);
+    ASSERT_EQ(pictures.size(), before + (policy == PicturePolicy::hide ? 0U : 1U));
+    if (policy == PicturePolicy::hide) continue;
+    EXPECT_EQ(Json::parse(pictures.back().text)["keep"], policy == PicturePolicy::keep);
+    EXPECT_EQ(pictures.back().bytes.substr(0, 3), "\xFF\xD8\xFF");
+  }
+}
+
 TEST_F(Handover, KnowsOfTheNextTrayUntilItIsMeasured) {
   const FakeHub hub(socket(), tell_of(R"({"tray":"order 4711","foods":3,"dishes":[],"valid_ms":60000})"));
   Run run(folder_.path(), out_, log_);
