@@ -23,7 +23,7 @@ say = @echo "== $$(date +%T) $(1)"
 sources = git ls-files '*.cpp' '*.hpp'
 ctest = ctest --output-on-failure --no-tests=error -j $(JOBS) -LE '^bench$$'
 
-.PHONY: configure build build-all demo test test-programs golden bench board-test board-packages board-guest arm-sysroot board-programs board-drivers board-gpiod-2 board-station arm-test test-debian13 lint lint-changed format check-format check-captures sanitize asan-ubsan tsan packages clean
+.PHONY: configure build build-all demo test test-programs golden bench board-test board-packages board-guest arm-sysroot board-programs board-drivers board-gpiod-2 board-station arm-test test-debian13 lint lint-changed format check-format check-captures sanitize asan-ubsan tsan packages page-packages clean
 
 configure: packages
 	cmake --preset release $(options)
@@ -39,7 +39,7 @@ demo: build
 	simulator/run_demo.sh build
 
 # On CI what the board and ARM need is fetched beside the build.
-test-programs:
+test-programs: page-packages
 	$(call say,building: some ten minutes on two cores when all is new)
 ifeq ($(CI),true)
 	$(MAKE) -j 3 build-all board-guest arm-sysroot
@@ -132,6 +132,10 @@ test-debian13: packages
 
 packages:
 	@config/install_packages.sh
+
+# The browser, which is larger than all others together.
+page-packages: packages
+	@config/install_packages.sh tests/page/packages.txt
 
 check-captures:
 ifeq ($(CI),true)
