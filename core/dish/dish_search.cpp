@@ -127,7 +127,7 @@ class DishSearch {
     place = best;
   }
 
-  std::span<float> steps_of(std::size_t view, int angle, int offsets) {
+  std::span<float> steps_of(std::size_t view, int angle, int offsets) const {
     const std::size_t index =
         view * static_cast<std::size_t>(params_.outline_points) + static_cast<std::size_t>(angle);
     return workspace_.steps.subspan(index * kMaxRimOffsets, static_cast<std::size_t>(offsets));
@@ -153,7 +153,8 @@ class DishSearch {
     const Eigen::Vector3f moved(static_cast<float>(shift_mm.x()), static_cast<float>(shift_mm.y()),
                                 static_cast<float>(turn_rad));
     // Rounds to the nearest by cutting off what is positive.
-    const float middle = static_cast<float>(offsets / 2) + 0.5F;
+    const int centre = offsets / 2;
+    const float middle = static_cast<float>(centre) + 0.5F;
     float sum = 0.0F;
     for (std::size_t i = 0; i < workspace_.shifts.size(); ++i) {
       const RimShift& shift = workspace_.shifts[i];

@@ -27,7 +27,7 @@ class GraySampler {
     const int y = static_cast<int>(pixel.y());
     const auto fx = static_cast<float>(pixel.x() - x);
     const auto fy = static_cast<float>(pixel.y() - y);
-    const std::uint8_t* at = frame_.data + y * frame_.stride_bytes + x * bytes_;
+    const std::uint8_t* at = frame_.data + y * frame_.stride_bytes + static_cast<std::ptrdiff_t>(x) * bytes_;
     const std::uint8_t* below = at + frame_.stride_bytes;
     const float upper = value(at) * (1.0F - fx) + value(at + bytes_) * fx;
     const float lower = value(below) * (1.0F - fx) + value(below + bytes_) * fx;
@@ -59,7 +59,10 @@ class RimReader {
     const int most = (static_cast<int>(kMaxRimOffsets) - 2 * band() - 2) / 2;
     return 2 * std::min(static_cast<int>(std::lround(reach_mm / params_.sample_mm)), most) + 1;
   }
-  double offset_mm(double index, int count) const { return (index - count / 2) * params_.sample_mm; }
+  double offset_mm(double index, int count) const {
+    const int centre = count / 2;
+    return (index - centre) * params_.sample_mm;
+  }
 
   // Fills `steps` along the normal: how much brighter (or darker, sign −1) the picture is inside than outside
   // of each offset from the rim, inward first. False where it leaves the picture.

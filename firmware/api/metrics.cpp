@@ -51,7 +51,8 @@ void add_store(Store& store, Metrics& metrics) {
 void add_stations(const HubSite& site, Metrics& metrics) {
   metrics.declare("traygauge_station_connected", "gauge", "Whether the station is connected to the hub.");
   for (const auto& [name, live] : site.inbox.stations())
-    metrics.add("traygauge_station_connected{station=\"" + name + "\"}", std::uint64_t{live.is_connected});
+    metrics.add("traygauge_station_connected{station=\"" + name + "\"}",
+                live.is_connected ? std::uint64_t{1} : std::uint64_t{0});
   metrics.declare("traygauge_station_silent_seconds", "gauge", "Since the station said something.");
   const auto now = std::chrono::steady_clock::now();
   for (const auto& [name, live] : site.inbox.stations()) {
@@ -77,7 +78,7 @@ HttpResponse answer_metrics(const HubSite& site) {
   const std::chrono::duration<double> up = std::chrono::steady_clock::now() - site.started_at;
   metrics.one("traygauge_hub_up_seconds", "gauge", "Since the hub started.", up.count());
   metrics.one("traygauge_healthy", "gauge", "1 while no part of hub and stations fails.",
-              std::uint64_t{examine_health(site).worst() != HealthState::failing});
+              examine_health(site).worst() != HealthState::failing ? std::uint64_t{1} : std::uint64_t{0});
   if (Store* const store = site.store.store()) add_store(*store, metrics);
   if (site.webhook != nullptr) add_webhook(*site.webhook, metrics);
   add_stations(site, metrics);

@@ -14,7 +14,7 @@ namespace traygauge {
 namespace {
 
 KeptResults open_kept(const HandoverConfig& config) {
-  constexpr std::uint64_t kBytesPerMib = 1024 * 1024;
+  constexpr auto kBytesPerMib = std::uint64_t{1024} * 1024;
   std::error_code error;
   std::filesystem::create_directories(config.folder, error);
   if (error) {

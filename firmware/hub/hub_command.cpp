@@ -42,7 +42,7 @@ ChosenConfig<HubFile> choose(const HubCommand& command) {
 }
 
 HubParams params_of(const HubFile& file) {
-  constexpr std::int64_t kBytesPerMib = 1024 * 1024;
+  constexpr auto kBytesPerMib = std::int64_t{1024} * 1024;
   HubParams params;
   params.socket = file.socket;
   params.web.config = file.hub.web;
