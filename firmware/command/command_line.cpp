@@ -15,6 +15,7 @@
 #include "firmware/segment/segment_command.hpp"
 #include "firmware/station/open_captures.hpp"
 #include "firmware/station/station_command.hpp"
+#include "firmware/support/support_command.hpp"
 
 namespace traygauge {
 namespace {
@@ -29,6 +30,7 @@ struct Options {
   CheckOptions check;
   ConfigCheckOptions config_check;
   RecordOptions record;
+  SupportOptions support;
 };
 
 // What follows belongs to a program of its own.
@@ -59,6 +61,7 @@ int run_command(const Program& program, const Options& options, std::ostream& ou
   }
   if (command == "hub") return run_sibling_program("traygauge-hub", {});
   if (command == "record") return run_record(options.record, stop_on_signals(), out, error);
+  if (command == "support") return run_support(options.support, out);
   return run_memory(options.memory, out);
 }
 
@@ -78,6 +81,7 @@ int run_command_line(int argument_count, const char* const* arguments, std::ostr
   add_check_command(program, options.check);
   add_config_command(program, options.config_check);
   add_record_command(program, options.record);
+  add_support_command(program, options.support);
   add_calibrate_command(program);
   add_hub_command(program);
   const auto run = [&] { return run_command(program, options, out, error); };
