@@ -106,7 +106,8 @@ void ScanHandover::report_state(std::string_view state) {
 
 void ScanHandover::report_fault(const DeviceFailure& failure) {
   printer_.report_fault(failure);
-  faults_.insert_or_assign(std::string(failure.device), failure_text(failure));
+  faults_.insert_or_assign(std::string(failure.device),
+                           Fault{name(failure.status.code()), failure_text(failure)});
   tell_state();
 }
 
@@ -150,7 +151,8 @@ void ScanHandover::tell_appearance() {
 void ScanHandover::tell_state() {
   using Json = nlohmann::json;
   Json faults = Json::array();
-  for (const auto& [device, text] : faults_) faults.push_back({{"device", device}, {"message", text}});
+  for (const auto& [device, fault] : faults_)
+    faults.push_back({{"device", device}, {"status", fault.status}, {"message", fault.message}});
   const std::optional<ToldTray> next = next_tray_.at(SteadyClock::now());
   const Json json = {
       {"state", state_},

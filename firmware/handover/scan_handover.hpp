@@ -70,14 +70,18 @@ class ScanHandover final : public ResultSink {
   NextTray next_tray_;
   std::string state_ = "starting";
   WallTime pressed_at_;
-  std::optional<ScanId> last_id_;                           // of the last result with a measurement
-  std::string picture_;                                     // of that result, where it may be shown
-  std::string shape_;                                       // of that result; empty once the hub was told
-  std::map<std::string, std::string, std::less<>> faults_;  // sentences by device
-  std::string hub_problem_;                                 // empty while the hub takes what it is given
-  std::string disk_problem_;                                // empty while results can be kept
-  bool is_full_ = false;                                    // which is what disk_problem_ tells
-  SteadyClock::time_point asked_at_;                        // of the last attempt that failed
+  std::optional<ScanId> last_id_;  // of the last result with a measurement
+  std::string picture_;            // of that result, where it may be shown
+  std::string shape_;              // of that result; empty once the hub was told
+  struct Fault {
+    std::string status;   // its DeviceCode's name
+    std::string message;  // for people
+  };
+  std::map<std::string, Fault, std::less<>> faults_;  // by device
+  std::string hub_problem_;                           // empty while the hub takes what it is given
+  std::string disk_problem_;                          // empty while results can be kept
+  bool is_full_ = false;                              // which is what disk_problem_ tells
+  SteadyClock::time_point asked_at_;                  // of the last attempt that failed
   bool was_refused_ = false;
   SteadyClock::time_point told_at_;
 };

@@ -58,7 +58,11 @@ export function station_line(station) {
 export function fault_lines(station) {
   const state = station.state ?? {};
   const faults = Array.isArray(state.faults) ? state.faults : [];
-  const lines = faults.map((fault) => element('li', { lang: 'en' }, String(fault?.message ?? fault?.device ?? '')));
+  const lines = faults.map((fault) => {
+    const device = String(fault?.device ?? '');
+    const text = word_of('fault', fault?.status, { device });
+    return text === null ? element('li', { lang: 'en' }, String(fault?.message ?? device)) : element('li', {}, text);
+  });
   for (const text of [state.disk, state.configuration]) {
     if (typeof text === 'string') lines.push(element('li', { lang: 'en' }, text));
   }

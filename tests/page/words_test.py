@@ -63,6 +63,12 @@ class WordsTest(unittest.TestCase):
             self.assertGreater(len(codes), 10)
             self.assertEqual([code for code in codes if f"{family}.{code}" not in WORDS["en"]], [], header)
 
+    def test_codes_of_the_devices_have_words(self):
+        listed = re.search(r"enum class DeviceCode[^{]*\{([^}]*)\}", (PAGE.parents[1] / "drivers/device_status.hpp").read_text())
+        codes = [code for code in re.findall(r"\w+", listed.group(1)) if code != "ok"]
+        self.assertGreater(len(codes), 10)
+        self.assertEqual([code for code in codes if f"fault.{code}" not in WORDS["en"]], [])
+
 
 if __name__ == "__main__":
     unittest.main(argv=[sys.argv[0]])

@@ -285,6 +285,7 @@ TEST_F(Handover, TellsTheHubWhatTheStationDoesAndWhatFails) {
   ASSERT_EQ(states.size(), 3U);
   EXPECT_EQ(Json::parse(states[0].text)["state"], "waiting");
   EXPECT_EQ(Json::parse(states[1].text)["faults"][0]["device"], "camera");
+  EXPECT_EQ(Json::parse(states[1].text)["faults"][0]["status"], "device_gone");
   EXPECT_TRUE(Json::parse(states[2].text)["faults"].empty());
 }
 
