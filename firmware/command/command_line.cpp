@@ -15,6 +15,8 @@
 #include "firmware/segment/segment_command.hpp"
 #include "firmware/station/open_captures.hpp"
 #include "firmware/station/station_command.hpp"
+#include "firmware/support/backup_command.hpp"
+#include "firmware/support/restore_command.hpp"
 #include "firmware/support/support_command.hpp"
 
 namespace traygauge {
@@ -31,6 +33,8 @@ struct Options {
   ConfigCheckOptions config_check;
   RecordOptions record;
   SupportOptions support;
+  BackupOptions backup;
+  RestoreOptions restore;
 };
 
 // What follows belongs to a program of its own.
@@ -62,6 +66,8 @@ int run_command(const Program& program, const Options& options, std::ostream& ou
   if (command == "hub") return run_sibling_program("traygauge-hub", {});
   if (command == "record") return run_record(options.record, stop_on_signals(), out, error);
   if (command == "support") return run_support(options.support, out);
+  if (command == "backup") return run_backup(options.backup, out);
+  if (command == "restore") return run_restore(options.restore, out);
   return run_memory(options.memory, out);
 }
 
@@ -82,6 +88,8 @@ int run_command_line(int argument_count, const char* const* arguments, std::ostr
   add_config_command(program, options.config_check);
   add_record_command(program, options.record);
   add_support_command(program, options.support);
+  add_backup_command(program, options.backup);
+  add_restore_command(program, options.restore);
   add_calibrate_command(program);
   add_hub_command(program);
   const auto run = [&] { return run_command(program, options, out, error); };

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdint>
 #include <memory>
 #include <set>
 
@@ -29,7 +28,7 @@ la_ssize_t append_packed(archive* /*of*/, void* packed, const void* bytes, std::
   return static_cast<la_ssize_t>(count);
 }
 
-bool write_entry(archive* writer, const ArchivedFile& file, long long unix_s) {
+bool write_entry(archive* writer, const ArchivedFile& file, std::int64_t unix_s) {
   const Entry entry(archive_entry_new(), archive_entry_free);
   archive_entry_set_pathname(entry.get(), file.name.c_str());
   archive_entry_set_size(entry.get(), static_cast<la_int64_t>(file.content.size()));
@@ -43,7 +42,7 @@ bool write_entry(archive* writer, const ArchivedFile& file, long long unix_s) {
 
 // Of gzip (RFC 1952), which libarchive does not check.
 std::uint32_t gzip_crc32(std::string_view bytes) {
-  static const auto kTable = [] {
+  static const auto table_of_bytes = [] {
     std::array<std::uint32_t, 256> table{};
     for (std::uint32_t i = 0; i < table.size(); ++i) {
       std::uint32_t value = i;
@@ -53,7 +52,8 @@ std::uint32_t gzip_crc32(std::string_view bytes) {
     return table;
   }();
   std::uint32_t crc = 0xffffffffU;
-  for (const char byte : bytes) crc = kTable[(crc ^ static_cast<std::uint8_t>(byte)) & 0xffU] ^ (crc >> 8U);
+  for (const char byte : bytes)
+    crc = table_of_bytes[(crc ^ static_cast<std::uint8_t>(byte)) & 0xffU] ^ (crc >> 8U);
   return ~crc;
 }
 
@@ -123,12 +123,13 @@ bool is_archive_name(std::string_view name) {
   return true;
 }
 
-Expected<std::string> pack_files(const std::vector<ArchivedFile>& files, long long unix_s) {
+Expected<std::string> pack_files(const std::vector<ArchivedFile>& files, std::int64_t unix_s) {
   std::string packed;
   const Writer writer(archive_write_new(), archive_write_free);
   archive_write_add_filter_gzip(writer.get());
   archive_write_set_filter_option(writer.get(), "gzip", "timestamp", nullptr);
   archive_write_set_format_gnutar(writer.get());
+  archive_write_set_bytes_in_last_block(writer.get(), 1);  // the file ends where gzip's sum ends
   if (archive_write_open2(writer.get(), &packed, nullptr, append_packed, nullptr, nullptr) != ARCHIVE_OK)
     return archive_failure(writer.get(), "it cannot be packed");
   for (const ArchivedFile& file : files) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -24,7 +25,7 @@ struct ArchivedFile {
 bool is_archive_name(std::string_view name);
 
 // The bytes of a tar.gz. The same files give the same bytes, but for `unix_s`, the time that each file gets.
-Expected<std::string> pack_files(const std::vector<ArchivedFile>& files, long long unix_s);
+Expected<std::string> pack_files(const std::vector<ArchivedFile>& files, std::int64_t unix_s);
 
 // Everything or nothing: refuses an archive that is damaged anywhere, holds anything but regular files with
 // names as above, one of them twice, or more than the limits.

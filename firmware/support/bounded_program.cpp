@@ -31,6 +31,7 @@ std::chrono::milliseconds time_until(SteadyClock::time_point deadline) {
 int start(const std::vector<std::string>& arguments, int output, pid_t& child) {
   std::vector<std::string> texts = arguments;
   std::vector<char*> pointers;
+  pointers.reserve(texts.size() + 1);
   for (std::string& text : texts) pointers.push_back(text.data());
   pointers.push_back(nullptr);
   posix_spawn_file_actions_t actions;

@@ -72,6 +72,15 @@ bool give_name(const std::filesystem::path& draft, const std::filesystem::path& 
   return ::rename(draft.c_str(), file.c_str()) == 0;
 }
 
+// The folders that get a new folder, because `folder` is missing.
+void add_missing_parents(std::filesystem::path folder, std::set<std::filesystem::path>& parents) {
+  std::error_code ignored;
+  while (!std::filesystem::exists(folder, ignored)) {
+    parents.insert(folder_of_file(folder));
+    folder = folder_of_file(folder);
+  }
+}
+
 bool sync_names(const std::filesystem::path& folder) {
   const FileDescriptor opened(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
   return opened.is_open() && ::fsync(opened.number()) == 0;
@@ -81,11 +90,12 @@ bool sync_names(const std::filesystem::path& folder) {
 
 Expected<void> write_files(const std::vector<FileToWrite>& files, IfThere if_there) {
   Expected<void> result;
+  std::set<std::filesystem::path> folders;
   for (const FileToWrite& file : files) {
+    add_missing_parents(folder_of_file(file.path), folders);
     result = write_draft(file);
     if (!result.ok()) break;
   }
-  std::set<std::filesystem::path> folders;
   for (const FileToWrite& file : files) {
     if (!result.ok()) break;
     if (!give_name(draft_of(file.path), file.path, if_there)) result = unwritable(file.path, errno);

@@ -18,8 +18,8 @@ struct FileToWrite {
 enum class IfThere { refuse, replace };
 
 // All files are written under temporary names and synced before the first one gets its own name, in the order
-// given. Folders are made where they are missing. Where a file cannot be written, nothing stays but what had
-// its name before, and folders.
+// given. Folders are made where they are missing. Where one cannot be written, for want of space or rights,
+// none gets its name.
 Expected<void> write_files(const std::vector<FileToWrite>& files, IfThere if_there);
 
 // Whether an archive may be written there: in a folder that is there, in place of an older archive or of

@@ -71,7 +71,7 @@ std::optional<SocketAddress> local_address(const std::string& listen) {
 }
 
 // Waits until the socket can be read or written.
-bool wait_for(int descriptor, short events, SteadyClock::time_point deadline) {
+bool wait_for(int descriptor, decltype(pollfd::events) events, SteadyClock::time_point deadline) {
   for (;;) {
     const auto left = std::chrono::ceil<std::chrono::milliseconds>(deadline - SteadyClock::now());
     if (left.count() <= 0) return false;

@@ -56,8 +56,8 @@ bool is_shown_key(const std::string& key) {
 
 void flatten(const nlohmann::json& json, const std::string& key, std::vector<StationValue>& values) {
   if (json.is_object()) {
-    for (const auto& [name, value] : json.items())
-      flatten(value, key.empty() ? name : key + "." + name, values);
+    const std::string table = key.empty() ? key : key + ".";
+    for (const auto& [name, value] : json.items()) flatten(value, table + name, values);
   } else if (json.is_array()) {
     for (std::size_t i = 0; i < json.size(); ++i)
       flatten(json[i], key + "[" + std::to_string(i) + "]", values);
