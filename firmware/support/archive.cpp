@@ -165,6 +165,11 @@ Expected<std::vector<ArchivedFile>> unpack_files(std::string_view bytes) {
     files.push_back(std::move(file));
   }
   if (result != ARCHIVE_EOF) return archive_failure(reader.get(), "it is damaged");
+  for (const std::string& name : names) {
+    for (std::size_t slash = name.find('/'); slash != std::string::npos; slash = name.find('/', slash + 1)) {
+      if (names.contains(name.substr(0, slash))) return Failure{name + " lies in what is a file"};
+    }
+  }
   return files;
 }
 

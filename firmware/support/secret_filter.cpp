@@ -59,14 +59,11 @@ std::string json_escaped(std::string_view text) {
   return escaped;
 }
 
-std::string replace_all(const std::string& text, const std::string& form) {
-  std::string result;
-  std::size_t begin = 0;
-  for (std::size_t at = text.find(form); at != std::string::npos; at = text.find(form, begin)) {
-    result.append(text, begin, at - begin).append(kRemoved);
-    begin = at + form.size();
-  }
-  return begin == 0 ? text : result.append(text, begin);
+std::uint32_t first_bytes(std::string_view text) {
+  std::uint32_t bytes = 0;
+  for (std::size_t i = 0; i < kMinSecretCharacters; ++i)
+    bytes = (bytes << 8U) | static_cast<std::uint8_t>(text[i]);
+  return bytes;
 }
 
 // Of what stands behind "://": host and port.
@@ -167,12 +164,34 @@ std::string without_announced(const std::string& text) {
 }  // namespace
 
 void SecretFilter::add_form(std::string form) {
-  if (form.size() < kMinSecretCharacters || std::find(forms_.begin(), forms_.end(), form) != forms_.end())
-    return;
-  // The longest first: of a secret that is a part of another one, no rest stays.
-  const auto place = std::find_if(forms_.begin(), forms_.end(),
-                                  [&form](const std::string& other) { return other.size() < form.size(); });
-  forms_.insert(place, std::move(form));
+  if (form.size() < kMinSecretCharacters) return;
+  std::vector<std::string>& forms = forms_[first_bytes(form)];
+  if (std::find(forms.begin(), forms.end(), form) == forms.end()) forms.push_back(std::move(form));
+}
+
+std::size_t SecretFilter::longest_form_at(std::string_view text, std::size_t at) const {
+  if (text.size() - at < kMinSecretCharacters) return 0;
+  const auto forms = forms_.find(first_bytes(text.substr(at)));
+  if (forms == forms_.end()) return 0;
+  std::size_t longest = 0;
+  for (const std::string& form : forms->second) {
+    if (form.size() > longest && text.substr(at).starts_with(form)) longest = form.size();
+  }
+  return longest;
+}
+
+// Secrets may overlap: what lies within one of them goes.
+std::string SecretFilter::without_forms(std::string_view text) const {
+  std::string result;
+  std::size_t removed_until = 0;
+  for (std::size_t at = 0; at < text.size(); ++at) {
+    if (const std::size_t length = longest_form_at(text, at); length > 0) {
+      if (at >= removed_until) result += kRemoved;
+      removed_until = std::max(removed_until, at + length);
+    }
+    if (at >= removed_until) result += text[at];
+  }
+  return result;
 }
 
 void SecretFilter::add(std::string_view secret) {
@@ -235,9 +254,7 @@ void SecretFilter::add_address(std::string_view address) {
 }
 
 std::string SecretFilter::clean(const std::string& text) const {
-  std::string result = text;
-  for (const std::string& form : forms_) result = replace_all(result, form);
-  return without_announced(without_address_parts(result));
+  return without_announced(without_address_parts(without_forms(text)));
 }
 
 }  // namespace traygauge

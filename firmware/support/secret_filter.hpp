@@ -1,8 +1,11 @@
 // Takes secrets out of texts that somebody sends to others.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <string>
 #include <string_view>
+#include <unordered_map>
 #include <vector>
 
 namespace traygauge {
@@ -26,8 +29,10 @@ class SecretFilter {
 
  private:
   void add_form(std::string form);
+  std::size_t longest_form_at(std::string_view text, std::size_t at) const;  // 0: none stands there
+  std::string without_forms(std::string_view text) const;
 
-  std::vector<std::string> forms_;
+  std::unordered_map<std::uint32_t, std::vector<std::string>> forms_;  // by their first four bytes
 };
 
 }  // namespace traygauge

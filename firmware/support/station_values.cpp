@@ -81,7 +81,7 @@ bool is_plain(std::string_view text, std::string_view more) {
   });
 }
 
-// The texts in quotes, or the one number or truth; a text without its second quote is left out.
+// The texts in quotes, or the one number or truth.
 void scan_value(std::string_view rest, const std::string& key, int line, std::vector<StationValue>& values) {
   constexpr std::size_t kMaxNumberCharacters = 24;
   if (rest.find_first_of("\"'") == std::string_view::npos) {
@@ -95,7 +95,13 @@ void scan_value(std::string_view rest, const std::string& key, int line, std::ve
   for (std::size_t at = 0; at < rest.size() && rest[at] != '#'; ++at) {
     if (rest[at] != '"' && rest[at] != '\'') continue;
     const std::size_t end = rest.find(rest[at], at + 1);
-    if (end == std::string_view::npos) return;
+    if (end == std::string_view::npos) {
+      // What may be secret has to be known, also where its second quote is missing.
+      const bool may_be_secret = is_secret_key(key) || last_part(key) == "webhook";
+      const std::string_view text = without_blanks(rest.substr(at + 1));
+      if (may_be_secret && !text.empty()) values.push_back({key, std::string(text), true, line});
+      return;
+    }
     if (end > at + 1) values.push_back({key, std::string(rest.substr(at + 1, end - at - 1)), true, line});
     at = end;
   }
@@ -230,7 +236,7 @@ std::vector<std::filesystem::path> add_station_secrets(const StationValues& stat
   }
   std::vector<std::filesystem::path> unread;
   for (const std::filesystem::path& file : files) {
-    constexpr std::size_t kMaxSecretFileBytes = 1024UL * 1024;
+    constexpr std::size_t kMaxSecretFileBytes = 64UL * 1024;  // as the hub has it
     std::error_code hidden;  // also where it is in a folder that is closed to this user
     if (!std::filesystem::exists(file, hidden) && !hidden) continue;
     const Expected<std::string> content = read_file(file, kMaxSecretFileBytes);
