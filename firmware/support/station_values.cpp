@@ -4,6 +4,7 @@
 #include <array>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <string_view>
 
 #include "firmware/base/toml_text.hpp"
@@ -159,14 +160,14 @@ std::string shown_value(const StationValues& station, const StationValue& value)
 }
 
 // A station file that is absent or half written names them no more.
-std::vector<std::filesystem::path> secret_files_beside(const StationValues& station) {
-  std::vector<std::filesystem::path> files;
+std::set<std::filesystem::path> secret_files_beside(const StationValues& station) {
+  std::set<std::filesystem::path> files;
   std::error_code ignored;
   for (const auto& entry : std::filesystem::directory_iterator(station.folder(), ignored)) {
     const std::string name = entry.path().filename().string();
     const bool is_secret =
         name.find("token") != std::string::npos || name.find("secret") != std::string::npos;
-    if (is_secret && entry.is_regular_file(ignored)) files.push_back(entry.path());
+    if (is_secret && entry.is_regular_file(ignored)) files.insert(entry.path());
   }
   return files;
 }
@@ -228,11 +229,11 @@ std::string show_station_values(const StationValues& station) {
 }
 
 std::vector<std::filesystem::path> add_station_secrets(const StationValues& station, SecretFilter& filter) {
-  std::vector<std::filesystem::path> files = secret_files_beside(station);
+  std::set<std::filesystem::path> files = secret_files_beside(station);
   for (const StationValue& value : station.values) {
     if (last_part(value.key) == "webhook") filter.add_address(value.text);
     if (!may_show(station, value)) filter.add(value.text);
-    if (value.is_text && is_secret_key(value.key)) files.push_back(station.path_of(value));
+    if (value.is_text && is_secret_key(value.key)) files.insert(station.path_of(value));
   }
   std::vector<std::filesystem::path> unread;
   for (const std::filesystem::path& file : files) {

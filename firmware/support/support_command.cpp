@@ -116,9 +116,12 @@ int run_support(const SupportOptions& options, std::ostream& out) {
   if (!written.ok()) throw UsageError(written.failure());
   out << options.out.string() << ": wrote " << files.size() << " texts, "
       << (packed->size() + kBytesPerKb - 1) / kBytesPerKb
-      << " kB, without pictures and without the secrets that the station file names; before you send it, "
-         "unpack it "
-         "and read log_station.txt, log_hub.txt and station_file.txt for what nobody else may see."
+      << " kB, without pictures and without the secrets that the station file names; ";
+  if (!unread.empty())
+    out << "logs are left out, because this user may not read files of secrets (try as root); ";
+  out << "before you send it, unpack it and read log_station.txt, log_hub.txt and station_file.txt for what "
+         "nobody "
+         "else may see."
       << std::endl;
   return kExitMeasured;
 }

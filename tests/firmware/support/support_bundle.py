@@ -3,6 +3,7 @@ import base64
 import http.server
 import os
 import pathlib
+import re
 import socket
 import subprocess
 import sys
@@ -119,6 +120,16 @@ def main():
         checks.expect(len(Health.heads) == 1 and Health.heads[0].startswith('/health') and
                       'uthorization' not in Health.heads[0], f'the hub was asked so: {Health.heads}')
 
+        # Every text key that people know is shown, but for secrets.
+        example = (capture.parent.parent.parent / 'config' / 'station.toml').read_text()
+        keys = sorted(set(re.findall(r'^(?:# )?([a-z_]+) = \[?"', example, re.MULTILINE)))
+        checks.expect(len(keys) > 40, f'found few keys: {keys}')
+        site.write(station, '[all]\n' + ''.join(f'{key} = "as/{key}/is"\n' for key in keys))
+        texts = bundle_of(checks, folder, station, {'PATH': '/nowhere'})
+        removed = re.findall(r'all[.]([a-z_]+) = "[(]removed[)]"', texts['station_file'])
+        checks.expect(set(removed) == {key for key in keys if 'token' in key or 'secret' in key} | {'webhook'},
+                      f'removed: {removed}; is a new key missing in kShownKeys of station_values.cpp?')
+
         # A secret in place of a path, and keys that do not exist.
         site.make_station(folder / 'site', capture, f'{site.SECRET_LINES}manage_tokens = "{site.INLINE_SECRET}"\n')
         texts = bundle_of(checks, folder, station, environment)
@@ -146,7 +157,7 @@ def main():
         site.make_station(folder / 'site', capture)
         (folder / 'site' / 'view.tokens').unlink()
         (folder / 'site' / 'view.tokens').mkdir()
-        texts = bundle_of(checks, folder, station, environment)
+        texts = bundle_of(checks, folder, station, environment, 'logs are left out')
         checks.expect('This is left out' in texts['log_hub'], texts['log_hub'])
 
         # A log without end.
