@@ -19,56 +19,13 @@ namespace {
 constexpr std::size_t kMaxStationBytes = std::size_t{1} << 16U;
 constexpr std::string_view kBlanks = " \t\r";
 
-// Keys whose texts hold no secret. A text of any other key is not shown.
-constexpr auto kShownKeys = std::to_array<std::string_view>({"on_bad_config",
-                                                             "device",
-                                                             "format",
-                                                             "exposure_us",
-                                                             "gain",
-                                                             "white_balance_k",
-                                                             "focus",
-                                                             "lens_changed_on",
-                                                             "line",
-                                                             "bias",
-                                                             "lines",
-                                                             "ready",
-                                                             "hold_still",
-                                                             "busy",
-                                                             "done",
-                                                             "try_again",
-                                                             "fault",
-                                                             "move_on",
-                                                             "far_enough",
-                                                             "too_far",
-                                                             "kind",
-                                                             "step",
-                                                             "direction",
-                                                             "enable",
-                                                             "home",
-                                                             "home_bias",
-                                                             "inverted",
-                                                             "camera",
-                                                             "calibrated_on",
-                                                             "pattern",
-                                                             "labels",
-                                                             "dishes",
-                                                             "name",
-                                                             "socket",
-                                                             "folder",
-                                                             "store",
-                                                             "listen",
-                                                             "view_tokens",
-                                                             "kiosk_tokens",
-                                                             "manage_tokens",
-                                                             "host_names",
-                                                             "pictures",
-                                                             "trusted_proxies",
-                                                             "base_path",
-                                                             "webhook",
-                                                             "webhook_secret",
-                                                             "webhook_ca",
-                                                             "site_name",
-                                                             "time_zone"});
+// Keys whose texts hold no secret, a space around each. A text of any other key is not shown.
+constexpr std::string_view kShownKeys =
+    " on_bad_config device format exposure_us gain white_balance_k focus lens_changed_on line bias "
+    "lines ready hold_still busy done try_again fault move_on far_enough too_far kind step direction "
+    "enable home home_bias inverted camera calibrated_on pattern labels dishes name socket folder "
+    "store listen view_tokens kiosk_tokens manage_tokens host_names pictures trusted_proxies "
+    "base_path webhook webhook_secret webhook_ca site_name time_zone ";
 
 // Of "hub.listen[0]": "listen".
 std::string_view last_part(std::string_view key) {
@@ -77,7 +34,9 @@ std::string_view last_part(std::string_view key) {
 }
 
 bool is_shown_key(const std::string& key) {
-  return std::find(kShownKeys.begin(), kShownKeys.end(), last_part(key)) != kShownKeys.end();
+  const std::string_view name = last_part(key);
+  return name.find(' ') == std::string_view::npos &&
+         kShownKeys.find(" " + std::string(name) + " ") != std::string_view::npos;
 }
 
 void flatten(const nlohmann::json& json, const std::string& key, std::vector<StationValue>& values) {
