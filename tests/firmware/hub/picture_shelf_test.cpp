@@ -17,7 +17,8 @@ class Pictures : public ::testing::Test {
  protected:
   static ScanId id(std::uint64_t number) { return {"kitchen", number}; }
   static std::string jpeg(std::size_t bytes = 100, char filling = 'x') {
-    return "\xFF\xD8\xFF" + std::string(bytes - 3, filling);
+    std::string bytes_of_one(bytes, filling);
+    return bytes_of_one.replace(0, 3, "\xFF\xD8\xFF");
   }
   fs::path folder() const { return folder_.path() / "pictures"; }
   PictureShelfParams params() const { return {.folder = folder()}; }
