@@ -112,7 +112,10 @@ Expected<void> check_entry(archive_entry* entry, std::size_t bytes_before, std::
 bool is_archive_name(std::string_view name) {
   constexpr std::size_t kMaxNameBytes = 255;
   if (name.empty() || name.size() > kMaxNameBytes) return false;
-  const auto is_control = [](char c) { return (c >= '\0' && c < ' ') || c == '\x7f'; };
+  const auto is_control = [](char c) {
+    const auto code = static_cast<unsigned char>(c);
+    return code < 0x20 || code == 0x7F;
+  };
   if (std::any_of(name.begin(), name.end(), is_control)) return false;
   for (std::size_t begin = 0; begin <= name.size();) {
     const std::size_t end = std::min(name.find('/', begin), name.size());

@@ -1,5 +1,5 @@
-// Copies a capture and plants a pattern in the first row of each view: plant_pattern CAPTURE OUT. Prints the pattern in
-// hexadecimal numbers. Grey pixels, so that it is the same in RGB and BGR.
+// Copies a capture and plants a pattern in the first row of each view: plant_pattern CAPTURE OUT. Prints the
+// pattern in hexadecimal numbers. Grey pixels, so that it is the same in RGB and BGR.
 #include <filesystem>
 #include <fstream>
 #include <iostream>
@@ -27,7 +27,8 @@ int main(int argument_count, char** arguments) {
     } else if (file.extension() == ".jpg") {
       cv::Mat picture = cv::imread(file.string());
       for (std::size_t x = 0; x < pattern.size(); ++x)
-        picture.at<cv::Vec3b>(0, static_cast<int>(x)) = cv::Vec3b::all(static_cast<unsigned char>(pattern[x]));
+        picture.at<cv::Vec3b>(0, static_cast<int>(x)) =
+            cv::Vec3b::all(static_cast<unsigned char>(pattern[x]));
       cv::imwrite((out / file.stem()).string() + ".png", picture);
     } else {
       std::filesystem::copy_file(file, out / file.filename());
