@@ -1,5 +1,9 @@
 #include <algorithm>
+#include <array>
 #include <nlohmann/json.hpp>
+#include <string>
+#include <string_view>
+#include <vector>
 
 #include "firmware/api/hub_site.hpp"
 #include "firmware/api/scan_answer.hpp"

@@ -1,6 +1,7 @@
 #include "firmware/handover/cell_outlines.hpp"
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <utility>
 

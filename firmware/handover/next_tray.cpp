@@ -1,6 +1,7 @@
 #include "firmware/handover/next_tray.hpp"
 
 #include <algorithm>
+#include <cstdint>
 #include <nlohmann/json.hpp>
 
 namespace traygauge {

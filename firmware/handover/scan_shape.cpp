@@ -1,7 +1,10 @@
 #include "firmware/handover/scan_shape.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <span>
+#include <utility>
 
 #include "core/labels/label_regions.hpp"
 #include "firmware/handover/cell_outlines.hpp"
