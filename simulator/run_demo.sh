@@ -31,7 +31,8 @@ until grep -q http "$folder/hub.log"; do
   }
   sleep 0.1
 done
-sed -n 's/^The page is at \(.*\)\.$/Open in a browser: \1/p' "$folder/hub.log"
+# A program away from its checkout, and not installed, has no page.
+sed -n -e 's/^The page is at \(.*\)\.$/Open in a browser: \1/p' -e '/^No page/p' "$folder/hub.log"
 
 if [ -n "${DEMO_SCANS:-}" ]; then end_after="--scans $DEMO_SCANS"; else end_after=--repeat; fi
 # shellcheck disable=SC2086 # an option and its value

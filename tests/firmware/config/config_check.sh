@@ -1,10 +1,12 @@
 #!/bin/sh
 # Tries `traygauge config check` and --last-good with the programs as they ship. Usage: config_check.sh BUILD_FOLDER CAPTURE
+# DISHES
 set -eu
 program=$1/traygauge
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 cp "$2/card.png" "$folder"
+cp -r "$3" "$folder"
 file=$folder/station.toml
 status=0
 
