@@ -90,8 +90,7 @@ StationListener Hub::listener_for_inbox() {
     if (web_ != nullptr) web_->tell_shape(id);
   };
   listener.on_picture = [this](const ScanId& id, std::string jpeg, bool is_kept) {
-    const Expected<void> put =
-        is_kept ? pictures_.keep(id, std::move(jpeg)) : pictures_.show(id, std::move(jpeg));
+    const Expected<void> put = is_kept ? pictures_.keep(id, jpeg) : pictures_.show(id, std::move(jpeg));
     if (!put.ok()) log_problem(put.failure());
   };
   listener.on_problem = [this](const std::string& problem) { log_problem(problem); };

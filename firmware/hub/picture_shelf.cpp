@@ -31,18 +31,12 @@ struct KeptFile {
 
 Expected<void> PictureShelf::show(const ScanId& id, std::string jpeg) {
   if (!is_jpeg(jpeg)) return Failure{"the picture of scan " + scan_id_text(id) + ": expected a JPEG"};
-  bytes_ += jpeg.size();
-  pictures_.push_back({id, std::make_shared<const std::string>(std::move(jpeg))});
-  while (pictures_.size() > params_.max_in_memory ||
-         (bytes_ > params_.max_bytes_in_memory && pictures_.size() > 1)) {
-    bytes_ -= pictures_.front().jpeg->size();
-    pictures_.pop_front();
-  }
+  pictures_.put(id, std::move(jpeg));
   return {};
 }
 
-Expected<void> PictureShelf::keep(const ScanId& id, std::string jpeg) {
-  if (Expected<void> shown = show(id, std::move(jpeg)); !shown.ok()) return shown;
+Expected<void> PictureShelf::keep(const ScanId& id, const std::string& jpeg) {
+  if (Expected<void> shown = show(id, jpeg); !shown.ok()) return shown;
   std::error_code error;
   fs::create_directories(params_.folder, error);
   // The owner's and the hub's alone.
@@ -51,7 +45,7 @@ Expected<void> PictureShelf::keep(const ScanId& id, std::string jpeg) {
                     error);
   const fs::path path = params_.folder / file_name(id);
   std::ofstream file(path, std::ios::binary);
-  file << *pictures_.back().jpeg;
+  file << jpeg;
   file.close();
   if (file.good()) return {};
   fs::remove(path, error);
@@ -59,10 +53,7 @@ Expected<void> PictureShelf::keep(const ScanId& id, std::string jpeg) {
 }
 
 std::shared_ptr<const std::string> PictureShelf::find(const ScanId& id) const {
-  // A later picture of the same scan counts.
-  const auto found =
-      std::find_if(pictures_.rbegin(), pictures_.rend(), [&](const Picture& one) { return one.id == id; });
-  if (found != pictures_.rend()) return found->jpeg;
+  if (std::shared_ptr<const std::string> shown = pictures_.find(id)) return shown;
   std::ifstream file(params_.folder / file_name(id), std::ios::binary);
   if (!file) return nullptr;
   std::string jpeg{std::istreambuf_iterator<char>(file), {}};

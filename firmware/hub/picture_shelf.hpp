@@ -3,14 +3,15 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <deque>
 #include <filesystem>
 #include <functional>
 #include <memory>
 #include <string>
+#include <utility>
 
 #include "firmware/base/expected.hpp"
 #include "firmware/base/scan_id.hpp"
+#include "firmware/hub/recent_bodies.hpp"
 
 namespace traygauge {
 
@@ -25,26 +26,21 @@ struct PictureShelfParams {
 // Used by one thread.
 class PictureShelf {
  public:
-  explicit PictureShelf(PictureShelfParams params) : params_(std::move(params)) {}
+  explicit PictureShelf(PictureShelfParams params)
+      : params_(std::move(params)), pictures_({params_.max_in_memory, params_.max_bytes_in_memory}) {}
 
   // Refuses what is no JPEG.
   Expected<void> show(const ScanId& id, std::string jpeg);
   // On disk, too, as ID.jpg.
-  Expected<void> keep(const ScanId& id, std::string jpeg);
+  Expected<void> keep(const ScanId& id, const std::string& jpeg);
   // Null where none is shown or kept.
   std::shared_ptr<const std::string> find(const ScanId& id) const;
   // Deletes the files of scans that are not stored any more, and the oldest where there is too much.
   void tidy(const std::function<bool(const ScanId&)>& is_stored) const;
 
  private:
-  struct Picture {
-    ScanId id;
-    std::shared_ptr<const std::string> jpeg;
-  };
-
   PictureShelfParams params_;
-  std::deque<Picture> pictures_;  // the newest last
-  std::size_t bytes_ = 0;
+  RecentBodies pictures_;
 };
 
 }  // namespace traygauge

@@ -2,12 +2,12 @@
 #pragma once
 
 #include <cstddef>
-#include <deque>
 #include <memory>
 #include <string>
 
 #include "firmware/base/expected.hpp"
 #include "firmware/base/scan_id.hpp"
+#include "firmware/hub/recent_bodies.hpp"
 
 namespace traygauge {
 
@@ -21,23 +21,16 @@ struct ShapeShelfLimits {
 // Used by one thread.
 class ShapeShelf {
  public:
-  explicit ShapeShelf(ShapeShelfLimits limits = {}) : limits_(limits) {}
+  explicit ShapeShelf(ShapeShelfLimits limits = {}) : shapes_({limits.max_shapes, limits.max_bytes}) {}
 
   // Takes the place of an earlier one of that scan; the oldest leave. Fails, and keeps nothing, where the
   // text is not a shape of that scan.
   Expected<void> put(const ScanId& id, std::string json);
   // Null where none is kept.
-  std::shared_ptr<const std::string> find(const ScanId& id) const;
+  std::shared_ptr<const std::string> find(const ScanId& id) const { return shapes_.find(id); }
 
  private:
-  struct Shape {
-    ScanId id;
-    std::shared_ptr<const std::string> json;
-  };
-
-  ShapeShelfLimits limits_;
-  std::deque<Shape> shapes_;  // the newest last
-  std::size_t bytes_ = 0;
+  RecentBodies shapes_;
 };
 
 }  // namespace traygauge
