@@ -16,10 +16,6 @@ Json or_null(const std::optional<Value>& value) {
   return value ? Json(*value) : Json();
 }
 
-Json text_or_null(const std::string& text) {
-  return text.empty() ? Json() : Json(text);
-}
-
 Json id_or_null(const std::optional<ScanId>& id) {
   return id ? Json(scan_id_text(*id)) : Json();
 }
@@ -44,6 +40,10 @@ HttpResponse no_such_scan(const std::string& id) {
 }
 
 }  // namespace
+
+Json text_or_null(const std::string& text) {
+  return text.empty() ? Json() : Json(text);
+}
 
 Expected<Json> scan_answer(Store& store, const StoredScan& scan) {
   const Expected<CorrectedScan> corrected = store.corrections().corrected(scan);

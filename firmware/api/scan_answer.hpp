@@ -20,6 +20,9 @@ HttpResponse answer_scan(Store& store, const StoredScan& scan, int status = 200)
 HttpResponse with_scan(HubStore& hub, const HttpRequest& request,
                        const std::function<HttpResponse(Store&, const StoredScan&)>& use);
 
+// Null for an empty text.
+nlohmann::ordered_json text_or_null(const std::string& text);
+
 // In one line; what is not UTF-8 is replaced.
 HttpResponse json_answer(const nlohmann::ordered_json& json, int status = 200);
 

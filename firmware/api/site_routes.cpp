@@ -6,17 +6,11 @@
 namespace traygauge {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
-Json text_or_none(const std::string& text) {
-  return text.empty() ? Json() : Json(text);
-}
-
 HttpResponse answer_site(const SiteFacts& facts) {
-  return json_answer({{"name", text_or_none(facts.name)},
-                      {"time_zone", text_or_none(facts.time_zone)},
+  return json_answer({{"name", text_or_null(facts.name)},
+                      {"time_zone", text_or_null(facts.time_zone)},
                       {"program", facts.program_version},
-                      {"configuration_problem", text_or_none(facts.configuration_problem)}});
+                      {"configuration_problem", text_or_null(facts.configuration_problem)}});
 }
 
 }  // namespace
