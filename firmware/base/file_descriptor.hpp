@@ -1,6 +1,7 @@
 // What the kernel opened for this process.
 #pragma once
 
+#include <string_view>
 #include <utility>
 
 namespace traygauge {
@@ -23,5 +24,8 @@ class FileDescriptor {
  private:
   int number_ = -1;
 };
+
+// All bytes, however many the kernel takes at once. False after a failure, with errno.
+bool write_all(int descriptor, std::string_view bytes);
 
 }  // namespace traygauge

@@ -1,11 +1,9 @@
 #include "firmware/config/last_good.hpp"
 
 #include <fcntl.h>
-#include <sys/types.h>
 #include <unistd.h>
 
 #include <cerrno>
-#include <cstddef>
 #include <cstdio>
 #include <cstring>
 #include <fstream>
@@ -26,13 +24,7 @@ std::string content_of(const std::filesystem::path& file) {
 bool write_durably(const std::filesystem::path& file, const std::string& content) {
   const FileDescriptor written(::open(file.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0600));
   if (!written.is_open()) return false;
-  std::size_t done = 0;
-  while (done < content.size()) {
-    const ssize_t count = ::write(written.number(), content.data() + done, content.size() - done);
-    if (count < 0 && errno != EINTR) return false;
-    if (count > 0) done += static_cast<std::size_t>(count);
-  }
-  return ::fsync(written.number()) == 0;
+  return write_all(written.number(), content) && ::fsync(written.number()) == 0;
 }
 
 bool sync_folder(const std::filesystem::path& folder) {

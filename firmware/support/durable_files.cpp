@@ -33,16 +33,6 @@ std::filesystem::path draft_of(const std::filesystem::path& file) {
   return folder_of_file(file) / ("." + file.filename().string() + "." + std::to_string(::getpid()) + ".new");
 }
 
-bool write_all(int descriptor, const std::string& content) {
-  std::size_t done = 0;
-  while (done < content.size()) {
-    const ssize_t count = ::write(descriptor, content.data() + done, content.size() - done);
-    if (count < 0 && errno != EINTR) return false;
-    if (count > 0) done += static_cast<std::size_t>(count);
-  }
-  return true;
-}
-
 Expected<void> write_draft(const FileToWrite& file) {
   std::error_code error;
   std::filesystem::create_directories(folder_of_file(file.path), error);
