@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "core/adjustment/track_weighing.hpp"
+#include "core/base/units.hpp"
 
 namespace traygauge {
 namespace {
@@ -35,7 +35,7 @@ class BundleAdjustment {
         tracks_(input, used_tracks(input, params, workspace), params, workspace) {
     terms_.cards = input.cards;
     terms_.card_pivot_mm = input.card_middle_mm;
-    terms_.lie_tilt_information = information(params.card_tilt_sigma_deg * std::numbers::pi / 180.0);
+    terms_.lie_tilt_information = information(params.card_tilt_sigma_deg * kRadiansPerDegree);
     terms_.lie_raised_information = information(params.card_raised_sigma_mm);
     terms_.focals_px = input.focals_px;
     terms_.tracks = used_tracks(input, params, workspace);
@@ -110,7 +110,6 @@ class BundleAdjustment {
       rim.outlines = dish.outlines;
       rim.prior = prior_of(model, found.placed.place.azimuth_rad, params_.placement);
       rim.step = outline_step(dish.outlines, params_.placement.max_view_points);
-      rim.point_sigma_px = params_.placement.point_sigma_px;
       rim.scale_px =
           robust_scale_px(dish.outlines, state_.camera_from_table, input_.focals_px, found.placed.place,
                           params_.placement, workspace_.placement, found.placed.fit);
@@ -192,8 +191,7 @@ class BundleAdjustment {
 
   bool is_contradicted() const {
     const TermReport& dish = result_.dish_lines;
-    return dish.count >= params_.min_dish_tracks &&
-           dish.inliers < params_.min_dish_inlier_fraction * dish.count;
+    return dish.count >= kMinTracks && dish.inliers < params_.min_dish_inlier_fraction * dish.count;
   }
 
   const BundleInput& input_;

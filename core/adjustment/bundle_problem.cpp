@@ -3,7 +3,6 @@
 namespace traygauge {
 namespace {
 
-constexpr double kHuge = 1e30;                // cost of a place that a ray cannot see
 constexpr double kEliminationDamping = 1e-9;  // of the place's diagonal: an azimuth may be almost free
 
 double robust_cost(double residual, double variance, double squared_scale) {
@@ -19,7 +18,7 @@ double robust_weight(double residual, double variance, double squared_scale) {
 
 // Sums over outline points of one view and one dish.
 struct ViewSums {
-  static constexpr int kSize = 6 + kPlaceParameters;
+  static constexpr int kSize = kPoseParameters + kPlaceParameters;
   NormalEquations<kSize> equations;
 };
 
@@ -115,7 +114,7 @@ double BundleProblem::add_tracks(const BundleState& state, Equations& equations)
 
 double BundleProblem::rim_cost(const BundleState& state, std::size_t index) const {
   const BundleRim& rim = terms_.rims[index];
-  const double variance = rim.point_sigma_px * rim.point_sigma_px / static_cast<double>(rim.step);
+  const double variance = 1.0 / static_cast<double>(rim.step);
   const double squared_scale = rim.scale_px * rim.scale_px;
   double cost = rim.prior.cost(state.places[index]);
   for (std::size_t view = 0; view < 2; ++view) {
@@ -123,7 +122,7 @@ double BundleProblem::rim_cost(const BundleState& state, std::size_t index) cons
                                    terms_.focals_px[view]);
     for (std::size_t i = 0; i < rim.outlines[view].size(); i += rim.step) {
       double residual = 0.0;
-      if (!projection.residual(rim.outlines[view][i], residual)) return kHuge;
+      if (!projection.residual(rim.outlines[view][i], residual)) return kUnseenPlace;
       cost += robust_cost(residual, variance, squared_scale);
     }
   }
@@ -132,7 +131,7 @@ double BundleProblem::rim_cost(const BundleState& state, std::size_t index) cons
 
 double BundleProblem::add_rim(const BundleState& state, std::size_t index, Equations& equations) const {
   const BundleRim& rim = terms_.rims[index];
-  const double variance = rim.point_sigma_px * rim.point_sigma_px / static_cast<double>(rim.step);
+  const double variance = 1.0 / static_cast<double>(rim.step);
   const double squared_scale = rim.scale_px * rim.scale_px;
   PlaceMatrix information = rim.prior.information.asDiagonal();
   PlaceVector slope = rim.prior.information.cwiseProduct(as_vector(state.places[index]) - rim.prior.mean);
@@ -141,13 +140,13 @@ double BundleProblem::add_rim(const BundleState& state, std::size_t index, Equat
   for (std::size_t view = 0; view < 2; ++view) {
     const RimProjection projection(state.places[index], state.camera_from_table[view],
                                    terms_.focals_px[view]);
-    NormalEquations<6 + kPlaceParameters> sums;
+    NormalEquations<kPoseParameters + kPlaceParameters> sums;
     for (std::size_t i = 0; i < rim.outlines[view].size(); i += rim.step) {
       double residual = 0.0;
       Vec6 by_camera;
       PlaceVector by_place;
-      if (!projection.linearise(rim.outlines[view][i], residual, by_camera, by_place)) return kHuge;
-      Eigen::Matrix<double, 6 + kPlaceParameters, 1> jacobian;
+      if (!projection.linearise(rim.outlines[view][i], residual, by_camera, by_place)) return kUnseenPlace;
+      Eigen::Matrix<double, kPoseParameters + kPlaceParameters, 1> jacobian;
       jacobian << by_camera, by_place;
       cost += robust_cost(residual, variance, squared_scale);
       sums.add(residual, jacobian, robust_weight(residual, variance, squared_scale));

@@ -20,9 +20,9 @@
 
 namespace traygauge {
 
-// A step of the first camera (6), of the second (6), of the card's lie (tilt 2, raised 1).
-inline constexpr int kBundleParameters = 15;
-inline constexpr int kLieParameter = 12;
+// A step of both cameras, then of the card's lie (tilt 2, raised 1).
+inline constexpr int kLieParameter = kCameraParameters;
+inline constexpr int kBundleParameters = kLieParameter + Vec3::SizeAtCompileTime;
 using BundleVector = Eigen::Matrix<double, kBundleParameters, 1>;
 using BundleMatrix = Eigen::Matrix<double, kBundleParameters, kBundleParameters>;
 
@@ -45,7 +45,6 @@ struct TrackWeight {
 struct BundleRim {
   DishOutlines outlines;
   PlacePrior prior;
-  double point_sigma_px = 1.0;
   double scale_px = 1.0;
   std::size_t step = 1;  // of so many points one is read
 };

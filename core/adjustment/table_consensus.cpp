@@ -12,8 +12,8 @@ namespace {
 // Height at the card's middle (mm), slopes along x and y.
 using TableCorrection = Vec3;
 
-constexpr double kMinSine =
-    0.2;  // between the directions of two points from the card; nearly one line is none
+// Between the directions of two points from the card, 12 degrees: nearly one line is no plane.
+constexpr double kMinSine = 0.2;
 
 Vec3 functional(const TableSighting& sighting) {
   return {1.0, sighting.x_mm, sighting.y_mm};
@@ -88,7 +88,7 @@ bool find_table(std::span<TableSighting> sightings, const Mat3& prior, const Tab
   const double squared_limit = params.inlier_sigmas * params.inlier_sigmas;
   TableCorrection best = TableCorrection::Zero();
   double best_score = score(sightings, information, best, params);
-  Random random(params.seed);
+  Random random(kFixedSeed);
   const auto count = static_cast<std::uint32_t>(sightings.size());
   for (int sample = 0; count >= 2 && sample < params.samples; ++sample) {
     TableCorrection table;

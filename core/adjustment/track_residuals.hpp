@@ -14,8 +14,9 @@
 
 namespace traygauge {
 
-inline constexpr int kPairParameters = 9;
-inline constexpr int kCameraParameters = 12;  // a step of the first camera, then one of the second
+inline constexpr int kPairParameters = kPoseParameters + Vec3::SizeAtCompileTime;
+// A step of the first camera, then one of the second.
+inline constexpr int kCameraParameters = 2 * kPoseParameters;
 using PairVector = Eigen::Matrix<double, kPairParameters, 1>;
 using PairMatrix = Eigen::Matrix<double, kPairParameters, kPairParameters>;
 using PairByCameras = Eigen::Matrix<double, kPairParameters, kCameraParameters>;

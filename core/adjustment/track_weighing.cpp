@@ -8,8 +8,6 @@
 namespace traygauge {
 namespace {
 
-constexpr int kNoiseRounds = 4;
-constexpr double kNoiseReach = 3.0;      // sigmas within which tracks tell the noise
 constexpr double kMinTableSpread = 0.3;  // smoother than this the table is not taken for
 
 // A residual's variance from what is not known of the cameras.
@@ -42,7 +40,7 @@ Mat3 table_covariance(const Pose& first, const Vec3& card_middle_mm, const Bundl
 
 bool TrackWeighing::has_enough_on_dishes() const {
   const auto on_dish = [](const PointTrack& track) { return is_on_a_dish(track.label); };
-  return std::count_if(tracks_.begin(), tracks_.end(), on_dish) >= params_.min_dish_tracks;
+  return std::count_if(tracks_.begin(), tracks_.end(), on_dish) >= kMinTracks;
 }
 
 double TrackWeighing::stated_variance(const PointTrack& track) const {
@@ -59,7 +57,7 @@ void TrackWeighing::weigh(const TableCameras& camera_from_table, const BundleMat
   if (trust <= TrackTrust::lines) measure_noise(residuals, motion);
   if (trust == TrackTrust::table) measure_table_spread(residuals);
   const double noise = noise_factor_ * noise_factor_;
-  const double sigmas = params_.robust_sigmas * params_.robust_sigmas;
+  const double sigmas = kOutlierSigmas * kOutlierSigmas;  // of Geman and McClure's scale
   for (std::size_t i = 0; i < tracks_.size(); ++i) {
     const PointTrack& track = tracks_[i];
     TrackWeight& weight = workspace_.weights[i];
@@ -143,10 +141,10 @@ void TrackWeighing::measure_noise(const TrackResiduals& residuals, const Mat6& m
   // Wrong tracks widen the median of all: again without those far outside of it.
   std::size_t near = count;
   double factor = 1.0;
-  for (int round = 0; round < kNoiseRounds && near > 0; ++round) {
+  for (int round = 0; round < kSettlingRounds && near > 0; ++round) {
     factor = kMedianToSigma * magnitudes[near / 2];
     const auto end =
-        std::upper_bound(magnitudes.begin(), magnitudes.end(), kNoiseReach * std::max(factor, 1.0));
+        std::upper_bound(magnitudes.begin(), magnitudes.end(), kOutlierSigmas * std::max(factor, 1.0));
     near = static_cast<std::size_t>(end - magnitudes.begin());
   }
   noise_factor_ = std::clamp(factor, 1.0, params_.max_noise_factor);

@@ -6,9 +6,11 @@
 
 namespace traygauge {
 
-inline constexpr int kFloatLanes = 4;
-using FloatLanes [[gnu::vector_size(16)]] = float;
-static_assert(sizeof(FloatLanes) == kFloatLanes * sizeof(float));
+using FloatLanes [[gnu::vector_size(16)]] = float;  // a register of SSE and of NEON
+inline constexpr int kFloatLanes = sizeof(FloatLanes) / sizeof(float);
+
+// Pixels of a row that a loop takes at a time: whole registers, and a few KB of buffers stay in the cache.
+inline constexpr int kRowBlock = 256;
 
 inline FloatLanes load_floats(const float* source) {
   FloatLanes lanes;

@@ -5,6 +5,9 @@
 
 namespace traygauge {
 
+// Where any sequence will do, as long as it is the same at each call.
+inline constexpr std::uint64_t kFixedSeed = 1;
+
 // PCG32 (O'Neill 2014, XSH-RR): 64 bits of state, 32 bits out.
 class Random {
  public:
@@ -31,6 +34,7 @@ class Random {
   constexpr double uniform() { return next() * (1.0 / 4294967296.0); }
 
  private:
+  // O'Neill's own stream.
   static constexpr std::uint64_t kIncrement = 1442695040888963407ULL;
   std::uint64_t state_ = 0;
 };

@@ -76,16 +76,16 @@ class Search {
   // neither is.
   Candidate choose(const Finalists& finalists) {
     Candidate best = finalists[0];
-    refine(params_.medium_blur_px, CardSampling::quarter, params_.medium_iterations, best);
+    refine(params_.medium_blur_px, CardSampling::quarter, params_.iterations, best);
     if (finalists[1].correlation < finalists[0].correlation - params_.max_mirror_lag) return best;
     Candidate other = finalists[1];
-    refine(params_.medium_blur_px, CardSampling::sixteenth, params_.medium_iterations, other);
+    refine(params_.medium_blur_px, CardSampling::sixteenth, params_.iterations, other);
     if (other.correlation < best.correlation - params_.max_medium_lag) return best;
-    refine(params_.medium_blur_px, CardSampling::quarter, params_.medium_iterations, other);
+    refine(params_.medium_blur_px, CardSampling::quarter, params_.iterations, other);
     if (other.correlation < best.correlation - params_.max_medium_lag) return best;
     if (best.correlation < other.correlation - params_.max_medium_lag) return other;
-    refine(params_.finest_blur_px, CardSampling::quarter, params_.fine_iterations, best);
-    refine(params_.finest_blur_px, CardSampling::quarter, params_.fine_iterations, other);
+    refine(params_.finest_blur_px, CardSampling::quarter, params_.iterations, best);
+    refine(params_.finest_blur_px, CardSampling::quarter, params_.iterations, other);
     return other.correlation > best.correlation ? other : best;
   }
 
@@ -158,7 +158,7 @@ Result<CardAlignment> align_card(ImageView<const std::uint8_t> gray, ImageView<c
   CardPicture& picture = workspace.picture;
   const Result<CardOutline> outline = find_card_outline(labels, box, lens, params.outline, workspace.outline);
   if (!outline.ok()) return outline.status();
-  const Status loaded = picture.load(gray, labels, box, lens, params.picture);
+  const Status loaded = picture.load(gray, labels, box, lens);
   if (!loaded.ok()) return loaded;
 
   CardRefinement refinement(lens, pattern, params.refinement, picture);
@@ -174,7 +174,7 @@ Result<CardAlignment> align_card(ImageView<const std::uint8_t> gray, ImageView<c
   refinement.select(pose, level);
   const CardSampling sampling = sampling_for(picture.used_pixels(), params.max_samples);
   CardAlignment alignment;
-  if (!refinement.refine(level, sampling, params.fine_iterations, candidate.state) ||
+  if (!refinement.refine(level, sampling, params.iterations, candidate.state) ||
       !refinement.inform(level, sampling, candidate.state, alignment.information)) {
     return StatusCode::card_not_found;
   }

@@ -23,15 +23,14 @@ struct CardAlignmentParams {
   CardRefinementParams refinement;
 
   // Blur of the print in each stage, standard deviation in pixels of the picture: the reach within which
-  // edges still find each other.
+  // edges still find each other. Each about half of the one before.
   double coarse_blur_px = 2.5;
   double medium_blur_px = 1.2;
   // Lens and pixels blur by 0.3 to 0.5 px; a sharper print would follow what the picture aliases. Up to
   // 2^1.5 times as much is tried for pictures out of focus.
   double finest_blur_px = 0.6;
   int coarse_iterations = 6;
-  int medium_iterations = 4;
-  int fine_iterations = 4;
+  int iterations = 4;                 // of the other stages
   double max_correlation_lag = 0.25;  // of a first pose behind the best, to be refined as well
   // Of the mirror pose behind the best after the coarse stage, to be refined as well: they differ by 0.015
   // and more in the captures, by nothing from afar.

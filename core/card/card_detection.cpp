@@ -13,8 +13,6 @@ namespace traygauge {
 
 namespace {
 
-constexpr std::size_t kCornerSample = 4;
-
 struct Consensus {
   int count = 0;
   double square_mm2 = 0.0;  // sum over the inliers
@@ -47,12 +45,12 @@ double doubled_area(const Vec2& a, const Vec2& b, const Vec2& c) {
 }
 
 // A view of the printed side turns no triangle over; a flat triangle fixes nothing.
-bool is_good_sample(const std::array<Vec2, kCornerSample>& rays,
-                    const std::array<Vec2, kCornerSample>& pattern, double min_area_mm2) {
-  for (std::size_t left_out = 0; left_out < kCornerSample; ++left_out) {
-    const std::size_t a = (left_out + 1) % kCornerSample;
-    const std::size_t b = (left_out + 2) % kCornerSample;
-    const std::size_t c = (left_out + 3) % kCornerSample;
+bool is_good_sample(const std::array<Vec2, kHomographySample>& rays,
+                    const std::array<Vec2, kHomographySample>& pattern, double min_area_mm2) {
+  for (std::size_t left_out = 0; left_out < kHomographySample; ++left_out) {
+    const std::size_t a = (left_out + 1) % kHomographySample;
+    const std::size_t b = (left_out + 2) % kHomographySample;
+    const std::size_t c = (left_out + 3) % kHomographySample;
     const double on_pattern = doubled_area(pattern[a], pattern[b], pattern[c]);
     if (std::abs(on_pattern) < 2.0 * min_area_mm2) return false;
     if (on_pattern * doubled_area(rays[a], rays[b], rays[c]) <= 0.0) return false;
@@ -70,10 +68,10 @@ bool make_rigid(Mat3& pattern_from_ray) {
 
 bool draw_hypothesis(std::span<const CardTrack> tracks, const CardModelSize& size,
                      const CardDetectionParams& params, Random& random, Mat3& pattern_from_ray) {
-  const auto sample = sample_distinct<kCornerSample>(random, tracks.size());
-  std::array<Vec2, kCornerSample> rays;
-  std::array<Vec2, kCornerSample> pattern;
-  for (std::size_t k = 0; k < kCornerSample; ++k) {
+  const auto sample = sample_distinct<kHomographySample>(random, tracks.size());
+  std::array<Vec2, kHomographySample> rays;
+  std::array<Vec2, kHomographySample> pattern;
+  for (std::size_t k = 0; k < kHomographySample; ++k) {
     rays[k] = tracks[sample[k]].first;
     pattern[k] = tracks[sample[k]].pattern_mm;
   }
@@ -123,7 +121,7 @@ Status find_card(std::span<const CardTrack> tracks, const CardModelSize& size, c
   std::fill(inliers.begin(), inliers.end(), std::uint8_t{0});
   fit.inliers = inliers;
   if (tracks.size() <
-      std::max<std::size_t>(kCornerSample, static_cast<std::size_t>(params.detection.min_tracks))) {
+      std::max<std::size_t>(kHomographySample, static_cast<std::size_t>(params.detection.min_tracks))) {
     return StatusCode::card_not_found;
   }
   const double inlier_mm = params.detection.inlier_fraction * size.length_mm();
@@ -138,14 +136,14 @@ Status find_card(std::span<const CardTrack> tracks, const CardModelSize& size, c
     best = consensus;
     fit.pattern_from_first = hypothesis;
     std::copy(trial.begin(), trial.end(), inliers.begin());
-    bound.update(static_cast<double>(best.count) / static_cast<double>(tracks.size()), kCornerSample);
+    bound.update(static_cast<double>(best.count) / static_cast<double>(tracks.size()), kHomographySample);
   }
   fit.iterations = bound.iterations();
   if (best.count >= params.detection.min_tracks) {
     best = polish(tracks, params, inlier_mm, best, workspace, fit.pattern_from_first);
   }
   fit.inlier_count = best.count;
-  if (best.count < std::max(params.detection.min_tracks, static_cast<int>(kCornerSample)))
+  if (best.count < std::max(params.detection.min_tracks, kHomographySample))
     return StatusCode::card_not_found;
   fit.rms_mm = std::sqrt(best.square_mm2 / best.count);
   fit.log10_false_alarms = log10_false_alarms(tracks, inliers, inlier_mm, size);

@@ -54,7 +54,8 @@ struct CardLocationWorkspace {
 Status learn_card(ImageView<const std::uint8_t> picture, const CardModelSize& size,
                   const CardLocationParams& params, CardLocationWorkspace& workspace);
 
-inline constexpr std::size_t kCardSideCorners = 8;  // on each side of an outline, which a lens bends
+// On each side of an outline, which a lens bends: chords between them leave a 64th of a side's bend.
+inline constexpr std::size_t kCardSideCorners = 8;
 using CardPolygon = std::array<Vec2, 4 * kCardSideCorners>;
 
 // What the place of a card is found with, by whoever keeps it.

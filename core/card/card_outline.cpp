@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 
 #include "core/base/bounded_list.hpp"
@@ -10,8 +11,7 @@
 namespace traygauge {
 namespace {
 
-constexpr int kSupportBins = 32;  // along a side
-constexpr double kFlat = 1e-12;   // in rays²: two sides on one line, that rounding has bent inwards
+constexpr int kSupportBins = std::numeric_limits<std::uint32_t>::digits;  // along a side: the bits of a word
 
 struct Line {
   Vec2 point = Vec2::Zero();
@@ -108,7 +108,7 @@ bool remove_cheapest_side(std::span<Vec2> hull) {
     if (!(cross(begin - before, after - end) > 0.0)) continue;  // the neighbours diverge
     if (!intersect(line_through(before, begin), line_through(end, after), crossing)) continue;
     const double added = cross(crossing - begin, end - crossing);
-    if (added < -kFlat || added >= least) continue;
+    if (added < -kRounding || added >= least) continue;
     least = std::max(added, 0.0);
     cheapest = i;
     bundle = crossing;
@@ -125,7 +125,6 @@ struct SideFit {
   double near = 0.0;  // in rays, as inlier
   double inlier = 0.0;
   double corner_fraction = 0.0;
-  int rounds = 0;
 };
 
 // Total least squares with Cauchy's weights on the points near the side; false when they are too few.
@@ -133,7 +132,7 @@ bool fit_side(std::span<const Vec2> points, const Vec2& begin, const Vec2& end, 
               Line& line) {
   line = line_through(begin, end);
   const double length = (end - begin).norm();
-  for (int round = 0; round < fit.rounds; ++round) {
+  for (int round = 0; round < kSettlingRounds; ++round) {
     const Vec2 normal(-line.direction.y(), line.direction.x());
     double weights = 0.0;
     Vec2 sum = Vec2::Zero();
@@ -204,7 +203,7 @@ Result<CardOutline> find_card_outline(ImageView<const std::uint8_t> labels, cons
   }
   if (hull.size() < 4) return StatusCode::card_not_found;
   const double px = 1.0 / lens.pinhole.mean_focal_px();
-  const SideFit fit{params.near_px * px, params.inlier_px * px, params.corner_fraction, params.fit_rounds};
+  const SideFit fit{params.near_px * px, params.inlier_px * px, params.corner_fraction};
   std::array<Line, 4> sides;
   for (std::size_t i = 0; i < 4; ++i) {
     const Vec2& end = hull[(i + 1) % 4];

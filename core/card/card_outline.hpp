@@ -19,7 +19,6 @@ struct CardOutlineParams {
   double near_px = 2.5;           // points that may belong to a side: labels are true to a pixel or two
   double inlier_px = 0.7;         // of Cauchy's weights, with which a side is fitted
   double corner_fraction = 0.05;  // of a side, left out at both ends: labels are round there
-  int fit_rounds = 4;
 };
 
 struct CardOutline {

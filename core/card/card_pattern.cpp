@@ -1,16 +1,17 @@
 #include "core/card/card_pattern.hpp"
 
 #include <cmath>
+#include <numbers>
 
 namespace traygauge {
 namespace {
 
-constexpr double kSplineDeviation = 0.57735026918962573;  // of the cubic B-spline with knots 1 apart: 1/√3
-constexpr int kPrintColumns = 768;                        // source columns at a time: 3 KiB of sums
+constexpr double kSplineDeviation = std::numbers::inv_sqrt3;  // of the cubic B-spline with knots 1 apart
+constexpr int kPrintColumns = 768;                            // source columns at a time: 3 KiB of sums
 constexpr int kMaxTaps = kPrintColumns;   // of a kernel: a picture finer than 100 px/mm is blurred less
 constexpr int kPool = 2 * kPrintColumns;  // weights of neighbouring kernels
-constexpr int kMaxKernels = 64;
-constexpr int kMinSide = 4;  // px of a level
+constexpr int kMaxKernels = 64;           // target columns at a time, if the pool has weights for them
+constexpr int kMinSide = 4;               // px of a level: the width of a cubic spline
 
 double cubic_spline(double t) {
   const double a = std::abs(t);

@@ -5,13 +5,13 @@
 #include <cmath>
 
 #include "core/base/median.hpp"
+#include "core/base/units.hpp"
 #include "core/card/print_lanes.hpp"
 #include "core/card/print_plane.hpp"
 
 namespace traygauge {
 namespace {
 
-constexpr int kGrayBins = 256;
 static_assert(kCardTileSide % kFloatLanes == 0);
 
 std::uint64_t mask_of(CardSampling sampling) {
@@ -29,15 +29,17 @@ bool is_taken(const CardTile& tile, CardSampling sampling) {
   return sampling != CardSampling::sixteenth || ((tile.x + 2 * tile.y) / kCardTileSide) % 4 == 0;
 }
 
-// The tile's pixels that lie inside the label by `inset` pixels along rows and columns.
-std::uint64_t inner_pixels(ImageView<const std::uint8_t> labels, int left, int top, int inset) {
+// The tile's pixels with the label that lie inside it along rows and columns: those nearer to its border hold
+// light of both sides.
+std::uint64_t inner_pixels(ImageView<const std::uint8_t> labels, int left, int top) {
+  constexpr int kInsetPx = 2;
   const auto is_card = [&](int x, int y) { return labels.contains(x, y) && labels.at(x, y) == kCardLabel; };
   std::uint64_t bits = 0;
   for (int bit = 0; bit < kCardTileSide * kCardTileSide; ++bit) {
     const int x = left + bit % kCardTileSide;
     const int y = top + bit / kCardTileSide;
-    const bool is_inner = is_card(x, y) && is_card(x - inset, y) && is_card(x + inset, y) &&
-                          is_card(x, y - inset) && is_card(x, y + inset);
+    const bool is_inner = is_card(x, y) && is_card(x - kInsetPx, y) && is_card(x + kInsetPx, y) &&
+                          is_card(x, y - kInsetPx) && is_card(x, y + kInsetPx);
     if (is_inner) bits |= std::uint64_t{1} << bit;
   }
   return bits;
@@ -122,23 +124,23 @@ struct TileSums {
   }
 };
 
-using Histogram = std::array<std::uint32_t, kGrayBins>;
+using Histogram = std::array<std::uint32_t, kByteValues>;
 
 void count_sizes(FloatLanes residual, unsigned bits, Histogram& histogram) {
   const FloatLanes size = residual < 0.0F ? -residual : residual;
-  const FloatLanes last = FloatLanes{} + (kGrayBins - 1.0F);
+  const FloatLanes last = FloatLanes{} + (static_cast<float>(kByteValues) - 1.0F);
   const IntLanes bins = __builtin_convertvector(size < last ? size : last, IntLanes);
   for (int i = 0; i < kFloatLanes; ++i) histogram[static_cast<std::size_t>(bins[i])] += bits >> i & 1U;
 }
 
 double median_of(const Histogram& histogram, int count) {
   int below = 0;
-  for (int bin = 0; bin < kGrayBins; ++bin) {
+  for (int bin = 0; bin < static_cast<int>(kByteValues); ++bin) {
     const auto here = static_cast<int>(histogram[static_cast<std::size_t>(bin)]);
     if (2 * (below + here) >= count) return bin + (0.5 * count - below) / std::max(here, 1);
     below += here;
   }
-  return kGrayBins;
+  return static_cast<double>(kByteValues);
 }
 
 // Adds a tile's sums. Its grey values move with the pose's step by `gray_by_step` times (by_x, by_y), and
@@ -185,7 +187,7 @@ void add_tile(const TileSums& sums, const Eigen::Matrix<double, 2, 6>& gray_by_s
 }  // namespace
 
 Status CardPicture::load(ImageView<const std::uint8_t> gray, ImageView<const std::uint8_t> labels,
-                         const PixelBox& box, const LensModel& lens, const CardPictureParams& params) {
+                         const PixelBox& box, const LensModel& lens) {
   gray_ = gray;
   tiles_ = {};
   used_ = 0;
@@ -205,7 +207,7 @@ Status CardPicture::load(ImageView<const std::uint8_t> gray, ImageView<const std
     tile.y = box.top + i / columns * kCardTileSide;
     const bool is_whole = tile.x + kCardTileSide <= labels.width && tile.y + kCardTileSide <= labels.height;
     if (!is_whole) continue;
-    tile.labelled = inner_pixels(labels, tile.x, tile.y, params.erosion_px);
+    tile.labelled = inner_pixels(labels, tile.x, tile.y);
     if (tile.labelled != 0 && undistort_tile(lens, tile)) ++count;
   }
   tiles_ = storage_.first(count);

@@ -19,10 +19,9 @@ namespace traygauge {
 struct CardPictureParams {
   int max_tiles =
       2048;  // 131 072 px, a card that fills a quarter of a 0.5 MP frame; of a larger one, every n-th tile
-  int erosion_px = 2;  // pixels so near to another label are left out: they hold light of both
 };
 
-inline constexpr int kCardTileSide = 8;
+inline constexpr int kCardTileSide = 8;  // a tile's pixels are the bits of a word of 64
 
 struct CardTile {
   int x = 0;  // of its top left pixel
@@ -82,7 +81,7 @@ class CardPicture {
 
   // Keeps `gray` until the next call. card_not_found without a labelled pixel.
   Status load(ImageView<const std::uint8_t> gray, ImageView<const std::uint8_t> labels, const PixelBox& box,
-              const LensModel& lens, const CardPictureParams& params);
+              const LensModel& lens);
 
   // Uses the labelled pixels that show the print at least `margin_mm` inside its edge.
   void select(const Pose& camera_from_table, const CardModelSize& size, double margin_mm);

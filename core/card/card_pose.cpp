@@ -63,11 +63,9 @@ class ReprojectionProblem {
 
 // Moves `pose` to the nearest optimum; returns the cost reached.
 double refine(std::span<const CardTrack> tracks, std::span<const std::uint8_t> inliers, CardView view,
-              const CardPoseParams& params, Pose& pose) {
+              Pose& pose) {
   const ReprojectionProblem problem(tracks, inliers, view);
-  LevenbergMarquardtParams search;
-  search.max_iterations = params.iterations;
-  return minimise<6>(problem, search, pose).cost;
+  return minimise<kPoseParameters>(problem, {}, pose).cost;
 }
 
 }  // namespace
@@ -109,11 +107,11 @@ bool card_pose_from_homography(const Mat3& pattern_from_ray, std::span<const Car
   }
   if (count < 4.0) return false;
   pose.camera_from_card = start;
-  double cost = refine(tracks, inliers, view, params, pose.camera_from_card);
+  double cost = refine(tracks, inliers, view, pose.camera_from_card);
   pose.ambiguity_ratio = 0.0;
   if (params.try_flipped) {
     Pose other = mirrored_pose(pose.camera_from_card, sum / count);
-    double other_cost = refine(tracks, inliers, view, params, other);
+    double other_cost = refine(tracks, inliers, view, other);
     if (other_cost < cost) {
       std::swap(pose.camera_from_card, other);
       std::swap(cost, other_cost);

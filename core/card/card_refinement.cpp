@@ -36,7 +36,7 @@ bool CardRefinement::is_possible(const Pose& camera_from_table) const {
   const Vec3 centre = camera_from_table * centre_mm();
   if (!camera_from_table.rotation.allFinite() || !centre.allFinite()) return false;
   const Vec3 normal = camera_from_table.rotation.col(2);
-  return centre.z() > 0.0 && -normal.dot(centre) > params_.min_tilt_cosine * centre.norm();
+  return centre.z() > 0.0 && -normal.dot(centre) > kMinCardCosine * centre.norm();
 }
 
 const CardPatternLevel& CardRefinement::level_for(const Pose& camera_from_table, double blur_px) const {

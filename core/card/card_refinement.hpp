@@ -14,11 +14,10 @@ struct CardRefinementParams {
   // Of Geman and McClure's weights, in robust standard deviations. Noise is largest on the print's edges,
   // which fix the pose: fewer than 5 throw away a third of what they tell, more than 10 let a fork through.
   double cutoff_spreads = 6.0;
-  double min_spread_gray = 1.0;  // below it residuals are rounding
+  double min_spread_gray = 1.0;  // a grey value: below it residuals are rounding
   double max_step_px = 8.0;      // of a corner in one iteration: further, the linearisation means nothing
   double converged_px = 0.01;    // a corner's step that ends a stage; the next would be a tenth of it
   int min_samples = 100;
-  double min_tilt_cosine = 0.17;  // between the card's normal and the view: 80 degrees
   // What grey values do not show: error of a corner's place by lens, print and flatness, per axis and corner.
   double systematic_px = 0.01;
 };

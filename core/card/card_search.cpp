@@ -120,7 +120,7 @@ class CardSearch {
       matches = matches.first(static_cast<std::size_t>(rest - matches.begin()));
       std::sort(matches.begin(), matches.end(), is_clearer);
       if (fit_tracks(card_).ok()) return StatusCode::ok;
-      if (track_count_ < static_cast<std::size_t>(params_.min_agreeing)) continue;
+      if (track_count_ < kHomographySample) continue;
       if (second_chance(seed).ok()) return StatusCode::ok;
     }
     return StatusCode::card_not_found;
@@ -146,7 +146,7 @@ class CardSearch {
   }
 
   Status fit_tracks(const CardParams& card) {
-    Random random(params_.seed);
+    Random random(kFixedSeed);
     return traygauge::find_card(workspace_.tracks.first(track_count_), size_, card, random, workspace_.card,
                                 fit_);
   }

@@ -23,7 +23,7 @@
 
 namespace traygauge {
 
-inline constexpr std::size_t kCardSearchScales = 6;
+inline constexpr std::size_t kCardSearchScales = 6;  // a factor of 4 in steps of a third
 
 struct CardSearchParams {
   // Of the picture searched, one after the other until the card is found: 1600 × 1200 at half size, where
@@ -48,14 +48,12 @@ struct CardSearchParams {
   double max_scale_ratio = 1.4;  // … their scales
   int max_seeds = 120;           // of the clearest matches, each of which may say where the card lies
   int max_tried = 4;             // places that are looked at in full, those that most speaks for first
-  // Of a place whose corners do not suffice, that is looked at again: in a finer picture of its own, where
-  // there is one, and with all corners about it, since a print that is small, blurred and noisy has few that
-  // resemble one place alone.
-  int min_agreeing = 4;
+  // A place whose corners do not suffice, but for a homography, is looked at again: in a finer picture of its
+  // own, where there is one, and with all corners about it, since a print that is small, blurred and noisy
+  // has few that resemble one place alone.
   double close_px_per_mm = 2.0;  // about, of the print in that picture: as fine as it is learned
   int close_px = 250'000;        // of that picture, at most
   double min_close_gain = 1.15;  // of its scale over that of the picture searched
-  std::uint64_t seed = 1;        // of the homography's samples
 };
 
 // A corner of the picture and the print's that looks like it.

@@ -3,14 +3,14 @@
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <cmath>
+#include <numbers>
 
 namespace traygauge {
 
 namespace {
 
 constexpr int kGaussNewtonSteps = 5;  // from the linear solution the third step is already below 1e-9 mm
-constexpr double kMinPivot = 1e-12;   // of normalised coordinates: the points do not fix the map
-constexpr double kNormalisedRadius = 1.4142135623730951;  // Hartley's: mean distance √2 from the centroid
+constexpr double kNormalisedRadius = std::numbers::sqrt2;  // Hartley's: mean distance from the centroid
 
 using Vec8 = Eigen::Matrix<double, 8, 1>;
 using Mat8 = Eigen::Matrix<double, 8, 8>;
@@ -83,7 +83,7 @@ Vec8 coefficients(const Vec2& ray, double w, double coordinate, int row) {
 bool solve(const LinearEquations& equations, Vec8& solution) {
   const Eigen::LDLT<Mat8> factors(equations.matrix);
   const double largest = factors.vectorD().maxCoeff();
-  if (!(factors.vectorD().minCoeff() > kMinPivot * largest)) return false;
+  if (!(factors.vectorD().minCoeff() > kRounding * largest)) return false;
   solution = factors.solve(equations.right);
   return true;
 }

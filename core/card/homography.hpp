@@ -19,6 +19,8 @@ inline bool map_ray(const Mat3& pattern_from_ray, const Vec2& ray, Vec2& pattern
   return true;
 }
 
+inline constexpr int kHomographySample = 4;  // eight unknowns, two of a point
+
 // The exact map of four points in general position, with the scale's sign set by the first; false when three
 // of them are collinear.
 bool homography_from_four(const std::array<Vec2, 4>& rays, const std::array<Vec2, 4>& pattern,

@@ -12,7 +12,7 @@ namespace traygauge {
 
 using IntLanes [[gnu::vector_size(16)]] = std::int32_t;
 
-inline constexpr IntLanes kLaneNumbers = {0, 1, 2, 3};
+inline constexpr IntLanes kLaneNumbers = {0, 1, 2, 3};  // of the lanes, in their order
 
 inline FloatLanes to_float(IntLanes values) {
   return __builtin_convertvector(values, FloatLanes);

@@ -22,7 +22,6 @@ struct PrintPlace {
 // The map from rays to the print that a pose implies.
 class PrintPlane {
  public:
-  static constexpr double kMinDepthMm = 1.0;
   static constexpr double kMaxDistance = 4.0;  // from the print's centre, in half its width and height
 
   PrintPlane(Pose camera_from_table, const CardModelSize& size)
@@ -36,7 +35,7 @@ class PrintPlane {
   PrintPlace place(const Vec2& ray) const {
     PrintPlace place;
     const Vec3 mapped = print_from_ray_ * ray.homogeneous();
-    if (!(mapped.z() > 0.0) || mapped.z() > 1.0 / kMinDepthMm) return place;
+    if (!(mapped.z() > 0.0) || mapped.z() > 1.0 / kNearMm) return place;
     place.centre = mapped.head<2>() / mapped.z();
     if (!(normalised(place.centre).cwiseAbs().maxCoeff() < kMaxDistance)) return place;
     place.by_ray =

@@ -8,6 +8,7 @@
 namespace traygauge {
 namespace {
 
+// Dishes of any kind, and what is a slip of units or digits.
 constexpr double kMinSizeMm = 20.0;
 constexpr double kMaxSizeMm = 1000.0;
 constexpr double kMaxHeightMm = 200.0;

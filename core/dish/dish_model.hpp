@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -11,7 +12,8 @@
 
 namespace traygauge {
 
-inline constexpr std::size_t kMaxPlacedDishes = 8;  // on one tray, that are measured
+inline constexpr std::size_t kMaxPlacedDishes = 8;     // on one tray, that are measured
+inline constexpr std::size_t kMaxDishCandidates = 64;  // that are known
 
 // A point of the inner surface: so far from the outer edge, measured as an inset d of the rim's ellipse,
 // (x/(a-d))² + (y/(b-d))² = 1.
@@ -20,6 +22,7 @@ struct DishProfilePoint {
   double height_mm = 0.0;
 };
 
+// That a profile may be described by; bounds its memory.
 inline constexpr std::size_t kMaxDishProfilePoints = 32;
 
 struct DishModel {
@@ -35,6 +38,12 @@ struct DishModel {
     return std::span(profile_points).first(profile_size);
   }
 };
+
+// Axes that differ by less than it can be made.
+inline bool is_round_dish(const std::array<double, 2>& size_mm) {
+  constexpr double kRoundMm = 0.5;
+  return std::abs(size_mm[0] - size_mm[1]) < kRoundMm;
+}
 
 // invalid_configuration when a size, a height, the label or the profile lies outside its range: insets grow,
 // up to half the smaller axis.

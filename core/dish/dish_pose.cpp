@@ -9,13 +9,11 @@
 namespace traygauge {
 namespace {
 
-constexpr std::size_t kMaxCandidates = 32;
-constexpr double kLooseAzimuthSigmaRad = 0.5;   // of a measured place: keeps a round one regular
+constexpr double kLooseAzimuthSigmaRad = 0.5;   // of a measured place, 29 degrees: keeps a round one regular
 constexpr double kRoundAzimuthSigmaRad = 0.01;  // of a round dish, whose azimuth means nothing
-constexpr double kRoundMm = 0.5;                // axes that differ by less
-constexpr double kHold = 1e4;                   // times the information of a described size and height
+constexpr double kHold =
+    1e4;  // times the information of a described size and height: a hundredth of its sigma
 constexpr double kMinImprovement = 1e-6;  // relative decrease of the cost that is worth another iteration
-constexpr double kScaleSigmas = 3.0;
 
 double information(double sigma) {
   return 1.0 / (sigma * sigma);
@@ -28,8 +26,8 @@ PlacePrior prior_of_measurement(const DishPose& described, const DishPoseParams&
 
 int choose_candidate(std::span<const DishModel> candidates, const DishPose& measured,
                      const DishChoiceParams& params) {
-  std::array<DishCandidate, kMaxCandidates> known{};
-  const std::size_t count = std::min(candidates.size(), kMaxCandidates);
+  std::array<DishCandidate, kMaxDishCandidates> known{};
+  const std::size_t count = std::min(candidates.size(), kMaxDishCandidates);
   for (std::size_t i = 0; i < count; ++i) {
     known[i] = {candidates[i].outer_size_mm, edge_height_mm(candidates[i])};
   }
@@ -43,7 +41,7 @@ DishPose start_of(const DishModel& model, const DishPose& measured) {
   const bool is_across =
       (model.outer_size_mm[0] < model.outer_size_mm[1]) != (measured.size_mm[0] < measured.size_mm[1]);
   if (is_across) start.azimuth_rad += 0.5 * std::numbers::pi;
-  const bool is_round = std::abs(model.outer_size_mm[0] - model.outer_size_mm[1]) < kRoundMm;
+  const bool is_round = is_round_dish(model.outer_size_mm);
   if (is_round) start.azimuth_rad = 0.0;
   // Half a turn leaves an ellipse as it is.
   start.azimuth_rad = std::remainder(start.azimuth_rad, std::numbers::pi);
@@ -156,8 +154,7 @@ class DishPoseFit {
     const double scale_px =
         robust_scale_px(outlines_, cameras_, focals_px_, placed.measured, params_, workspace_, placed.fit);
     fit(prior, scale_px, placed.place);
-    const DishPoseProblem problem(outlines_, cameras_, focals_px_, prior, params_.point_sigma_px, scale_px,
-                                  step_);
+    const DishPoseProblem problem(outlines_, cameras_, focals_px_, prior, scale_px, step_);
     NormalEquations<kPlaceParameters> equations;
     problem.linearise(placed.place, equations);
     invert_information(equations, placed.covariance);
@@ -165,8 +162,7 @@ class DishPoseFit {
   }
 
   double fit(const PlacePrior& prior, double scale_px, DishPose& place) const {
-    const DishPoseProblem problem(outlines_, cameras_, focals_px_, prior, params_.point_sigma_px, scale_px,
-                                  step_);
+    const DishPoseProblem problem(outlines_, cameras_, focals_px_, prior, scale_px, step_);
     return minimise<kPlaceParameters>(problem, search_, place).cost;
   }
 
@@ -209,7 +205,7 @@ PlacePrior loose_prior(const DishPose& place, double height_sigma_mm, double siz
   prior.information[kPlaceAzimuth] = information(kLooseAzimuthSigmaRad);
   prior.information[kPlaceHeight] = information(height_sigma_mm);
   prior.information.segment<2>(kPlaceSize).setConstant(information(size_sigma_mm));
-  prior.information[kPlaceDrop] = information(params.edge_drop_sigma_mm);
+  prior.information[kPlaceDrop] = information(params.edge_drop_mm);
   return prior;
 }
 
@@ -233,14 +229,14 @@ double edge_height_mm(const DishModel& model) {
 PlacePrior prior_of(const DishModel& model, double azimuth_rad, const DishPoseParams& params) {
   PlacePrior prior;
   prior.mean[kPlaceAzimuth] = azimuth_rad;
-  const bool is_round = std::abs(model.outer_size_mm[0] - model.outer_size_mm[1]) < kRoundMm;
+  const bool is_round = is_round_dish(model.outer_size_mm);
   prior.information[kPlaceAzimuth] = is_round ? information(kRoundAzimuthSigmaRad) : 0.0;
   prior.mean[kPlaceHeight] = edge_height_mm(model);
   prior.information[kPlaceHeight] = information(params.height_sigma_mm);
   prior.mean.segment<2>(kPlaceSize) = Vec2(model.outer_size_mm[0], model.outer_size_mm[1]);
   prior.information.segment<2>(kPlaceSize).setConstant(information(params.size_sigma_mm));
   prior.mean[kPlaceDrop] = params.edge_drop_mm;
-  prior.information[kPlaceDrop] = information(params.edge_drop_sigma_mm);
+  prior.information[kPlaceDrop] = information(params.edge_drop_mm);
   return prior;
 }
 
@@ -264,7 +260,7 @@ double robust_scale_px(const DishOutlines& outlines, const TableCameras& cameras
   std::sort(magnitudes_px.begin(), magnitudes_px.end());
   const double sigma_px = kMedianToSigma * magnitudes_px[count / 2];
   const double scale_px =
-      std::max(std::min(kScaleSigmas * sigma_px, params.max_robust_scale_px), params.min_robust_scale_px);
+      std::max(std::min(kOutlierSigmas * sigma_px, params.max_robust_scale_px), params.min_robust_scale_px);
   double squares = 0.0;
   for (const double magnitude_px : magnitudes_px) {
     if (magnitude_px > scale_px) break;

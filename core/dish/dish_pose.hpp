@@ -18,9 +18,6 @@
 namespace traygauge {
 
 struct DishPoseParams {
-  // Of one outline point. Label outlines are right to about half a pixel, and wrong the same way over about
-  // four points of DishOutlineParams: together they count as one.
-  double point_sigma_px = 1.0;
   // A point further off than about this counts as something else: a glass before the rim, a wall below it.
   // Geman and McClure's scale; taken from the points' median, within these bounds.
   double min_robust_scale_px = 1.5;
@@ -29,9 +26,8 @@ struct DishPoseParams {
   // What a dish of a known kind may differ by: glaze and firing, feet, and a tray that is not level.
   double height_sigma_mm = 0.5;
   double size_sigma_mm = 0.5;
-  // The upright side of the edge: between a knife's edge and a thick rim.
+  // The upright side of the edge, as unsure as it is large: between a knife's edge and a thick rim.
   double edge_drop_mm = 1.0;
-  double edge_drop_sigma_mm = 1.0;
   int max_view_points = 120;         // that are read of each outline
   int min_points = 24;               // in both views together
   int min_view_points = 8;           // a view with fewer has no say

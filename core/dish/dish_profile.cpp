@@ -7,7 +7,6 @@ namespace traygauge {
 namespace {
 
 // Newton's steps towards the inset double the correct digits; 1e-6 mm after five from anywhere on the wall.
-constexpr int kMaxNewtonSteps = 8;
 constexpr double kInsetToleranceMm = 1e-6;
 
 // One-sided slope at an end, kept monotone (Moler 3.4).

@@ -4,13 +4,14 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/base/units.hpp"
 #include "core/dish/rim_reader.hpp"
 #include "core/dish/rim_votes.hpp"
 
 namespace traygauge {
 namespace {
 
-constexpr double kDescribedInformation = 1e4;  // 1 / mm², of what is described
+constexpr double kDescribedInformation = 1e4;  // 1 / mm², of what is described: held to 0.01 mm
 
 class DishSearch {
  public:
@@ -28,12 +29,10 @@ class DishSearch {
   }
 
   Result<FoundDish> run(std::span<const DishModel> candidates) {
-    const std::span<RimPeak> storage =
-        std::span(peaks_).first(std::min(kMaxRimPeaks, static_cast<std::size_t>(params_.max_peaks)));
     const std::size_t count =
-        vote_for_places(views_, edges_, candidates, taken_, params_, workspace_, storage);
+        vote_for_places(views_, edges_, candidates, taken_, params_, workspace_, peaks_);
     FoundDish best;
-    for (RimPeak& peak : storage.first(count)) {
+    for (RimPeak& peak : std::span(peaks_).first(count)) {
       peak.place.edge_drop_mm = params_.placement.edge_drop_mm;
       shift_to_edges(peak.inside_sign, peak.place);
       if (is_repeated(peak)) continue;
@@ -73,8 +72,7 @@ class DishSearch {
     const DishOutlines outlines = {workspace_.outlines[0].items(), workspace_.outlines[1].items()};
     if (outlines[0].size() + outlines[1].size() < static_cast<std::size_t>(params_.placement.min_points))
       return StatusCode::rim_not_found;
-    const DishPoseProblem problem(outlines, cameras_, focals_px_, prior, params_.placement.point_sigma_px,
-                                  params_.scale_px, 1);
+    const DishPoseProblem problem(outlines, cameras_, focals_px_, prior, params_.scale_px, 1);
     minimise<kPlaceParameters>(problem, search, place);
     if (!as_vector(place).allFinite()) return StatusCode::rim_not_found;
     FoundDish found;
@@ -167,7 +165,7 @@ class DishSearch {
 
   // Median magnitude of the steps off the rim: grain of the table, shading of the dish.
   double noise_beside(const DishPose& place, int inside_sign) {
-    std::array<int, 256> counts{};
+    std::array<int, kByteValues> counts{};
     int total = 0;
     for (std::size_t v = 0; v < 2; ++v) {
       const RimReader reader(views_[v], params_);

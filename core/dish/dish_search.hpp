@@ -25,15 +25,13 @@ struct DishSearchParams {
   RimEdgeParams edges;
   DishPoseParams placement;
   double cell_mm = 4.0;  // of the votes for the centre
-  int cells = 256;       // to a side: 1 m of table
-  int azimuths = 24;     // of an oval's axis over half a turn
-  int max_peaks = 6;     // places that are looked at in the full pictures
+  int azimuths = 24;     // of an oval's axis over half a turn: 7.5 degrees apart
   // Along the rim the picture is compared over this width on either side.
   double band_mm = 1.5;
   double sample_mm = 0.3;
   double vote_reach_mm = 10.0;  // of the search for the place at which most of the rim shows an edge
   double shift_step_mm = 1.0;
-  int azimuth_steps = 7;       // between two azimuths that were voted for
+  int azimuth_steps = 7;       // between two azimuths that were voted for: about a degree each
   double same_place_mm = 1.5;  // places that are nearer are one, of the centre and at the ends of an oval
   double sure_step = 20.0;     // of grey values: what is stronger counts no more
   double edge_reach_mm = 2.5;  // of the search for the edge itself, about that place
@@ -47,7 +45,12 @@ struct DishSearchParams {
   double max_overlap = 0.12;
 };
 
-inline constexpr std::size_t kMaxRimOffsets = 96;  // along a profile across the rim
+inline constexpr std::size_t kBallotCells = 256;  // to a side of the votes: 1 m of table
+// Along a profile across the rim, with the bands at either end and what rounding adds.
+inline constexpr std::size_t kMaxRimOffsets = [] {
+  constexpr DishSearchParams kUsual;
+  return static_cast<std::size_t>(2.0 * (kUsual.vote_reach_mm + kUsual.band_mm) / kUsual.sample_mm) + 4;
+}();
 
 struct DishSearchView {
   FrameView frame;
@@ -98,8 +101,8 @@ struct DishSearchWorkspace {
   constexpr void allocate(Allocator& arena, const DishSearchParams& params) {
     level_edges = BoundedList<RimLevelEdge>(
         arena.template take<RimLevelEdge>(2 * static_cast<std::size_t>(params.edges.max_edges)));
-    const auto side = static_cast<std::size_t>(params.cells);
-    for (std::span<std::uint16_t>& sheet : votes) sheet = arena.template take<std::uint16_t>(side * side);
+    for (std::span<std::uint16_t>& sheet : votes)
+      sheet = arena.template take<std::uint16_t>(kBallotCells * kBallotCells);
     const auto points = static_cast<std::size_t>(params.outline_points);
     angles = arena.template take<Vec2>(points);
     shifts = arena.template take<RimShift>(points);

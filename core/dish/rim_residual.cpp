@@ -8,8 +8,9 @@
 namespace traygauge {
 namespace {
 
-constexpr double kMinDescent = 0.05;  // of the ray a unit of depth; a flatter view sees no rim
-constexpr double kMinRadius = 0.05;   // of the semi-axis; nearer to the centre there is no outward direction
+constexpr double kMinDescent =
+    0.05;  // of the ray a unit of depth; a flatter view, below 3 degrees, sees no rim
+constexpr double kMinRadius = 0.05;  // of the semi-axis; nearer to the centre there is no outward direction
 
 }  // namespace
 

@@ -20,12 +20,14 @@ struct DishPose {
   double edge_drop_mm = 0.0;
 };
 
-// A step of a place: centre (2), azimuth, height, axes (2), drop.
-inline constexpr int kPlaceParameters = 7;
-inline constexpr int kPlaceAzimuth = 2;
-inline constexpr int kPlaceHeight = 3;
-inline constexpr int kPlaceSize = 4;
-inline constexpr int kPlaceDrop = 6;
+// Where a step of a place has its parameters: centre and size take two each.
+inline constexpr int kPlaceAzimuth = Vec2::SizeAtCompileTime;
+inline constexpr int kPlaceHeight = kPlaceAzimuth + 1;
+inline constexpr int kPlaceSize = kPlaceHeight + 1;
+inline constexpr int kPlaceDrop = kPlaceSize + 2;
+inline constexpr int kPlaceParameters = kPlaceDrop + 1;
+// Cost of a place that a ray of its outline cannot see.
+inline constexpr double kUnseenPlace = 1e30;
 using PlaceVector = Eigen::Matrix<double, kPlaceParameters, 1>;
 using PlaceMatrix = Eigen::Matrix<double, kPlaceParameters, kPlaceParameters>;
 

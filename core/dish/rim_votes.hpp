@@ -10,7 +10,7 @@
 
 namespace traygauge {
 
-inline constexpr std::size_t kMaxRimPeaks = 16;
+inline constexpr std::size_t kMaxRimPeaks = 6;  // places that are looked at in the full pictures
 
 // A place that the edges vote for.
 struct RimPeak {
@@ -22,12 +22,6 @@ struct RimPeak {
 
 inline Vec2 direction_of(double azimuth_rad) {
   return {std::cos(azimuth_rad), std::sin(azimuth_rad)};
-}
-
-// Axes that differ by less than it can be made.
-inline bool is_round_dish(const std::array<double, 2>& size_mm) {
-  constexpr double kRoundMm = 0.5;
-  return std::abs(size_mm[0] - size_mm[1]) < kRoundMm;
 }
 
 // Fills `peaks` with the best of all candidates, most votes along the rim first, and returns how many there

@@ -55,7 +55,7 @@ class EdgeSearch {
 
  private:
   DishPoseProblem problem(const PlacePrior& prior, double scale_px) const {
-    return {outlines_, cameras_, focals_px_, prior, placement_.point_sigma_px, scale_px, step_};
+    return {outlines_, cameras_, focals_px_, prior, scale_px, step_};
   }
   void fit(double scale_px, DishPose& place) const {
     LevenbergMarquardtParams search;

@@ -162,7 +162,7 @@ Status DishSurveyor::match(const ViewPair& views, double bottom_mm, std::array<S
   DenseStereoReport dense;
   DenseStereoParams params = configuration_.surface;
   params.rectification.whole_dish = true;  // here the dish is what is measured
-  params.refinement.dish_weight = 1.0;
+  params.refinement.refines_dish = true;
   const Status status = run_dense_stereo(
       diffuse_views(views, geometry.bundle.camera_from_table, dish.labels), labels_on_dish(dish.labels),
       bottom_mm, survey_.place.edge_height_mm + params_.above_edge_mm, params, memory_.surface, grids, dense);

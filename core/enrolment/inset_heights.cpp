@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/stereo/subpixel_refinement.hpp"
+
 namespace traygauge {
 namespace {
 
@@ -96,7 +98,7 @@ class RingSort {
     if (view.surface.evidence.at(x, y) != SurfaceEvidence::both ||
         view.gray.at(x, y) >= params_.burnt_level || is_beside_item(view, x, y))
       return 0.0F;
-    const double gradient = common_gradient(view, x, y, params_.window_radius);
+    const double gradient = common_gradient(view, x, y, kRefinementRadius);
     return static_cast<float>(gradient / (gradient + params_.half_weight_gradient));
   }
 
@@ -135,7 +137,7 @@ InsetRing summarise(std::span<Sample> samples, double inset_mm, const InsetHeigh
   ring.spread_mm = kQuartilesToSigma * (weighted_quantile(samples, ring.samples, 0.75) -
                                         weighted_quantile(samples, ring.samples, 0.25));
   // The samples of a window err together.
-  const double window = 2.0 * params.window_radius + 1.0;
+  const double window = 2.0 * kRefinementRadius + 1.0;
   ring.sigma_mm = kMedianToMean * ring.spread_mm * window / std::sqrt(ring.samples);
   return ring;
 }

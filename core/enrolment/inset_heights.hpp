@@ -20,7 +20,6 @@ struct InsetHeightParams {
   // they were matched, less what unrelated noise reaches. Plain glaze is drawn from its surroundings and has
   // next to none.
   double half_weight_gradient = 1.0;
-  int window_radius = 2;  // of the gradient, samples; as the refinement's
   int burnt_level = 250;  // grey value from which a sample may be a highlight, which moves with the eye
   // Mean weight of a ring's samples, unmatched ones having none, and their sum: less tells nothing.
   double min_weight = 0.2;

@@ -12,7 +12,7 @@
 namespace traygauge {
 
 inline constexpr int kBinaryPatchRadius = 10;  // px; corners closer to the picture's edge have no descriptor
-inline constexpr int kBinaryTurns = 32;        // steps of orientation that the comparisons are turned by
+inline constexpr int kBinaryTurns = 32;  // steps of 11 degrees that the comparisons are turned by (ORB: 12)
 
 using BinaryDescriptor = std::array<std::uint64_t, 4>;
 

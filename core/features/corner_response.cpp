@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "core/base/lanes.hpp"
+
 namespace traygauge {
 namespace {
 
@@ -12,8 +14,7 @@ using Workspace = CornerResponseWorkspace;
 // Sobel's weights add up to 8 a side and the window holds 25 pixels.
 constexpr float kPerWindow = 1.0F / (64.0F * Workspace::kWindowRows * Workspace::kWindowRows);
 
-constexpr int kRowPixels = 256;  // pixels of a row at a time
-using Gradients = std::array<std::int16_t, kRowPixels>;
+using Gradients = std::array<std::int16_t, kRowBlock>;
 
 // Of `count` pixels; whole registers of 16-bit numbers.
 void find_gradients(const std::uint8_t* __restrict upper, const std::uint8_t* __restrict middle,
@@ -42,8 +43,8 @@ void update_products(const std::uint8_t* upper, const std::uint8_t* middle, cons
                      int width, const Workspace::Products& ring, const Workspace::Products& columns) {
   Gradients across;
   Gradients down;
-  for (int left = 1; left < width - 1; left += kRowPixels) {
-    const auto count = static_cast<std::size_t>(std::min(kRowPixels, width - 1 - left));
+  for (int left = 1; left < width - 1; left += kRowBlock) {
+    const auto count = static_cast<std::size_t>(std::min(kRowBlock, width - 1 - left));
     find_gradients(upper + left - 1, middle + left - 1, lower + left - 1, count, across, down);
     replace_products(across, across, count, ring.xx.data() + left, columns.xx.data() + left);
     replace_products(across, down, count, ring.xy.data() + left, columns.xy.data() + left);

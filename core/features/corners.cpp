@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "core/base/units.hpp"
+
 namespace traygauge {
 namespace {
 
@@ -118,7 +120,7 @@ void fill_buckets(const CornerPicture& picture, const CornerGrid& grid, const Co
 void find_corners(const CornerPicture& picture, const CornerParams& params, Random& random,
                   CornerWorkspace& workspace, BoundedList<Corner>& corners) {
   corners.clear();
-  constexpr int kSmallest = 2 * kCornerBorder + 3;
+  constexpr int kSmallest = 2 * (kCornerBorder + 1) + 1;
   if (picture.gray.width < kSmallest || picture.gray.height < kSmallest) return;
   const CornerGrid grid(picture.gray.width, picture.gray.height, params);
   CornerBuckets buckets(grid, params, workspace);

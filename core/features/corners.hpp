@@ -17,7 +17,7 @@ namespace traygauge {
 
 // What a point lies on, as far as tracking it is concerned.
 enum class Ground : std::uint8_t { table, card, dish, food };
-inline constexpr std::size_t kGrounds = 4;
+inline constexpr std::size_t kGrounds = static_cast<std::size_t>(Ground::food) + 1;
 
 constexpr Ground ground_of(std::uint8_t label) {
   if (label == kBackgroundLabel) return Ground::table;

@@ -7,12 +7,11 @@
 namespace traygauge {
 namespace {
 
-constexpr int kNewtonSteps = 20;             // quadratic: a lens that validate() accepts takes 3 to 6
 constexpr double kRayTolerance = 1e-11;      // of a ray's coordinates: below 1e-7 px at any focal length
 constexpr double kLargestRay = 5.0;          // tan 79°: no pinhole camera sees further out
 constexpr double kSmallestRadialGain = 0.1;  // d(distorted)/d(ideal radius); a fold is near below it
 constexpr int kRadiusSteps = 1024;           // of the monotony check, from the axis to kLargestRay
-constexpr int kGridIntervals = 16;           // of the check over the picture's area
+constexpr int kGridIntervals = 16;           // of the check over the picture's area; distortion is smooth
 
 struct DistortionTerms {
   double radial = 1.0;            // 1 + k1 r² + k2 r⁴ + k3 r⁶
@@ -94,7 +93,7 @@ Vec2 LensModel::distort(const Vec2& ray) const {
 bool LensModel::undistort_pixel(const Vec2& pixel, Vec2& ray) const {
   const Vec2 distorted = pinhole.ray(pixel);
   Vec2 estimate = distorted;
-  for (int step = 0; step < kNewtonSteps; ++step) {
+  for (int step = 0; step < kMaxNewtonSteps; ++step) {
     const Vec2 residual = distort(estimate) - distorted;
     const Eigen::Matrix2d jacobian = distortion_jacobian(*this, estimate);
     const double determinant = jacobian.determinant();

@@ -12,6 +12,9 @@ using Vec2 = Eigen::Vector2d;
 using Vec3 = Eigen::Vector3d;
 using Mat3 = Eigen::Matrix3d;
 
+// A step of a pose: turn (3), shift (3).
+inline constexpr int kPoseParameters = 2 * Vec3::SizeAtCompileTime;
+
 // A rigid motion between two frames, named target_from_source: x_target = rotation * x_source + translation.
 struct Pose {
   Mat3 rotation = Mat3::Identity();
@@ -39,6 +42,18 @@ inline Plane plane_towards_camera(const Vec3& normal, const Vec3& point) {
   const double offset = normal.dot(point);
   return offset > 0.0 ? Plane{-normal, -offset} : Plane{normal, offset};
 }
+
+// Of numbers about 1: a hundred times what a hundred roundings of doubles (2^-53 each) add up to at most.
+inline constexpr double kRounding = 1e-12;
+
+// Of weighing anew, and of fixed points, where the second or third round changes next to nothing.
+inline constexpr int kSettlingRounds = 4;
+
+// Of Newton's and like iterations, which end by themselves after 3 to 14 steps.
+inline constexpr int kMaxNewtonSteps = 20;
+
+// Nearer to a camera than this nothing is seen, and views from nearer to each other are one.
+inline constexpr double kNearMm = 1.0;
 
 // The rotation by |turn| radians about the axis `turn`.
 inline Mat3 rotation_about(const Vec3& turn) {

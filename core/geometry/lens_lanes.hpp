@@ -5,6 +5,9 @@
 
 namespace traygauge {
 
+// Samples of a row at a time, over which a lens is linear enough for one Jacobian.
+inline constexpr int kLensRun = 64;
+
 // As LensModel::distort and then PinholeCamera::pixel, its numbers converted once.
 class LensLanes {
  public:

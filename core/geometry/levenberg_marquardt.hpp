@@ -5,6 +5,8 @@
 #include <Eigen/Core>
 #include <cmath>
 
+#include "core/geometry/geometry.hpp"
+
 namespace traygauge {
 
 // JᵀJ and Jᵀr, gathered residual by residual.
@@ -49,11 +51,10 @@ struct NormalEquations {
 };
 
 struct LevenbergMarquardtParams {
-  int max_iterations = 20;         // linearisations, and rejected steps, together
-  double initial_damping = 1e-4;   // relative to the diagonal of JᵀJ
-  double damping_factor = 10.0;    // up after a step that failed, down after one that helped
-  double min_damping = 1e-12;      // below it a step is Gauss and Newton's
-  double min_improvement = 1e-10;  // relative decrease of the cost that still counts
+  int max_iterations = kMaxNewtonSteps;  // linearisations, and rejected steps, together
+  double initial_damping = 1e-4;         // relative to the diagonal of JᵀJ
+  double damping_factor = 10.0;          // up after a step that failed, down after one that helped
+  double min_improvement = 1e-10;        // relative decrease of the cost that still counts
 };
 
 struct LevenbergMarquardtReport {
@@ -85,7 +86,7 @@ LevenbergMarquardtReport minimise(const Problem& problem, const LevenbergMarquar
       report.converged = decrease <= params.min_improvement * report.cost;
       state = candidate;
       report.cost = cost;
-      damping = damping > params.min_damping ? damping / params.damping_factor : damping;
+      damping /= params.damping_factor;
       if (report.converged) break;
       equations = {};
       problem.linearise(state, equations);

@@ -11,7 +11,7 @@
 
 namespace traygauge {
 
-inline constexpr std::size_t kPyramidLevels = 3;
+inline constexpr std::size_t kPyramidLevels = 3;  // the stored picture, half and a quarter of its size
 
 // Levels of one picture; level 0 is the caller's.
 struct GrayPyramid {

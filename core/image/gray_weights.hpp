@@ -7,7 +7,7 @@
 
 namespace traygauge {
 
-inline constexpr std::uint32_t kGrayOne = 1U << 15U;
+inline constexpr std::uint32_t kGrayOne = 1U << 15U;  // the weights' unit, 15 bits
 
 // In the order of the bytes of a pixel.
 struct GrayWeights {
@@ -17,10 +17,9 @@ struct GrayWeights {
 };
 
 constexpr GrayWeights gray_weights(PixelFormat format) {
-  constexpr std::uint32_t red = 9798;
   constexpr std::uint32_t green = 19235;
   constexpr std::uint32_t blue = 3735;
-  static_assert(red + green + blue == kGrayOne);
+  constexpr std::uint32_t red = kGrayOne - green - blue;
   if (format == PixelFormat::bgr8) return {blue, green, red};
   if (format == PixelFormat::rgb8) return {red, green, blue};
   return {kGrayOne, 0, 0};

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 
+#include "core/base/lanes.hpp"
 #include "core/image/resample.hpp"
 
 namespace traygauge {
@@ -18,8 +19,7 @@ Edge edge_at(int index, int source_size, int target_size) {
   return {static_cast<int>(position / target_size), static_cast<std::uint32_t>(position % target_size)};
 }
 
-constexpr int kSumColumns = 1024;  // source columns at a time: 4 KiB of sums
-using ColumnSums = std::array<std::uint32_t, kSumColumns + 1>;
+using ColumnSums = std::array<std::uint32_t, kRowBlock + 1>;
 
 // The product of two numbers of 16 bits is one for the vectoriser.
 void add_row(const std::uint8_t* __restrict pixels, std::uint16_t weight, int count,
@@ -59,8 +59,8 @@ void reduce_area(ImageView<const std::uint8_t> source, ImageView<std::uint8_t> t
     int column = 0;
     std::uint32_t running = 0;   // sum of the whole columns so far; wrap-around cancels in the difference
     std::uint32_t previous = 0;  // weighted sum up to the previous edge
-    for (int left = 0; left < source.width; left += kSumColumns) {
-      const int count = std::min(kSumColumns, source.width - left);
+    for (int left = 0; left < source.width; left += kRowBlock) {
+      const int count = std::min(kRowBlock, source.width - left);
       sum_columns(source, top, bottom, unit_y, left, count, sums);
       const int end = left + count;
       int x = left;

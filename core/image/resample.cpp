@@ -10,14 +10,12 @@
 namespace traygauge {
 namespace {
 
-constexpr int kTargetPixels = 64;     // target pixels at a time
 constexpr std::uint32_t kUnit = 256;  // fractions of a pixel in bilinear weights
-constexpr int kMaxSamplesAcross = 8;  // so that sums of weights fit 32 bits
 
 // Frame positions of a run of target pixels in one row.
 struct PositionBlock {
-  std::array<float, kTargetPixels> x;
-  std::array<float, kTargetPixels> y;
+  std::array<float, kLensRun> x;
+  std::array<float, kLensRun> y;
   int count = 0;
 };
 
@@ -25,7 +23,7 @@ Vec2 frame_position(const LensModel& lens, const PinholeCamera& camera, const Ve
   return lens.pixel(camera.ray(target_pixel));
 }
 
-// As frame_position, for kTargetPixels pixels in single precision, written to vectorise.
+// As frame_position, for kLensRun pixels in single precision, written to vectorise.
 void compute_positions(const LensModel& lens, const PinholeCamera& camera, int left, int row,
                        PositionBlock& block) {
   const LensLanes lanes(lens);
@@ -33,7 +31,7 @@ void compute_positions(const LensModel& lens, const PinholeCamera& camera, int l
   const auto first_x = static_cast<float>(first.x());
   const auto step_x = static_cast<float>(1.0 / camera.fx_px);
   const auto y = static_cast<float>(first.y());
-  for (int i = 0; i < kTargetPixels; ++i) {
+  for (int i = 0; i < kLensRun; ++i) {
     const auto index = static_cast<std::size_t>(i);
     const LensLanes::Pixel pixel = lanes.pixel(first_x + step_x * static_cast<float>(i), y);
     block.x[index] = pixel.x;
@@ -78,12 +76,12 @@ bool is_inside(const PositionBlock& block, float reach_px, int width, int height
   float low = block.x[0];
   float high_x = block.x[0];
   float high_y = block.y[0];
-  for (std::size_t i = 0; i < kTargetPixels; ++i) {
+  for (std::size_t i = 0; i < kLensRun; ++i) {
     low = std::min(low, std::min(block.x[i], block.y[i]));
     high_x = std::max(high_x, block.x[i]);
     high_y = std::max(high_y, block.y[i]);
   }
-  constexpr float kSlackPx = 0.01F;
+  constexpr float kSlackPx = 0.01F;  // ten times the error of single precision (lens_lanes.hpp)
   return low - reach_px >= 0.0F && high_x + reach_px < static_cast<float>(width - 1) - kSlackPx &&
          high_y + reach_px < static_cast<float>(height - 1) - kSlackPx;
 }
@@ -157,8 +155,8 @@ void sample_frame(const FrameView& frame, const LensModel& lens, const Roi& cuto
                   ImageView<std::uint8_t> gray) {
   PositionBlock block;
   for (int row = 0; row < cutout.height; ++row) {
-    for (int left = 0; left < cutout.width; left += kTargetPixels) {
-      block.count = std::min(kTargetPixels, cutout.width - left);
+    for (int left = 0; left < cutout.width; left += kLensRun) {
+      block.count = std::min(kLensRun, cutout.width - left);
       compute_positions(lens, cutout.camera, left, row, block);
       const Vec2 centre(left + 0.5 * block.count, static_cast<double>(row));
       const SubGrid grid = make_sub_grid(lens, cutout.camera, centre, per_axis);
@@ -190,8 +188,8 @@ void resample_labels_undistorted(ImageView<const std::uint8_t> labels, const Len
                                  const Roi& cutout, ImageView<std::uint8_t> target) {
   PositionBlock block;
   for (int row = 0; row < cutout.height; ++row) {
-    for (int left = 0; left < cutout.width; left += kTargetPixels) {
-      block.count = std::min(kTargetPixels, cutout.width - left);
+    for (int left = 0; left < cutout.width; left += kLensRun) {
+      block.count = std::min(kLensRun, cutout.width - left);
       compute_positions(lens, cutout.camera, left, row, block);
       std::uint8_t* out = target.row(row) + left;
       for (int i = 0; i < block.count; ++i) {

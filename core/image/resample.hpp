@@ -26,10 +26,13 @@ struct Roi {
   int height = 0;
 };
 
+// 16 samples, with weights of 2^16 and grey values of 2^8: their sums fit 32 bits.
+inline constexpr int kMaxSamplesAcross = 4;
+
 struct ResampleParams {
-  // Samples per target pixel and axis at most (1 to 8). Their number is the reduction, rounded; with fewer
+  // Samples per target pixel and axis at most. Their number is the reduction, rounded; with fewer
   // the picture aliases, with more it only takes longer.
-  int max_samples_per_axis = 4;
+  int max_samples_per_axis = kMaxSamplesAcross;
 };
 
 // Samples `frame` (size of the lens) through the lens into `gray` (size of the cut-out): bilinear, averaged

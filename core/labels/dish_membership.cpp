@@ -6,15 +6,13 @@
 namespace traygauge {
 namespace {
 
-constexpr std::size_t kLabels = 256;
-
 // Counts the pairs (a[i], b[i]) of different labels. Most are equal, so eight are compared at once.
 void add_borders(const std::uint8_t* a, const std::uint8_t* b, int count,
                  std::span<std::uint32_t> borders_px) {
   const auto add = [&](int i) {
     if (a[i] == b[i]) return;
-    if (is_item(a[i])) ++borders_px[kLabels * a[i] + b[i]];
-    if (is_item(b[i])) ++borders_px[kLabels * b[i] + a[i]];
+    if (is_item(a[i])) ++borders_px[kByteValues * a[i] + b[i]];
+    if (is_item(b[i])) ++borders_px[kByteValues * b[i] + a[i]];
   };
   int i = 0;
   for (; i + 8 <= count; i += 8) {
@@ -60,7 +58,7 @@ class Assignment {
 
  private:
   std::uint32_t border_px(std::uint8_t item, std::size_t other) const {
-    return borders_px_[kLabels * item + other];
+    return borders_px_[kByteValues * item + other];
   }
 
   // Gives every item without a dish the one that `vote` names; all vote before any is settled.
@@ -78,8 +76,8 @@ class Assignment {
 
   // Adds the border of each neighbour to the dish that it is, or that it lies on.
   Vote winner(std::uint8_t item, bool with_items) const {
-    std::array<std::uint32_t, kLabels> sums_px{};
-    for (std::size_t other = 0; other < kLabels; ++other) {
+    std::array<std::uint32_t, kByteValues> sums_px{};
+    for (std::size_t other = 0; other < kByteValues; ++other) {
       const auto label = static_cast<std::uint8_t>(other);
       if (is_dish(label)) sums_px[other] += border_px(item, other);
       if (with_items && is_item(label)) sums_px[dishes_[other]] += border_px(item, other);
@@ -93,7 +91,7 @@ class Assignment {
 
   Vote vote_of_border(std::uint8_t item) const {
     std::uint32_t all_px = 0;
-    for (std::size_t other = 0; other < kLabels; ++other) {
+    for (std::size_t other = 0; other < kByteValues; ++other) {
       const auto label = static_cast<std::uint8_t>(other);
       if (is_dish(label) || is_item(label)) all_px += border_px(item, other);
     }

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <span>
 
+#include "core/base/units.hpp"
 #include "core/image_view/image_view.hpp"
 #include "core/labels/label_regions.hpp"
 
@@ -20,7 +21,7 @@ struct DishMembershipParams {
 };
 
 // By item label: the label of its dish; 0 where no dish was found and for labels that are no item's.
-using DishOfItem = std::array<std::uint8_t, 256>;
+using DishOfItem = std::array<std::uint8_t, kByteValues>;
 
 struct DishMembershipWorkspace {
   // Pairs of adjacent pixels: a row for each label up to the last item's, a column for each label. 200 KiB.

@@ -5,10 +5,12 @@
 #include <cstdint>
 
 #include "core/base/status.hpp"
+#include "core/base/units.hpp"
 #include "core/image_view/image_view.hpp"
 
 namespace traygauge {
 
+// The capture contract's.
 inline constexpr std::uint8_t kBackgroundLabel = 0;
 inline constexpr std::uint8_t kDishLabel = 1;
 inline constexpr std::uint8_t kFirstItemLabel = 2;
@@ -49,11 +51,11 @@ constexpr PixelBox united(const PixelBox& a, const PixelBox& b) {
 struct LabelRegions {
   int width = 0;  // of the picture, px
   int height = 0;
-  std::array<std::uint32_t, 256> pixels{};  // per label
-  std::array<PixelBox, 256> boxes{};        // per label
-  std::uint32_t dish_pixels = 0;            // dish and items together
-  PixelBox dish;                            // around dish and items
-  PixelBox card;                            // around the card, where it is labelled
+  std::array<std::uint32_t, kByteValues> pixels{};  // per label
+  std::array<PixelBox, kByteValues> boxes{};        // per label
+  std::uint32_t dish_pixels = 0;                    // dish and items together
+  PixelBox dish;                                    // around dish and items
+  PixelBox card;                                    // around the card, where it is labelled
 
   // Of the picture: what lies in the box may be cut off.
   constexpr bool touches_edge(const PixelBox& box) const {

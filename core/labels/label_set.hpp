@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 
+#include "core/base/units.hpp"
 #include "core/labels/label_regions.hpp"
 
 namespace traygauge {
@@ -19,7 +20,7 @@ class LabelSet {
   constexpr bool contains(std::uint8_t label) const { return contains_[label]; }
 
  private:
-  std::array<bool, 256> contains_{};
+  std::array<bool, kByteValues> contains_{};
 };
 
 // The first dish with every item: all of it when there is one dish only.

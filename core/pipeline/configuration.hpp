@@ -37,8 +37,8 @@ struct PipelineParams {
   double min_matched_fraction = 0.62;
   // Of an item's sigma in its volume; above, its volume is doubtful. One volume in thirty of rendered meals.
   double max_sigma_fraction = 0.063;
-  std::size_t max_outline_points = 1024;   // of one dish in one view: a contour of 8 sides a point
-  std::size_t max_contour_sides = 8192;    // of one dish in one view, twice what a round one of 1600 px has
+  std::size_t max_contour_sides = 8192;  // of one dish in one view, twice what a round one of 1600 px has
+  std::size_t max_outline_points = max_contour_sides / DishOutlineParams{}.block_sides;
   std::size_t max_height_cells = 180'000;  // of a dish's height map: 360 × 360 mm at 0.85 mm
 };
 

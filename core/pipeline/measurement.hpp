@@ -10,6 +10,7 @@
 #include "core/geometry/camera.hpp"
 #include "core/geometry/geometry.hpp"
 #include "core/geometry/table_frame.hpp"
+#include "core/labels/label_regions.hpp"
 #include "core/quality/view_checks.hpp"
 #include "core/quality/warning.hpp"
 #include "core/stereo/disparity.hpp"
@@ -47,7 +48,7 @@ struct ItemResult {
 
 struct Measurement;
 
-inline constexpr std::size_t kMaxItems = 198;  // labels 2…199
+inline constexpr std::size_t kMaxItems = kLastItemLabel - kFirstItemLabel + 1;
 
 // True when at least one item was measured.
 bool is_measured(Status status);

@@ -9,7 +9,7 @@
 
 namespace traygauge {
 
-inline constexpr std::size_t kMemoryRowCount = 12;
+inline constexpr std::size_t kMemoryRowCount = 12;  // the parts that describe_memory() lists
 
 // One row a part; the kept rows and the largest shared one add up to required_bytes().
 std::array<MemoryRow, kMemoryRowCount> describe_memory(const Configuration& configuration);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/median.hpp"
 #include "core/card/card.hpp"
 #include "core/dish/dish_outline.hpp"
 
@@ -99,7 +100,7 @@ Status find_geometry(const ViewPair& views, const Configuration& configuration, 
   if (!status.ok()) return status;
   status = refine_geometry(views, configuration.card, configuration.bundle, workspace, geometry);
   report.inliers = geometry.bundle.lines.inliers;
-  report.inlier_threshold_px = configuration.bundle.robust_sigmas * geometry.bundle.lines.rms;
+  report.inlier_threshold_px = kOutlierSigmas * geometry.bundle.lines.rms;
   report.pose_iterations = geometry.bundle.iterations;
   report.rim_points = geometry.bundle.rims.inliers;
   return status;

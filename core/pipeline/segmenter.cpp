@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/base/units.hpp"
 #include "core/card/card_location.hpp"
 #include "core/dish/dish_profile.hpp"
 #include "core/image/resample.hpp"
@@ -311,7 +312,7 @@ void Segmenter::draw_cells(const DishRaster& raster, ImageView<const std::uint8_
 int Segmenter::keep_confirmed(std::uint8_t first, int items, std::uint8_t dish) const {
   const std::array<LabelRegions, 2> regions = {measure_regions(views_[0].labels),
                                                measure_regions(views_[1].labels)};
-  std::array<std::uint8_t, 256> renamed{};
+  std::array<std::uint8_t, kByteValues> renamed{};
   int kept = 0;
   for (int i = 0; i < items; ++i) {
     const std::size_t label = first + static_cast<std::size_t>(i);
@@ -325,7 +326,7 @@ int Segmenter::keep_confirmed(std::uint8_t first, int items, std::uint8_t dish) 
 }
 
 void Segmenter::rename_items(std::uint8_t first, int items,
-                             const std::array<std::uint8_t, 256>& renamed) const {
+                             const std::array<std::uint8_t, kByteValues>& renamed) const {
   for (const SegmentedView& view : views_) {
     for (int y = 0; y < view.labels.height; ++y) {
       for (int x = 0; x < view.labels.width; ++x) {

@@ -8,6 +8,7 @@
 #include <cstdint>
 
 #include "core/base/status.hpp"
+#include "core/base/units.hpp"
 #include "core/pipeline/configuration.hpp"
 #include "core/pipeline/segmentation.hpp"
 #include "core/pipeline/segmenter_memory.hpp"
@@ -62,7 +63,8 @@ class Segmenter {
                     ImageView<const HeightSample>& relief, ImageView<std::uint8_t>& cells);
   void carry_labels(const DishRaster& raster, const SegmentedDish& dish, ImageView<std::uint8_t> cells) const;
   int keep_confirmed(std::uint8_t first, int items, std::uint8_t dish) const;
-  void rename_items(std::uint8_t first, int items, const std::array<std::uint8_t, 256>& renamed) const;
+  void rename_items(std::uint8_t first, int items,
+                    const std::array<std::uint8_t, kByteValues>& renamed) const;
   static void draw_cells(const DishRaster& raster, ImageView<const std::uint8_t> cells, std::uint8_t dish,
                          ImageView<std::uint8_t> labels);
 

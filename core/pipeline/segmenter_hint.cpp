@@ -3,6 +3,7 @@
 #include <limits>
 #include <span>
 
+#include "core/base/units.hpp"
 #include "core/pipeline/segmenter.hpp"
 #include "core/quality/region_colours.hpp"
 
@@ -78,7 +79,7 @@ bool Segmenter::join_most_alike() {
     }
   }
   if (on == nullptr) return false;
-  std::array<std::uint8_t, 256> renamed{};
+  std::array<std::uint8_t, kByteValues> renamed{};
   for (std::size_t label = kFirstItemLabel; label < end; ++label)
     renamed[label] = static_cast<std::uint8_t>(label > joined ? label - 1 : label);
   renamed[joined] = static_cast<std::uint8_t>(kept);

@@ -26,8 +26,7 @@ Vec3 dish_on_table(const SceneGeometry& geometry) {
 
 // The camera did not move against the card, as far as a card can tell.
 bool is_same_place(const SceneGeometry& geometry) {
-  constexpr double kSamePlaceMm = 1.0;
-  return second_from_first(geometry.bundle.camera_from_table).translation.norm() < kSamePlaceMm;
+  return second_from_first(geometry.bundle.camera_from_table).translation.norm() < kNearMm;
 }
 
 void report_pose(const SceneGeometry& geometry, bool reversed, Measurement& measurement) {

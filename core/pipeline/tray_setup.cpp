@@ -6,6 +6,7 @@ namespace traygauge {
 namespace {
 
 bool is_plausible(const ReferenceCard& card) {
+  // What is a slip of units or digits.
   constexpr double kMinSideMm = 10.0;
   constexpr double kMaxSideMm = 500.0;
   constexpr double kMaxThicknessMm = 10.0;
@@ -17,6 +18,7 @@ bool is_plausible(const ReferenceCard& card) {
 }
 
 bool is_plausible(const FrameLimits& limits) {
+  // What is a slip of digits.
   constexpr int kMinSide = 16;
   constexpr int kMaxSide = 8192;
   return is_within(limits.max_frame_width, kMinSide, kMaxSide) &&

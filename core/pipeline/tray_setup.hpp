@@ -16,16 +16,11 @@
 namespace traygauge {
 
 // The reference card. The pattern is its printed side as a grey picture, filling width × height.
-struct ReferenceCard {
-  double width_mm = 85.60;  // ISO/IEC 7810 ID-1
-  double height_mm = 53.98;
-  double thickness_mm = 0.8;  // the print lies that much above the table
+struct ReferenceCard : CardModelSize {
   ImageView<const std::uint8_t> pattern;
 
-  CardModelSize size() const { return {width_mm, height_mm, thickness_mm}; }
+  const CardModelSize& size() const { return *this; }
 };
-
-inline constexpr std::size_t kMaxDishCandidates = 64;
 
 struct TraySetup {
   LensModel lens;

@@ -6,16 +6,17 @@
 #include <cstddef>
 #include <numbers>
 
+#include "core/base/units.hpp"
+
 namespace traygauge {
 namespace {
 
-constexpr int kReach_px = 8;  // of the profile across an edge, to each side: ends of edges up to 4 px wide
 constexpr int kStep_px =
     2;  // in both directions: a quarter of the edges says as much in a quarter of the time
-constexpr int kBinsPerPixel = 32;
+constexpr int kBinsPerPixel = 32;   // of a width: the least limit, 1.5 px, is 48 of them
 constexpr double kFootShare = 0.1;  // of the steepest slope: where the edge ends
 
-using WidthHistogram = std::array<std::uint32_t, kReach_px * kBinsPerPixel>;
+using WidthHistogram = std::array<std::uint32_t, kEdgeReach_px * kBinsPerPixel>;
 
 // One of the four directions in which pixels neighbour each other.
 struct EdgeDirection {
@@ -32,7 +33,7 @@ struct GrayRange {
 
 GrayRange find_gray_range(ImageView<const std::uint8_t> gray, ImageView<const std::uint8_t> labels,
                           std::uint8_t label) {
-  std::array<std::uint32_t, 256> counts{};
+  std::array<std::uint32_t, kByteValues> counts{};
   std::uint32_t total = 0;
   for (int y = 0; y < gray.height; ++y) {
     for (int x = 0; x < gray.width; ++x) {
@@ -78,7 +79,8 @@ class EdgeProfile {
 int find_foot(const EdgeProfile& profile, int step, int steepest) {
   int t = step;
   const int sign = steepest < 0 ? -1 : 1;
-  while (std::abs(t) < kReach_px - 1 && sign * profile.slope(t) > kFootShare * std::abs(steepest)) t += step;
+  while (std::abs(t) < kEdgeReach_px - 1 && sign * profile.slope(t) > kFootShare * std::abs(steepest))
+    t += step;
   return t;
 }
 
@@ -99,8 +101,8 @@ class EdgeCollector {
     widths = {};
     int edges = 0;
     // The flattest edge that still ends within reach.
-    const int min_slope = std::max(2, min_rise_ / kReach_px);
-    const int margin = kReach_px + 1;
+    const int min_slope = std::max(2, min_rise_ / kEdgeReach_px);
+    const int margin = kEdgeReach_px + 1;
     for (int y = margin; y < gray_.height - margin; y += kStep_px) {
       for (int x = margin; x < gray_.width - margin; x += kStep_px) {
         if (labels_.at(x, y) != label_) continue;
@@ -151,7 +153,7 @@ EdgeBlur measure_edge_blur(ImageView<const std::uint8_t> gray, ImageView<const s
   const GrayRange range = find_gray_range(gray, labels, label);
   EdgeBlur blur{false, 0.0, range.dark, range.bright};
   if (range.contrast() < params.min_contrast) return blur;
-  const int border_px = std::clamp(params.border_px, 0, kReach_px);
+  const int border_px = std::clamp(params.border_px, 0, kEdgeReach_px);
   const auto min_rise = static_cast<int>(4.0 * params.min_rise_fraction * range.contrast());
   const EdgeCollector collector(gray, labels, label, border_px, min_rise);
   constexpr std::array<EdgeDirection, 4> kDirections = {{{1, 0}, {1, 1}, {0, 1}, {-1, 1}}};

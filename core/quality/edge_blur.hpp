@@ -8,9 +8,12 @@
 
 namespace traygauge {
 
+// Of the profile across an edge, to each side: ends of edges up to 4 px wide.
+inline constexpr int kEdgeReach_px = 8;
+
 struct EdgeBlurParams {
-  int border_px = 4;                // edges so near the region's border may be the border itself
-  double min_rise_fraction = 0.45;  // of the region's contrast: weaker edges may be halftones of the print
+  int border_px = kEdgeReach_px / 2;  // edges so near the region's border may be the border itself
+  double min_rise_fraction = 0.45;    // of the region's contrast: weaker edges may be halftones of the print
   // Of the widths of the edges, in each direction: neighbouring print widens edges, nothing narrows them.
   double width_quantile = 0.25;
   int min_edges = 30;     // of a direction; fewer say nothing; a card 140 px long has a hundred

@@ -3,10 +3,12 @@
 #include <array>
 #include <cmath>
 
+#include "core/base/units.hpp"
+
 namespace traygauge {
 namespace {
 
-using Histogram = std::array<std::uint32_t, 256>;
+using Histogram = std::array<std::uint32_t, kByteValues>;
 
 Histogram count_gray_values(ImageView<const std::uint8_t> gray) {
   // Two counters a value: neighbours are often equal, and the same counter twice in a row stalls.
@@ -38,7 +40,7 @@ Status check_exposure(ImageView<const std::uint8_t> gray, const ExposureParams& 
     const double count = histogram[value];
     const auto gray_value = static_cast<double>(value);
     if (value <= params.black_level) black += count;
-    if (value >= params.burnt_level) burnt += count;
+    if (value >= kBurntGray) burnt += count;
     sum += count * gray_value;
     square_sum += count * gray_value * gray_value;
   }

@@ -3,10 +3,15 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <numbers>
+
+#include "core/base/units.hpp"
 
 namespace traygauge {
 namespace {
 
+// A block's 16 cells leave 13 degrees of freedom beside a plane; a cell's mean has a quarter of a pixel's
+// noise.
 constexpr int kBlock_px = 16;
 constexpr int kCell_px = 4;
 constexpr int kCells = kBlock_px / kCell_px;
@@ -21,7 +26,7 @@ void count_clipped(ImageView<const std::uint8_t> gray, ImageView<const std::uint
       if (!is_item(label_row[x])) continue;
       ItemPixels& item = items[label_row[x]];
       ++item.pixels;
-      if (gray_row[x] <= params.crushed_level || gray_row[x] >= params.clipped_level) ++item.clipped;
+      if (gray_row[x] <= params.crushed_level || gray_row[x] >= kBurntGray) ++item.clipped;
     }
   }
 }
@@ -57,7 +62,8 @@ double texture_variance(ImageView<const std::uint8_t> gray, int left, int top) {
       along_y += cell * (2 * y - kCells + 1);
     }
   }
-  constexpr double kPlaneMoment = 80.0;  // Σ (2 x − 3)² over the 16 cells
+  constexpr int kPlaneMoment =
+      kCells * kCells * (kCells * kCells - 1) / 3;  // Σ (2 x − kCells + 1)² over the cells
   const double rest = static_cast<double>(squares) - static_cast<double>(sum * sum) / (kCells * kCells) -
                       static_cast<double>(along_x * along_x + along_y * along_y) / kPlaneMoment;
   return std::max(0.0, rest) / (kCells * kCells - 3) / (kCellArea * kCellArea);
@@ -75,9 +81,8 @@ double noise_deviation(ImageView<const std::uint8_t> gray, int left, int top) {
                       2 * row[x + 1] + below[x - 1] - 2 * below[x] + below[x + 1]);
     }
   }
-  constexpr double kRootHalfPi = 1.2533141373155003;
   constexpr double kSamples = (kBlock_px - 2) * (kBlock_px - 2);
-  return kRootHalfPi / 6.0 * sum / kSamples;
+  return std::sqrt(0.5 * std::numbers::pi) / 6.0 * sum / kSamples;
 }
 
 bool is_textured(ImageView<const std::uint8_t> gray, int left, int top, const ItemPixelParams& params) {

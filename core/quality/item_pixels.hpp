@@ -11,8 +11,7 @@
 namespace traygauge {
 
 struct ItemPixelParams {
-  std::uint8_t crushed_level = 2;    // grey value up to which a pixel holds no information; sensor black
-  std::uint8_t clipped_level = 252;  // grey value from which all channels are at their end
+  std::uint8_t crushed_level = 2;  // grey value up to which a pixel holds no information; sensor black
   // Standard deviation of means over 4 × 4 px, a linear shade apart: below, compression and quantisation
   // alone make as much. Yoghurt has 1.1 to 1.8, a banana's skin 0.9 to 2, other food 4 to 15.
   double min_texture = 1.0;

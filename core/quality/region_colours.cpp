@@ -5,14 +5,15 @@
 #include <span>
 
 #include "core/base/median.hpp"
+#include "core/base/units.hpp"
 #include "core/labels/label_regions.hpp"
 
 namespace traygauge {
 namespace {
 
-using LightTable = std::array<std::uint32_t, 256>;
+using LightTable = std::array<std::uint32_t, kByteValues>;
 
-constexpr double kFullLight = 65535.0;
+constexpr double kFullLight = std::numeric_limits<std::uint16_t>::max();
 
 // sRGB to linear light by a cubic without its power function; within 0.2 % of full light.
 constexpr LightTable make_light_table() {
@@ -50,7 +51,7 @@ double at_least_one(double ratio) {
 // The median over the common regions of what `ratio` gives for both colours.
 template <class Ratio>
 double median_ratio(const RegionColours& first, const RegionColours& second, int min_samples, Ratio ratio) {
-  std::array<double, 256> ratios{};
+  std::array<double, kByteValues> ratios{};
   std::size_t count = 0;
   const auto enough = static_cast<std::uint32_t>(std::max(min_samples, 1));
   for (std::size_t label = kBackgroundLabel + 1; label < first.size(); ++label) {
@@ -67,7 +68,7 @@ double median_ratio(const RegionColours& first, const RegionColours& second, int
 void measure_region_colours(const FrameView& frame, ImageView<const std::uint8_t> labels,
                             const RegionColourParams& params, RegionColours& colours) {
   colours.fill({});
-  std::array<Sum, 256> sums{};
+  std::array<Sum, kByteValues> sums{};
   const int step = std::max(params.step_px, 1);
   const int bytes = bytes_per_pixel(frame.format);
   for (int y = 0; y < frame.height; y += step) {

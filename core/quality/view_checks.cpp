@@ -9,7 +9,7 @@ namespace {
 
 // Edges that reach out of the card are not its print's, but their profiles may.
 ImageView<const std::uint8_t> around(ImageView<const std::uint8_t> picture, const PixelBox& box) {
-  constexpr int kMargin_px = 10;
+  constexpr int kMargin_px = kEdgeReach_px + 2;
   const int left = std::max(box.left - kMargin_px, 0);
   const int top = std::max(box.top - kMargin_px, 0);
   const int right = std::min(box.right + kMargin_px, picture.width);
@@ -105,8 +105,8 @@ Status judge_pair(const ColourDifference& difference, const ViewCheckParams& par
 
 }  // namespace
 
-void assess_view(const CheckedView& view, const CardSize& card, const ViewCheckParams& params,
-                 CardSilhouetteWorkspace& workspace, ViewQuality& quality) {
+void assess_view(const CheckedView& view, const std::array<double, 2>& card_size_mm,
+                 const ViewCheckParams& params, CardSilhouetteWorkspace& workspace, ViewQuality& quality) {
   const PixelBox& box = view.regions->card;
   quality.has_card = !box.empty();
   quality.card_edges = {};
@@ -115,9 +115,11 @@ void assess_view(const CheckedView& view, const CardSize& card, const ViewCheckP
   if (quality.has_card) {
     quality.card_edges =
         measure_edge_blur(around(view.gray, box), around(view.labels, box), kCardLabel, params.edges);
-    quality.card_px_per_mm = std::sqrt(view.regions->pixels[kCardLabel] / (card.width_mm * card.height_mm));
+    quality.card_px_per_mm =
+        std::sqrt(view.regions->pixels[kCardLabel] / (card_size_mm[0] * card_size_mm[1]));
     quality.card_silhouette = measure_card_silhouette(view.labels, box, *view.lens, workspace);
-    quality.visible_card_fraction = quality.card_silhouette.visible_fraction(card.width_mm / card.height_mm);
+    quality.visible_card_fraction =
+        quality.card_silhouette.visible_fraction(card_size_mm[0] / card_size_mm[1]);
   }
   measure_item_pixels(view.gray, view.labels, view.regions->dish, params.item_pixels, quality.items);
   measure_region_colours(view.frame, view.labels, params.colours, quality.colours);

@@ -31,8 +31,8 @@ struct ViewCheckParams {
   // card was no longer found in any capture, at 3 px in both in most.
   double blur_warning_px = 1.5;
   double blur_warning_mm = 0.45;
-  double max_blur_px = 3.0;  // more: too_blurred
-  double max_blur_mm = 0.9;
+  double max_blur_px = 2.0 * blur_warning_px;  // more: too_blurred
+  double max_blur_mm = 2.0 * blur_warning_mm;
 
   // The white of the card's print. Good: 170 to 220. At 60 the food spans 30 grey values, and volumes were
   // off by 24 % where 110 gave 10 %.
@@ -88,13 +88,9 @@ struct CheckedView {
   const LensModel* lens = nullptr;
 };
 
-struct CardSize {
-  double width_mm = 85.60;
-  double height_mm = 53.98;
-};
-
-void assess_view(const CheckedView& view, const CardSize& card, const ViewCheckParams& params,
-                 CardSilhouetteWorkspace& workspace, ViewQuality& quality);
+// `card_size_mm`: width and height.
+void assess_view(const CheckedView& view, const std::array<double, 2>& card_size_mm,
+                 const ViewCheckParams& params, CardSilhouetteWorkspace& workspace, ViewQuality& quality);
 
 // too_blurred, card_hidden, frame_too_dark, or ok.
 Status judge_view(const ViewQuality& quality, const ViewCheckParams& params);

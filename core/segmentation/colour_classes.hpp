@@ -6,11 +6,12 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "core/base/units.hpp"
 #include "core/segmentation/dish_raster.hpp"
 
 namespace traygauge {
 
-using ClassTable = std::array<std::uint8_t, 256>;  // the class of every byte
+using ClassTable = std::array<std::uint8_t, kByteValues>;  // the class of every byte
 
 // The classes of a colour's three bytes.
 struct ColourClasses {
@@ -35,7 +36,7 @@ class ColourCounts {
   }
 
  private:
-  using ByteCounts = std::array<int, 256>;
+  using ByteCounts = std::array<int, kByteValues>;
 
   ClassTable split(const ByteCounts& counts, int classes) const {
     ClassTable table{};

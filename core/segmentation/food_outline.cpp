@@ -37,8 +37,7 @@ class Components {
   std::span<std::int32_t> queue_;
 };
 
-constexpr std::uint8_t kVisited = 250;  // no label of a dish or item
-constexpr int kMaxRadius = 7;           // a row of the square then fits into a byte many times over
+constexpr std::uint8_t kVisited = kLastFurtherDishLabel + 1;  // no label of a dish or item
 
 bool has_labelled_neighbour(ImageView<const std::uint8_t> cells, std::span<const std::int32_t> visited) {
   const int count = cells.width * cells.height;
@@ -105,11 +104,11 @@ bool outline_food(const DishRaster& raster, ImageView<const HeightSample> relief
   if (!measure_glaze(raster, params.glaze, glaze)) return false;
   const double cells_per_mm = 1.0 / raster.cell_mm;
   const auto radius_of = [&](double radius_mm) {
-    return std::clamp(static_cast<int>(std::lround(radius_mm * cells_per_mm)), 1, kMaxRadius);
+    return std::clamp(static_cast<int>(std::lround(radius_mm * cells_per_mm)), 1, kMaxSquareRadius);
   };
   segment_food(raster, relief, glaze, params.field, workspace.field, cells);
   free_band(cells, radius_of(params.band_mm), workspace);
-  spread_owners(raster.colours, params.geodesic, workspace.geodesic, cells);
+  spread_owners(raster.colours, workspace.geodesic, cells);
   threshold_fraction(cells, radius_of(params.smoothing_mm), 0.5, workspace);
   // An opening: all of the square, then any of it.
   const int opening = radius_of(params.opening_mm);
@@ -157,7 +156,7 @@ void spread_items(const DishRaster& raster, const FoodOutlineParams& params, Foo
     if (owner == kGlazeSeed) owner = kBarred;
     if (owner == kUnlabelled) owner = kNoOwner;
   }
-  spread_owners(raster.colours, params.geodesic, workspace.geodesic, cells);
+  spread_owners(raster.colours, workspace.geodesic, cells);
   for (int cell = 0; cell < count; ++cell) {
     std::uint8_t& owner = cells.data[cell];
     if (raster.zones.data[cell] == DishZone::outside) {

@@ -15,12 +15,11 @@
 namespace traygauge {
 
 inline constexpr std::uint8_t kUnlabelled =
-    251;  // food of which it is not known yet to which item it belongs
+    kLastFurtherDishLabel + 2;  // food of which it is not known yet to which item it belongs
 
 struct FoodOutlineParams {
   DishRasterParams raster;
   GlazeParams glaze;
-  GeodesicParams geodesic;
   ItemSplitParams split;
   ItemAssignmentParams assignment;
   TvSegmentationParams field;

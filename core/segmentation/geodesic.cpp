@@ -8,16 +8,8 @@
 namespace traygauge {
 namespace {
 
-constexpr std::int32_t kEnd = -1;
+constexpr std::int32_t kEnd = -1;  // no cell's index
 constexpr std::uint16_t kFar = std::numeric_limits<std::uint16_t>::max();
-
-int cost_of(const CellColour& a, const CellColour& b, const GeodesicParams& params) {
-  const int luma = a.luma - b.luma;
-  const int red = a.red - b.red;
-  const int green = a.green - b.green;
-  const int squares = params.luma_weight * luma * luma + params.share_weight * (red * red + green * green);
-  return std::min(params.step_cost + squares / 16, kMaxGeodesicStep);
-}
 
 // Cells by the distance at which they are to be visited, last come first; no two in use lie further apart
 // than there are lists.
@@ -68,8 +60,16 @@ class DistanceBuckets {
 
 }  // namespace
 
-void spread_owners(ImageView<const CellColour> colours, const GeodesicParams& params,
-                   GeodesicWorkspace& workspace, ImageView<std::uint8_t> owners) {
+int geodesic_step(const CellColour& a, const CellColour& b) {
+  const int luma = a.luma - b.luma;
+  const int red = a.red - b.red;
+  const int green = a.green - b.green;
+  const int squares = luma * luma + 4 * (red * red + green * green);
+  return std::min(1 + squares / 16, kMaxGeodesicStep);
+}
+
+void spread_owners(ImageView<const CellColour> colours, GeodesicWorkspace& workspace,
+                   ImageView<std::uint8_t> owners) {
   const int width = owners.width;
   const int cells = width * owners.height;
   DistanceBuckets buckets(workspace);
@@ -84,8 +84,8 @@ void spread_owners(ImageView<const CellColour> colours, const GeodesicParams& pa
     for (std::int32_t cell = buckets.take(distance); cell != kEnd; cell = buckets.take(distance)) {
       for_each_neighbour(cell, width, cells, [&](int neighbour) {
         std::uint16_t& least = workspace.distance[static_cast<std::size_t>(neighbour)];
-        if (least <= distance + params.step_cost || owners.data[neighbour] == kBarred) return;
-        const int reached = distance + cost_of(colours.data[cell], colours.data[neighbour], params);
+        if (least <= distance + 1 || owners.data[neighbour] == kBarred) return;
+        const int reached = distance + geodesic_step(colours.data[cell], colours.data[neighbour]);
         if (reached >= least) return;
         if (least != kFar) buckets.remove(neighbour, least);
         least = static_cast<std::uint16_t>(reached);

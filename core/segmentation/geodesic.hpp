@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <span>
 
 #include "core/base/arena.hpp"
@@ -13,22 +14,16 @@
 
 namespace traygauge {
 
-struct GeodesicParams {
-  int step_cost = 1;  // for each cell, so that in one colour the nearer seed wins
-  // Of squared differences between neighbours, in the units of CellColour, over 16: a shadow's slope is
-  // cheap.
-  int luma_weight = 1;
-  int share_weight = 4;
-};
-
-inline constexpr int kMaxGeodesicStep = 255;  // more counts as this
+// What a step to a neighbour costs: 1, so that in one colour the nearer seed wins, and a sixteenth of the
+// squared difference, which counts fourfold in the shares: a shadow's slope is cheap. At most 255.
+inline constexpr int kMaxGeodesicStep = std::numeric_limits<std::uint8_t>::max();
+int geodesic_step(const CellColour& a, const CellColour& b);
 
 // `owners`: labels of the seeds, kNoOwner elsewhere, kBarred where none may go. Dial's buckets.
 inline constexpr std::uint8_t kNoOwner = 0;
-inline constexpr std::uint8_t kBarred = 255;
-// The owners of dish and food.
-inline constexpr std::uint8_t kGlazeSeed = 1;
-inline constexpr std::uint8_t kFoodSeed = 2;
+inline constexpr std::uint8_t kGlazeSeed = kNoOwner + 1;
+inline constexpr std::uint8_t kFoodSeed = kGlazeSeed + 1;
+inline constexpr std::uint8_t kBarred = std::numeric_limits<std::uint8_t>::max();
 
 struct GeodesicWorkspace {
   std::span<std::uint16_t> distance;
@@ -46,7 +41,7 @@ struct GeodesicWorkspace {
 };
 
 // Gives every cell that can be reached the label of its seed. O(cells).
-void spread_owners(ImageView<const CellColour> colours, const GeodesicParams& params,
-                   GeodesicWorkspace& workspace, ImageView<std::uint8_t> owners);
+void spread_owners(ImageView<const CellColour> colours, GeodesicWorkspace& workspace,
+                   ImageView<std::uint8_t> owners);
 
 }  // namespace traygauge

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/base/median.hpp"
+#include "core/base/units.hpp"
 
 namespace traygauge {
 namespace {
@@ -27,7 +28,7 @@ class ByteHistogram {
   int total() const { return total_; }
 
  private:
-  std::array<int, 256> counts_{};
+  std::array<int, kByteValues> counts_{};
   int total_ = 0;
 };
 

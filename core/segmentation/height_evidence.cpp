@@ -103,10 +103,11 @@ void compare_view(std::size_t v, const std::array<SurfaceGrid, 2>& grids, const 
       sample.is_confirmed = grid.evidence.at(x, y) == SurfaceEvidence::both;
     }
   }
+  constexpr int kRadius = 2;  // of the windows over which the census of the two views is compared
   const std::span<HeightSample> all = storage.samples[v];
-  average(workspace.costs[0], width, samples.height, params.window_radius, workspace,
+  average(workspace.costs[0], width, samples.height, kRadius, workspace,
           [&](std::size_t at, std::uint8_t cost) { all[at].food_cost = cost; });
-  average(workspace.costs[1], width, samples.height, params.window_radius, workspace,
+  average(workspace.costs[1], width, samples.height, kRadius, workspace,
           [&](std::size_t at, std::uint8_t cost) { all[at].glaze_cost = cost; });
 }
 

@@ -29,9 +29,7 @@ constexpr DenseStereoParams coarse_surface_params() {
 struct HeightEvidenceParams {
   DenseStereoParams surface = coarse_surface_params();
   double highest_mm = 60.0;  // over the bottom, that is looked for
-  // Windows of so many samples to either side, over which the census of the two views is compared.
-  int window_radius = 2;
-  int node_step = 4;  // samples between those at which the dish's own disparity is worked out
+  int node_step = 4;         // samples between those at which the dish's own disparity is worked out
 };
 
 // What a HeightEvidence refers to.

@@ -8,7 +8,7 @@
 
 namespace traygauge {
 
-inline constexpr double kHeightUnitMm = 0.5;
+inline constexpr double kHeightUnitMm = 0.5;  // 127 of them, the most a byte holds, are 63 mm
 
 struct HeightSample {
   std::int8_t height = 0;       // over the dish's surface, in kHeightUnitMm

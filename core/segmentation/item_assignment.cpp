@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/base/units.hpp"
 #include "core/labels/label_regions.hpp"
 #include "core/segmentation/colour_classes.hpp"
 #include "core/segmentation/colour_sum.hpp"
@@ -19,8 +20,7 @@ constexpr int kShareClasses = 8;
 constexpr int kColourClasses = kLumaClasses * kShareClasses * kShareClasses;
 static_assert(kColourClasses <= 256);
 
-constexpr int kMaxWindowRadius = 7;  // cells
-constexpr int kMostNear = (4 * kMaxWindowRadius + 1) * (4 * kMaxWindowRadius + 1);
+constexpr int kMostNear = (4 * kMaxSquareRadius + 1) * (4 * kMaxSquareRadius + 1);
 constexpr float kLogUnit = 256.0F;  // logarithms are summed as whole numbers
 
 class ItemAssignment {
@@ -35,7 +35,7 @@ class ItemAssignment {
         width_(raster.width() / params.fold),
         height_(raster.height() / params.fold),
         radius_(std::clamp(static_cast<int>(std::lround(params.window_mm / (raster.cell_mm * params.fold))),
-                           1, kMaxWindowRadius)) {
+                           1, kMaxSquareRadius)) {
     for (std::size_t i = 1; i < logarithms_.size(); ++i) logarithms_[i] = std::log(static_cast<float>(i));
   }
 
@@ -225,8 +225,8 @@ class ItemAssignment {
   int height_;
   int radius_;
   std::array<float, kMostNear + 1> logarithms_{};
-  std::array<std::int32_t, 256> sizes_{};
-  std::array<PixelBox, 256> boxes_{};
+  std::array<std::int32_t, kByteValues> sizes_{};
+  std::array<PixelBox, kByteValues> boxes_{};
 };
 
 }  // namespace

@@ -8,6 +8,8 @@
 
 namespace traygauge {
 
+inline constexpr int kMaxSquareRadius = 7;  // a row of the square then fits into a byte many times over
+
 // Calls take(x, y, sum) row by row with the sum of value(x, y) over 2 radius + 1 cells each way; cells beyond
 // the border are like the nearest. O(cells): running sums along the rows, of which those of 2 radius + 1 rows
 // are summed by column. `row_sums` holds a sum of a row for every cell, `column_sums` one for every column.

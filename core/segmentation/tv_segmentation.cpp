@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "core/base/lanes.hpp"
+#include "core/base/units.hpp"
 #include "core/segmentation/colour_sum.hpp"
 #include "core/segmentation/geodesic.hpp"
 #include "core/stereo/median.hpp"
@@ -82,7 +83,7 @@ class FoodField {
   // Whether what looks like glaze stands above it, all over the dish, and below its edge: what lies at the
   // edge itself may be the match of the edge, continued over a dish where nothing can be matched.
   bool stands_high() const {
-    std::array<int, 256> counts{};
+    std::array<int, kByteValues> counts{};
     int seen = 0;
     const double most = params_.neutral_deviations * glaze_.share_sigma;
     for (int y = 0; y < raster_.height(); ++y) {

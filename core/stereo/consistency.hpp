@@ -6,13 +6,9 @@
 
 namespace traygauge {
 
-struct ConsistencyParams {
-  double max_difference_px = 1.5;  // between a disparity and its partner's: whole pixels and half a step
-};
-
-// Drops the disparities that the other view contradicts. `sign` is +1 for the first view, whose partner lies
-// at column + disparity, −1 for the second.
+// Drops the disparities from which those of the other view differ by more than 1.5 pixels. `sign` is +1 for
+// the first view, whose partner lies at column + disparity, −1 for the second.
 void keep_consistent(ImageView<const Disparity> own, ImageView<const Disparity> other, int sign,
-                     const ConsistencyParams& params, ImageView<Disparity> kept);
+                     ImageView<Disparity> kept);
 
 }  // namespace traygauge

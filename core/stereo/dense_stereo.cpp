@@ -146,7 +146,7 @@ void match_reference(DenseStereoWorkspace& workspace, std::size_t level, std::si
   const ImageView<std::int16_t> first = as_picture(workspace.first_disparity, like);
   const int sign = v == 0 ? 1 : -1;
   const DisparityRange searched = range_at(range, level, sign);
-  int lanes = params.band_lanes;
+  int lanes = kBandLanes;
   if (coarsest) {
     lanes = std::min((searched.count() + kBandLanes - 1) / kBandLanes * kBandLanes, kMaxBandLanes);
     std::fill_n(first.data, static_cast<std::size_t>(like.width) * static_cast<std::size_t>(like.height),
@@ -187,10 +187,11 @@ void match_level(DenseStereoWorkspace& workspace, std::size_t level, DisparityRa
   for (std::size_t v = 0; v < 2; ++v) match_reference(workspace, level, v, range, coarsest, params);
 }
 
-void filter_level(DenseStereoWorkspace& workspace, std::size_t level, int radius) {
+// The 3 × 3 median.
+void filter_level(DenseStereoWorkspace& workspace, std::size_t level) {
   const ImageView<const std::uint8_t> like = workspace.views[0].gray[level];
   for (const View& view : workspace.views) {
-    filter_median(as_picture(view.disparity, like), radius, as_picture(view.consistent, like));
+    filter_median(as_picture(view.disparity, like), 1, as_picture(view.consistent, like));
   }
 }
 
@@ -222,11 +223,11 @@ void prepare_surfaces(DenseStereoWorkspace& workspace, const PlaneRectification&
   const ImageView<const std::uint8_t> like = views[0].gray[0];
   for (std::size_t v = 0; v < 2; ++v) {
     keep_consistent(as_picture(views[v].disparity, like), as_picture(views[1 - v].disparity, like),
-                    v == 0 ? 1 : -1, params.consistency, as_picture(views[v].consistent, like));
+                    v == 0 ? 1 : -1, as_picture(views[v].consistent, like));
   }
   for (std::size_t v = 0; v < 2; ++v) {
     const ImageView<Disparity> filtered = as_picture(views[v].disparity, like);
-    filter_median(as_picture(views[v].consistent, like), params.median_radius, filtered);
+    filter_median(as_picture(views[v].consistent, like), 1, filtered);
     const auto samples = static_cast<std::size_t>(like.width) * static_cast<std::size_t>(like.height);
     for (std::size_t i = 0; i < samples; ++i) views[v].trusted[i] = filtered.data[i] == kNoDisparity ? 0 : 1;
     fill_view(views, grid, v, params.gaps, filtered);
@@ -249,8 +250,8 @@ void refine_surfaces(DenseStereoWorkspace& workspace, const DenseStereoParams& p
   }
 }
 
-void rate_evidence(std::array<View, 2>& views, std::size_t v, double confirmed_px,
-                   double& confirmed_fraction) {
+// Where both views' refined disparities agree within a pixel, they confirm each other.
+void rate_evidence(std::array<View, 2>& views, std::size_t v, double& confirmed_fraction) {
   const ImageView<const std::uint8_t> labels = views[v].labels[0];
   const ImageView<const float> own = as_picture(views[v].surface, labels);
   const ImageView<const float> other = as_picture(views[1 - v].surface, labels);
@@ -268,8 +269,8 @@ void rate_evidence(std::array<View, 2>& views, std::size_t v, double confirmed_p
       const float partner = static_cast<float>(x) + sign * d + 0.5F;
       const bool inside = partner >= 0.0F && partner < static_cast<float>(labels.width);
       const int at = inside ? static_cast<int>(partner) : 0;
-      const bool agrees = inside && views[1 - v].labels[0].at(at, y) != 0 &&
-                          std::abs(other.at(at, y) - d) <= static_cast<float>(confirmed_px);
+      const bool agrees =
+          inside && views[1 - v].labels[0].at(at, y) != 0 && std::abs(other.at(at, y) - d) <= 1.0F;
       evidence.at(x, y) = trusted.at(x, y) == 0 ? SurfaceEvidence::filled
                           : agrees              ? SurfaceEvidence::both
                                                 : SurfaceEvidence::single;
@@ -311,12 +312,12 @@ Status run_dense_stereo(const std::array<StoredView, 2>& views, const LabelTable
   for (std::size_t v = 0; v < 2; ++v) sample_view(grid, views[v], kept, params.levels, workspace.views[v]);
   for (int level = params.levels - 1; level >= 0; --level) {
     match_level(workspace, static_cast<std::size_t>(level), range, level == params.levels - 1, params);
-    if (level > 0) filter_level(workspace, static_cast<std::size_t>(level), params.median_radius);
+    if (level > 0) filter_level(workspace, static_cast<std::size_t>(level));
   }
   prepare_surfaces(workspace, grid, params);
   refine_surfaces(workspace, params);
   for (std::size_t v = 0; v < 2; ++v) {
-    rate_evidence(workspace.views, v, params.confirmed_px, report.confirmed[v]);
+    rate_evidence(workspace.views, v, report.confirmed[v]);
   }
   for (std::size_t v = 0; v < 2; ++v) {
     View& view = workspace.views[v];

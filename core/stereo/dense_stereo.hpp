@@ -19,20 +19,17 @@
 
 namespace traygauge {
 
-inline constexpr int kMaxSurfaceLevels = 4;
+inline constexpr int kMaxSurfaceLevels =
+    3;  // kMaxBandLanes disparities of the coarsest are 256 of the finest
 
 struct DenseStereoParams {
   PlaneRectificationParams rectification;
-  int max_columns = 896;  // of the grid, that row buffers are kept for
-  int levels = 3;  // up to kMaxSurfaceLevels; the coarsest searches all heights, finer ones a band about the
-                   // level before
-  int band_lanes = 16;          // disparities of a band
-  double min_height_mm = -2.0;  // below the bottom: the pose's error, and the table beside the dish
-  double highest_mm = 90.0;     // no food is higher above the bottom
-  int median_radius = 1;
-  double confirmed_px = 1.0;  // both views' refined disparities agree within
+  int max_columns = 896;           // of the grid, that row buffers are kept for
+  int levels = kMaxSurfaceLevels;  // or fewer; the coarsest searches all heights, finer ones a band of
+                                   // kBandLanes disparities about the level before
+  double min_height_mm = -2.0;     // below the bottom: the pose's error, and the table beside the dish
+  double highest_mm = 90.0;        // no food is higher above the bottom
   SgmParams sgm;
-  ConsistencyParams consistency;
   OcclusionParams gaps;
   SubpixelRefinementParams refinement;
 };
@@ -79,7 +76,7 @@ struct DenseStereoWorkspace {
       view.evidence = arena.template take<SurfaceEvidence>(samples);
     }
     rows = arena.template take<PlaneRow>(static_cast<std::size_t>(params.rectification.max_rows));
-    const int of_bands = max_level_samples(params, 0) * params.band_lanes;
+    const int of_bands = max_level_samples(params, 0) * kBandLanes;
     const int of_coarsest = max_level_samples(params, params.levels - 1) * kMaxBandLanes;
     arena.overlay(
         [&] {  // matching

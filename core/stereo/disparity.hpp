@@ -13,6 +13,9 @@ inline constexpr Disparity kNoDisparity = std::numeric_limits<Disparity>::min();
 inline constexpr int kMaxDisparityPx =
     std::numeric_limits<Disparity>::max() / kDisparityScale - 1;  // either sign
 
+// Neighbours, and ends of a gap, that differ by less are one surface.
+inline constexpr double kOneSurfacePx = 5.0;
+
 // To the nearest pixel.
 constexpr int whole_px(int disparity) {
   return (disparity + kDisparityScale / 2) >> 4;

@@ -6,7 +6,7 @@
 
 namespace traygauge {
 
-inline constexpr int kMaxMedianRadius = 3;
+inline constexpr int kMaxMedianRadius = 3;  // of profile paper's parameters; memory of 49 values
 
 // Replaces each disparity by the median of the known ones around it; kNoDisparity stays. Equal sizes, not the
 // same memory. Of an even number of known ones it takes the upper middle.

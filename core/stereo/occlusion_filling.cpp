@@ -106,7 +106,7 @@ class RowFiller {
     const int side = row_.sign;
     const double lean = row_.camera.lean(upper.column + side, side);
     const double other_lean = row_.other_camera.lean(upper.column + side, side);
-    constexpr double kLeastLean = 0.02;  // between views that tell depths
+    constexpr double kLeastLean = 0.02;  // 1 degree between views that tell depths: they are refused below 3
     const double wall_fraction = std::clamp(-lean / std::max(other_lean - lean, kLeastLean), 0.0, 1.0);
     const int apart = std::abs(lower.column - upper.column);
     const double wall = wall_fraction * apart;

@@ -31,7 +31,8 @@ struct OcclusionParams {
   // Of its last known height what the item has at the other view's outline where the bound is nothing; all of
   // it where the bound is its height.
   double other_outline_fraction = 0.25;
-  double same_surface_px = 5.0;  // ends of a gap that differ by less are one surface seen through it
+  double same_surface_px =
+      kOneSurfacePx;  // ends of a gap that differ by less are one surface seen through it
   // Where they differ by more and neither hides the gap from the other view: between the straight line (1)
   // and the lower end going on (0).
   double step_fraction = 0.5;

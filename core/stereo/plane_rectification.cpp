@@ -7,8 +7,7 @@
 namespace traygauge {
 namespace {
 
-constexpr double kFarthestMeetingMm = 1e7;  // rows that meet farther away are parallel within 1e-4 mm
-constexpr double kLeastBaselineMm = 1.0;
+constexpr double kFarthestMeetingMm = 1e7;     // rows that meet farther away are parallel within 1e-4 mm
 constexpr double kLeastCameraHeightMm = 50.0;  // above the plane
 
 // The outline on the plane of what has one of `measured`, picture row by picture row.
@@ -114,7 +113,6 @@ Status PlaneRectification::build(const std::array<StoredView, 2>& views, const L
                                  double plane_height_mm, const PlaneRectificationParams& params,
                                  std::span<PlaneRow> rows) {
   plane_height_mm_ = plane_height_mm;
-  max_samples_per_axis_ = std::clamp(params.max_samples_per_axis, 1, kMaxSamplesPerAxis);
   for (std::size_t v = 0; v < 2; ++v) {
     if (!is_usable(views[v]) || !shows(views[v], kept, params.outline_step_px))
       return StatusCode::rectification_failed;
@@ -122,7 +120,7 @@ Status PlaneRectification::build(const std::array<StoredView, 2>& views, const L
     if (!(camera_mm_[v].z() - plane_height_mm > kLeastCameraHeightMm))
       return StatusCode::rectification_failed;
   }
-  if (!((camera_mm_[1] - camera_mm_[0]).norm() > kLeastBaselineMm)) return StatusCode::rectification_failed;
+  if (!((camera_mm_[1] - camera_mm_[0]).norm() > kNearMm)) return StatusCode::rectification_failed;
 
   const LabelTable measured = measured_labels(views, kept, params);
   Vec2 low = Vec2::Constant(std::numeric_limits<double>::infinity());
@@ -160,17 +158,15 @@ Status PlaneRectification::build(const std::array<StoredView, 2>& views, const L
   const double length_mm = extent.max_mm - extent.min_mm;
   const double width_mm = (extent.max_tangent - extent.min_tangent) * distance_mm;
   const double margin = 2.0 * params.margin_samples + 1.0;
-  // columns · rows = max_samples with columns = length / step + margin, rows = width / (step · aspect) +
-  // margin.
-  const double a = length_mm * width_mm / params.aspect;
-  const double b = margin * (length_mm + width_mm / params.aspect);
+  // columns · rows = max_samples with columns = length / step + margin, rows = width / step + margin.
+  const double a = length_mm * width_mm;
+  const double b = margin * (length_mm + width_mm);
   const double c = margin * margin - params.max_samples;
   if (!(c < 0.0)) return StatusCode::rectification_failed;
   column_step_mm_ = std::max((b + std::sqrt(b * b - 4.0 * a * c)) / (-2.0 * c),
                              params.least_step_px * finest_px_mm(views, middle_mm, plane_height_mm));
-  row_step_mm_ = column_step_mm_ * params.aspect;
   columns_ = static_cast<int>(length_mm / column_step_mm_ + margin);
-  const int row_count = static_cast<int>(width_mm / row_step_mm_ + margin);
+  const int row_count = static_cast<int>(width_mm / column_step_mm_ + margin);
   if (columns_ < 1 || row_count < 1 || row_count > static_cast<int>(rows.size()) ||
       std::int64_t{columns_} * row_count > params.max_samples) {
     return StatusCode::rectification_failed;
@@ -181,7 +177,7 @@ Status PlaneRectification::build(const std::array<StoredView, 2>& views, const L
       (meeting_mm - camera_mm_[0].head<2>()).norm() > (meeting_mm - camera_mm_[1].head<2>()).norm();
   const double slack_mm = 0.5 * (columns_ - 1) * column_step_mm_ - 0.5 * length_mm;
   const double first_mm = outward ? extent.min_mm - slack_mm : extent.max_mm + slack_mm;
-  const double tangent_step = row_step_mm_ / distance_mm;
+  const double tangent_step = column_step_mm_ / distance_mm;
   const double first_tangent =
       0.5 * (extent.min_tangent + extent.max_tangent) - 0.5 * (row_count - 1) * tangent_step;
   rows_ = rows.first(static_cast<std::size_t>(row_count));

@@ -12,6 +12,7 @@
 #include <span>
 
 #include "core/base/status.hpp"
+#include "core/base/units.hpp"
 #include "core/geometry/camera.hpp"
 #include "core/geometry/geometry.hpp"
 #include "core/geometry/table_frame.hpp"
@@ -19,23 +20,23 @@
 #include "core/labels/label_regions.hpp"
 #include "core/labels/label_set.hpp"
 #include "core/stereo/surface_grid.hpp"
+#include "core/stereo/symmetric_census.hpp"
 
 namespace traygauge {
 
-inline constexpr int kMaxSamplesPerAxis = 4;
+inline constexpr int kMaxSamplesPerAxis = 3;  // of a picture, averaged for one sample of the grid
 
 struct PlaneRectificationParams {
-  int max_samples = 131072;    // of the grid around the food (paper III-B-2 resizes the dish to a fixed size,
-                               // most of which is bare); time grows with them
+  // Of the grid around the food: 2^17, to which the paper (V-B) resizes the dish, most of which is bare.
+  // Time grows with them.
+  int max_samples = 131072;
   double least_step_px = 1.0;  // of the finer picture, between samples: finer ones would show nothing more
   bool whole_dish = false;     // around the dish although food lies on it
   int max_rows = 768;          // that tables are kept for
-  double aspect = 1.0;         // row spacing over column spacing
-  int margin_samples = 8;      // around the food: a census window, so that its outline matches
-  double max_fan = 4.0;  // farthest over nearest sample, from the meeting point of the rows; beyond, the
-                         // views are one behind the other and show no parallax
-  int max_samples_per_axis = 3;  // of a picture, averaged for one sample of the grid; to kMaxSamplesPerAxis
-  int outline_step_px = 4;       // picture rows between those whose food sets the grid's extent
+  int margin_samples = 2 * kSymmetricCensusColumns;  // around the food, so that its outline matches
+  double max_fan = 4.0;     // farthest over nearest sample, from the meeting point of the rows; beyond, the
+                            // views are one behind the other and show no parallax
+  int outline_step_px = 4;  // picture rows between those whose food sets the grid's extent
 };
 
 // One view as stored. `dish` holds every pixel whose label is kept.
@@ -48,7 +49,7 @@ struct StoredView {
 };
 
 // Which labels belong to the dish that is measured: the label to write for each of the picture, 0 for others.
-using LabelTable = std::array<std::uint8_t, 256>;
+using LabelTable = std::array<std::uint8_t, kByteValues>;
 
 // Of one dish with what lies on it: items keep their labels, the dish becomes kDishLabel.
 LabelTable labels_on_dish(const LabelSet& on_dish);
@@ -71,7 +72,7 @@ class PlaneRectification {
   int rows() const { return static_cast<int>(rows_.size()); }
   int columns() const { return columns_; }
   double column_step_mm() const { return column_step_mm_; }
-  double row_step_mm() const { return row_step_mm_; }  // in the middle of the grid
+  double row_step_mm() const { return column_step_mm_; }  // in the middle of the grid
   const PlaneRow& row(int r) const { return rows_[static_cast<std::size_t>(r)]; }
   double camera_height_mm(int view) const { return camera_mm_[index(view)].z() - plane_height_mm_; }
   const Vec3& camera_mm(int view) const { return camera_mm_[index(view)]; }
@@ -95,9 +96,7 @@ class PlaneRectification {
 
   std::span<PlaneRow> rows_;
   int columns_ = 0;
-  int max_samples_per_axis_ = 1;
   double column_step_mm_ = 1.0;
-  double row_step_mm_ = 1.0;
   double plane_height_mm_ = 0.0;
   std::array<Vec3, 2> camera_mm_{};
 };

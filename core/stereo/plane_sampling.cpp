@@ -9,15 +9,14 @@
 namespace traygauge {
 namespace {
 
-constexpr int kSamplesAtOnce = 64;
 constexpr int kMaxSubSamples = kMaxSamplesPerAxis * kMaxSamplesPerAxis;
 constexpr int kFractionBits = 7;  // of a position; weights then have 14 bits
 constexpr int kPlaneUnit = 1 << kFractionBits;
 
 // Picture positions of successive samples of a row.
 struct Positions {
-  std::array<float, kSamplesAtOnce> x;
-  std::array<float, kSamplesAtOnce> y;
+  std::array<float, kLensRun> x;
+  std::array<float, kLensRun> y;
 };
 
 // A row in the camera: homogeneous, linear in the column.
@@ -38,7 +37,7 @@ void compute_positions(const LensModel& lens, const CameraRow& row, int left, Po
   const LensLanes lanes(lens);
   const Eigen::Vector3f first = (row.origin + left * row.step).cast<float>();
   const Eigen::Vector3f step = row.step.cast<float>();
-  for (int i = 0; i < kSamplesAtOnce; ++i) {
+  for (int i = 0; i < kLensRun; ++i) {
     const auto at = static_cast<std::size_t>(i);
     const auto offset = static_cast<float>(i);
     const float inverse = 1.0F / (first.z() + offset * step.z());
@@ -128,11 +127,11 @@ void PlaneRectification::sample_gray(const StoredView& source, ImageView<std::ui
     const Vec3 ray = source.camera_from_table * plane_point(row, column);
     return source.lens.pixel(Vec2(ray.x() / ray.z(), ray.y() / ray.z()));
   };
-  const int most = std::clamp(max_samples_per_axis_, 1, 4);
+  constexpr int most = kMaxSamplesPerAxis;
   for (int r = 0; r < rows(); ++r) {
     const CameraRow line = row_in_camera(row(r), source.camera_from_table, plane_height_mm_, column_step_mm_);
-    for (int left = 0; left < columns_; left += kSamplesAtOnce) {
-      const int count = std::min(kSamplesAtOnce, columns_ - left);
+    for (int left = 0; left < columns_; left += kLensRun) {
+      const int count = std::min(kLensRun, columns_ - left);
       compute_positions(source.lens, line, left, positions);
       // The map is linear enough over a block for one grid: its Jacobian there.
       const double middle = left + 0.5 * count;
@@ -150,8 +149,8 @@ void PlaneRectification::sample_labels(const StoredView& source, const LabelTabl
   Positions positions;
   for (int r = 0; r < rows(); ++r) {
     const CameraRow line = row_in_camera(row(r), source.camera_from_table, plane_height_mm_, column_step_mm_);
-    for (int left = 0; left < columns_; left += kSamplesAtOnce) {
-      const int count = std::min(kSamplesAtOnce, columns_ - left);
+    for (int left = 0; left < columns_; left += kLensRun) {
+      const int count = std::min(kLensRun, columns_ - left);
       compute_positions(source.lens, line, left, positions);
       for (int i = 0; i < count; ++i) {
         const float x = positions.x[static_cast<std::size_t>(i)] + 0.5F;

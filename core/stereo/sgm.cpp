@@ -4,17 +4,21 @@
 #include <cmath>
 #include <cstring>
 
+#include "core/base/units.hpp"
 #include "core/stereo/path_costs.hpp"
 #include "core/stereo/subpixel.hpp"
+#include "core/stereo/symmetric_census.hpp"
 
 namespace traygauge {
 namespace {
 
-constexpr int kCensusBits = 31;
-static_assert(kCensusBits + kMaxLabelPenalty <= kWorstCost);
-static_assert(kPadCost > kWorstCost + kMaxLargePenalty && kPadCost + kMaxSmallStepPenalty <= 255);
-static_assert(2 * (kWorstCost + kMaxLargePenalty) <= 255);     // two path costs are added as bytes
-static_assert(4 * (kWorstCost + kMaxLargePenalty) < 1 << 10);  // four leave room for the lane
+// Costs are bytes: a worse penalty would overflow.
+constexpr SgmParams kUsual;
+constexpr int kWorstPath = kWorstCost + kUsual.large_step_penalty;
+static_assert(kSymmetricCensusBits + kUsual.label_penalty <= kWorstCost);
+static_assert(kPadCost > kWorstPath && kPadCost + kUsual.small_step_penalty < static_cast<int>(kByteValues));
+static_assert(2 * kWorstPath < static_cast<int>(kByteValues));  // two path costs are added as bytes
+static_assert(4 * kWorstPath < 1 << 10);                        // four leave room for the lane
 
 template <int kChunks>
 class Matcher {
@@ -67,7 +71,7 @@ class Matcher {
   SgmWorkspace& workspace_;
   int width_ = 0;
   int height_ = 0;
-  std::array<ByteLanes, 256> large_penalty_{};
+  std::array<ByteLanes, kByteValues> large_penalty_{};
   ByteLanes border_penalty_{};
   ByteLanes label_penalty_{};
   ByteLanes small_penalty_{};
@@ -226,7 +230,6 @@ void match_band(const BandedPair& pair, ImageView<const std::int16_t> first_disp
 
 void match_sgm(const BandedPair& pair, ImageView<const std::int16_t> first_disparity, int lanes,
                const SgmParams& params, SgmWorkspace& workspace, ImageView<Disparity> disparity) {
-  static_assert(kMaxBandLanes == 4 * kBandLanes);
   switch (lanes / kBandLanes) {
     case 1:
       return match_band<1>(pair, first_disparity, params, workspace, disparity);

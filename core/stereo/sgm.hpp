@@ -9,6 +9,7 @@
 
 #include "core/image_view/image_view.hpp"
 #include "core/stereo/disparity.hpp"
+#include "core/stereo/row_lanes.hpp"
 
 namespace traygauge {
 
@@ -22,14 +23,9 @@ struct SgmParams {
   int label_penalty = 16;        // partners with different labels
 };
 
-// Costs are bytes: beyond these they overflow.
-inline constexpr int kMaxSmallStepPenalty = 50;
-inline constexpr int kMaxLargePenalty = 64;
-inline constexpr int kMaxLabelPenalty = 32;
-
-inline constexpr int kBandLanes = 16;     // disparities in a register
-inline constexpr int kMaxBandLanes = 64;  // widest band
-inline constexpr int kBandPadding = 16;   // of path costs, either side
+inline constexpr int kBandLanes = sizeof(ByteLanes);  // disparities in a register
+inline constexpr int kMaxBandLanes = 4 * kBandLanes;  // widest band
+inline constexpr int kBandPadding = kBandLanes;       // of path costs, either side
 
 // Both pictures of a level and what matching needs of them. Labels 0 are not matched.
 struct BandedPair {

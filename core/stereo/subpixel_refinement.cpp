@@ -11,6 +11,7 @@ namespace traygauge {
 namespace {
 
 constexpr int kChannels = SubpixelRefinementWorkspace::kChannels;
+constexpr int kOutlinePx = 2 * kRefinementRadius;
 constexpr float kLeastHold = 1e-6F;    // grey²: keeps a sample that nothing holds where it is
 constexpr float kLeastEnergy = 0.01F;  // grey², of a window without any gradient
 
@@ -37,7 +38,7 @@ class Refinement {
              const SubpixelRefinementParams& params, SubpixelRefinementWorkspace& workspace,
              ImageView<float> disparity)
       : pair_(pair), trusted_(trusted), params_(params), workspace_(workspace), disparity_(disparity) {
-    columns_ = static_cast<std::ptrdiff_t>(disparity.width) + std::ptrdiff_t{2} * kMaxRefinementRadius;
+    columns_ = static_cast<std::ptrdiff_t>(disparity.width) + std::ptrdiff_t{2} * kRefinementRadius;
   }
 
   void tie_neighbours();
@@ -47,13 +48,11 @@ class Refinement {
 
  private:
   float* terms(int y, int channel) const {
-    const int slot = y % (2 * kMaxRefinementRadius + 1);
-    return workspace_.terms.data() + (slot * kChannels + channel) * columns_ + kMaxRefinementRadius;
+    const int slot = y % (2 * kRefinementRadius + 1);
+    return workspace_.terms.data() + (slot * kChannels + channel) * columns_ + kRefinementRadius;
   }
   float* windows(int channel) const { return workspace_.windows.data() + channel * columns_; }
-  float* sums(int channel) const {
-    return workspace_.sums.data() + channel * columns_ + kMaxRefinementRadius;
-  }
+  float* sums(int channel) const { return workspace_.sums.data() + channel * columns_ + kRefinementRadius; }
   static std::ptrdiff_t at(ImageView<float> picture, int y) { return std::ptrdiff_t{y} * picture.width; }
   // First labelled column of a row, and the one behind the last.
   std::pair<int, int> labelled_columns(int y) const {
@@ -65,10 +64,11 @@ class Refinement {
     return {first, last};
   }
   void compute_terms(int y);
-  // Whether the row has one label around a sample.
+  // Whether the row has one label around a sample, a window's width to either side: nearer to another one its
+  // gradient is its outline's.
   bool is_inside_outline(const std::uint8_t* labels, int x) const {
-    const int left = std::max(x - params_.outline_px, 0);
-    const int right = std::min(x + params_.outline_px, disparity_.width - 1);
+    const int left = std::max(x - kOutlinePx, 0);
+    const int right = std::min(x + kOutlinePx, disparity_.width - 1);
     return labels[left] == labels[x] && labels[right] == labels[x];
   }
   void solve_row(int y);
@@ -83,7 +83,7 @@ class Refinement {
 
 void Refinement::tie_neighbours() {
   const auto border = static_cast<float>(params_.border_tie);
-  const auto most = static_cast<float>(params_.max_jump_px);
+  const auto most = static_cast<float>(kOneSurfacePx);
   const auto tie = [&](int x, int y, int to_x, int to_y) {
     if (to_x >= disparity_.width || to_y >= disparity_.height) return 0.0F;
     const std::uint8_t a = pair_.labels.at(x, y);
@@ -117,7 +117,7 @@ void Refinement::compute_terms(int y) {
   std::array<float*, kChannels> out;
   for (int k = 0; k < kChannels; ++k) {
     out[static_cast<std::size_t>(k)] = terms(y, k);
-    std::fill_n(terms(y, k) - kMaxRefinementRadius, columns_, 0.0F);
+    std::fill_n(terms(y, k) - kRefinementRadius, columns_, 0.0F);
   }
   const std::uint8_t* gray = pair_.gray.row(y);
   const std::uint8_t* labels = pair_.labels.row(y);
@@ -125,7 +125,7 @@ void Refinement::compute_terms(int y) {
   const std::uint8_t* other_labels = pair_.other_labels.row(y);
   const auto last = static_cast<float>(pair_.other_gray.width - 3);
   const auto sign = static_cast<float>(pair_.sign);
-  const auto dish_weight = static_cast<float>(params_.dish_weight);
+  const float dish_weight = params_.refines_dish ? 1.0F : 0.0F;
   for (int x = 0; x < disparity_.width; ++x) {
     if (trusted_.at(x, y) == 0 || pair_.labels.at(x, y) == 0) continue;
     const float place = static_cast<float>(x) + sign * disparity_.at(x, y);
@@ -147,15 +147,14 @@ void Refinement::compute_terms(int y) {
 
 // What the windows around a row ask for.
 void Refinement::solve_row(int y) {
-  const int radius = std::clamp(params_.window_radius, 1, kMaxRefinementRadius);
-  const int top = std::max(y - radius, 0);
-  const int bottom = std::min(y + radius, disparity_.height - 1);
+  constexpr int kRadius = kRefinementRadius;
+  const int top = std::max(y - kRadius, 0);
+  const int bottom = std::min(y + kRadius, disparity_.height - 1);
   for (int k = 0; k < kChannels; ++k) {
-    float* sum = sums(k) - kMaxRefinementRadius;
-    std::memcpy(sum, terms(top, k) - kMaxRefinementRadius,
-                static_cast<std::size_t>(columns_) * sizeof(float));
+    float* sum = sums(k) - kRefinementRadius;
+    std::memcpy(sum, terms(top, k) - kRefinementRadius, static_cast<std::size_t>(columns_) * sizeof(float));
     for (int i = top + 1; i <= bottom; ++i) {
-      const float* term = terms(i, k) - kMaxRefinementRadius;
+      const float* term = terms(i, k) - kRefinementRadius;
       for (std::ptrdiff_t x = 0; x < columns_; ++x) sum[x] += term[x];
     }
   }
@@ -165,10 +164,10 @@ void Refinement::solve_row(int y) {
   const auto most = static_cast<float>(params_.max_step_px);
   const auto [first, last] = labelled_columns(y);
   for (int k = 0; k < kChannels; ++k) {
-    const float* sum = sums(k) - radius;
+    const float* sum = sums(k) - kRadius;
     float* window = windows(k);
     for (int x = first; x < last; ++x) window[x] = sum[x];
-    for (int i = 1; i <= 2 * radius; ++i) {
+    for (int i = 1; i <= 2 * kRadius; ++i) {
       for (int x = first; x < last; ++x) window[x] += sum[x + i];
     }
   }
@@ -190,10 +189,10 @@ void Refinement::solve_row(int y) {
 }
 
 void Refinement::collect_evidence() {
-  const int radius = std::clamp(params_.window_radius, 1, kMaxRefinementRadius);
-  for (int y = 0; y < std::min(radius, disparity_.height); ++y) compute_terms(y);
+  constexpr int kRadius = kRefinementRadius;
+  for (int y = 0; y < std::min(kRadius, disparity_.height); ++y) compute_terms(y);
   for (int y = 0; y < disparity_.height; ++y) {
-    if (y + radius < disparity_.height) compute_terms(y + radius);
+    if (y + kRadius < disparity_.height) compute_terms(y + kRadius);
     solve_row(y);
   }
 }

@@ -10,47 +10,44 @@
 #include <span>
 
 #include "core/image_view/image_view.hpp"
+#include "core/stereo/disparity.hpp"
 
 namespace traygauge {
 
 struct SubpixelRefinementParams {
   int iterations = 3;        // each resamples the picture anew
-  int window_radius = 2;     // 1 to kMaxRefinementRadius
   double max_step_px = 1.0;  // of an iteration: the linearisation reaches about a pixel
   // grey², against the mean squared gradient of a window: some times the noise of 2 to 4 grey levels.
   double stiffness = 16.0;
   int smoothings = 2;           // of the membrane before an iteration
   double smoothing_hold = 0.5;  // of a sample's own disparity, against each neighbour's, while smoothing
   int relaxations = 4;          // of the membrane, per iteration
-  double max_jump_px = 5.0;     // neighbours that differ by more are not tied
-  double dish_weight = 0.0;     // of the dish's samples in windows: food beside it is not mixed with it
-  int outline_px = 4;       // samples of food this near to another label weigh as little: their gradient is
-                            // their outline's
-  double border_tie = 0.1;  // between samples of different labels
+  bool refines_dish = false;  // else the dish's samples have no weight in windows: food is not mixed with it
+  double border_tie = 0.1;    // between samples of different labels
 };
 
-inline constexpr int kMaxRefinementRadius = 6;
+inline constexpr int kRefinementRadius = 2;  // of the windows
 
 struct SubpixelRefinementWorkspace {
-  static constexpr int kChannels = 5;
-  std::span<float> certainty;  // gradient energy, of every sample
-  std::span<float> target;     // disparity that the window asks for, times certainty
+  static constexpr int kChannels = 5;  // count, residual, gradient, gradient², gradient · residual
+  std::span<float> certainty;          // gradient energy, of every sample
+  std::span<float> target;             // disparity that the window asks for, times certainty
   std::span<float> right_tie;
   std::span<float> lower_tie;
-  std::span<float> terms;    // kChannels of 2 kMaxRefinementRadius + 1 rows
-  std::span<float> sums;     // kChannels of one row, with kMaxRefinementRadius beyond its ends
+  std::span<float> terms;    // kChannels of 2 kRefinementRadius + 1 rows
+  std::span<float> sums;     // kChannels of one row, with kRefinementRadius beyond its ends
   std::span<float> windows;  // kChannels of one row
   std::span<float> row;
 
   template <class Allocator>
   constexpr void allocate(Allocator& arena, int max_columns, int max_samples) {
     const auto samples = static_cast<std::size_t>(max_samples);
-    const auto columns = static_cast<std::size_t>(max_columns) + std::size_t{2} * kMaxRefinementRadius;
+    const auto columns = static_cast<std::size_t>(max_columns) + std::size_t{2} * kRefinementRadius;
     certainty = arena.template take<float>(samples);
     target = arena.template take<float>(samples);
     right_tie = arena.template take<float>(samples);
     lower_tie = arena.template take<float>(samples);
-    terms = arena.template take<float>(columns * kChannels * (2 * kMaxRefinementRadius + 1));
+    terms = arena.template take<float>(columns * kChannels * (2 * kRefinementRadius + 1));
     sums = arena.template take<float>(columns * kChannels);
     windows = arena.template take<float>(columns * kChannels);
     row = arena.template take<float>(columns);

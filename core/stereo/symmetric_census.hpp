@@ -9,9 +9,11 @@
 
 namespace traygauge {
 
-inline constexpr int kSymmetricCensusColumns = 4;  // to either side
+// To either side of the centre, as in the paper; of the window's pairs, each gives a bit.
+inline constexpr int kSymmetricCensusColumns = 4;
 inline constexpr int kSymmetricCensusRows = 3;
-inline constexpr int kSymmetricCensusBits = 31;
+inline constexpr int kSymmetricCensusBits =
+    ((2 * kSymmetricCensusColumns + 1) * (2 * kSymmetricCensusRows + 1) - 1) / 2;
 
 // `codes` has the picture's size. Beyond the picture its border is repeated.
 void transform_symmetric_census(ImageView<const std::uint8_t> picture, ImageView<std::uint32_t> codes);

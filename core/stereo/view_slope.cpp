@@ -8,9 +8,9 @@
 namespace traygauge {
 namespace {
 
-constexpr int kRowsAround = 3;       // of a line through an outline
-constexpr int kFarthestColumn = 30;  // beyond, the outline of another row is another piece's
-constexpr std::size_t kLeastPoints = 3;
+constexpr int kRowsAround = 3;           // of a line through an outline
+constexpr int kFarthestColumn = 30;      // beyond, the outline of another row is another piece's
+constexpr std::size_t kLeastPoints = 3;  // a line, and one that contradicts it
 
 // Where the label of (column, row) in `labels` ends in row `at`, going from `column` to that `side`.
 std::optional<int> outline_column(ImageView<const std::uint8_t> labels, std::uint8_t label, int at,

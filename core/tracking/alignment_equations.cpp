@@ -97,7 +97,7 @@ template <bool kAffine>
 TemplateMoments take_moments(const AlignmentTemplate& patch) {
   TemplateMoments moments;
   for (int group = 0; group < kGroups; ++group) {
-    constexpr std::size_t kProducts = 7;
+    constexpr std::size_t kProducts = 7;  // of the gradients: with each other, with the value, and alone
     std::array<FloatLanes, kProducts> by_one{};
     std::array<FloatLanes, kProducts> by_y{};
     std::array<FloatLanes, 3> by_yy{};

@@ -20,18 +20,20 @@ enum class PatchMotion : std::uint8_t {
 };
 
 // Parameters: second(u) = first(u + shift + matrix · u) · (1 + gain) + offset.
-inline constexpr int kShiftX = 0;
-inline constexpr int kShiftY = 1;
-inline constexpr int kXByX = 2;
-inline constexpr int kXByY = 3;
-inline constexpr int kYByX = 4;
-inline constexpr int kYByY = 5;
-inline constexpr int kGain = 6;
-inline constexpr int kOffset = 7;
-inline constexpr int kAlignmentColumns = 8;
+enum AlignmentColumn : int {
+  kShiftX,
+  kShiftY,
+  kXByX,
+  kXByY,
+  kYByX,
+  kYByY,
+  kGain,
+  kOffset,
+  kAlignmentColumns
+};
 using AlignmentEquations = NormalEquations<kAlignmentColumns>;
 using ShiftEquations = NormalEquations<4>;  // shift, gain, offset
-inline constexpr int kGainOfShift = 2;
+inline constexpr int kGainOfShift = kXByX;  // in the place of the matrix
 
 // The same equations with the matrix held.
 ShiftEquations without_matrix(const AlignmentEquations& equations);

@@ -11,7 +11,6 @@ namespace {
 // Standard deviations grow by it: the noise of compressed pictures is not white. Measured on rendered scenes
 // of all kinds, where it lies between 1.2 and 1.5.
 constexpr double kCorrelatedNoise = 1.4;
-constexpr double kGradientNoise = 0.5;      // variance of a central difference per variance of white noise
 constexpr double kLeastDeterminant = 0.25;  // of a step of the map: half the size in a direction
 
 using Mat2 = Eigen::Matrix2d;
@@ -32,8 +31,8 @@ double explained_squares(const NormalEquations<kParameters>& equations,
 }
 
 // Mean variance of the two shifts for residuals of variance `noise`, half of which is the patch's own and so
-// lies in its gradients too: the equations hold H = S + N, of which the noise's part N tells nothing about
-// the place, so that the covariance is noise · S⁻¹ H S⁻¹.
+// lies in its gradients too: a central difference has half their variance; the equations hold H = S + N, of
+// which the noise's part N tells nothing about the place, so that the covariance is noise · S⁻¹ H S⁻¹.
 template <int kParameters>
 bool shift_variance(NormalEquations<kParameters> equations, double noise, double weights, double& variance) {
   Mat2 inverse;
@@ -47,7 +46,7 @@ bool shift_variance(NormalEquations<kParameters> equations, double noise, double
   }
   const Mat2 shifts = inverse_of(inverse);
   Mat2 structure = shifts;
-  structure.diagonal().array() -= weights * kGradientNoise * 0.5 * noise;
+  structure.diagonal().array() -= 0.25 * weights * noise;
   if (!(structure.determinant() > 0.0 && structure.trace() > 0.0)) return false;
   const Mat2 signal = inverse_of(structure);
   const Mat2 covariance = noise * signal * shifts * signal;

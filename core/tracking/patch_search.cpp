@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <limits>
 
 #include "core/tracking/patch_sampling.hpp"
 
@@ -12,10 +13,10 @@ namespace {
 constexpr int kPixels = kSearchSide * kSearchSide;
 constexpr double kHalf = 0.5 * (kSearchSide - 1);  // from the patch's first pixel to its centre
 constexpr float kMinVariation =
-    64.0F;                      // Σ(v − mean)² of a patch: a grey value a pixel, the least to correlate
+    kPixels;                    // Σ(v − mean)² of a patch: a grey value a pixel, the least to correlate
 constexpr double kApart = 2.0;  // pixels within which two bands see the same peak
 
-constexpr float kNotScored = -2.0F;
+constexpr float kNotScored = std::numeric_limits<float>::lowest();
 constexpr float kLeastPeak = 0.3F;  // lower ones can neither be right nor rival
 
 struct alignas(16) SearchTemplate {

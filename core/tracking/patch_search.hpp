@@ -13,9 +13,9 @@
 
 namespace traygauge {
 
-inline constexpr int kSearchSide = 8;            // of the patch, pixels of the level searched
-inline constexpr int kMaxBandSide = 64;          // of a band's box: a longer band is not searched
-inline constexpr int kMaxCorrelationPeaks = 64;  // of all bands of a search together
+inline constexpr int kSearchSide = 8;                      // of the patch, pixels of the level searched
+inline constexpr int kMaxBandSide = 64;                    // of a band's box: a longer band is not searched
+inline constexpr int kMaxCorrelationPeaks = kMaxBandSide;  // of all bands of a search together
 
 // Positions of the patch's centre.
 struct SearchBand {

@@ -7,6 +7,8 @@
 
 namespace traygauge {
 
+inline constexpr int kMinTracks = 20;  // fewer support no pose and contradict none
+
 struct PointTrack {
   Vec2 first = Vec2::Zero();  // rays (z = 1), undistorted
   Vec2 second = Vec2::Zero();

@@ -10,8 +10,8 @@ namespace traygauge {
 namespace {
 
 constexpr std::size_t kCornerLevel = 1;  // half size: as many good corners, a quarter of the time
-constexpr std::size_t kFirstLookLevel = 2;
-constexpr std::size_t kSecondLookLevel = 1;
+constexpr std::size_t kFirstLookLevel = kPyramidLevels - 1;
+constexpr std::size_t kSecondLookLevel = kCornerLevel;
 constexpr int kMaxBands = 16;  // of a search
 
 Vec2 at_level(const Vec2& stored, std::size_t level) {
@@ -145,13 +145,12 @@ std::span<const std::uint8_t> Tracker::find_occluded_cells() {
 
 void Tracker::look_first(std::span<const Corner> corners) {
   // The strongest corner of each ground in each large cell.
-  constexpr std::size_t kMaxCells = 16;
-  std::array<const Corner*, kGrounds * kMaxCells * kMaxCells> strongest{};
+  std::array<const Corner*, kGrounds * kFirstLookCells * kFirstLookCells> strongest{};
   const ImageView<const std::uint8_t> picture = first_.gray.levels[kCornerLevel];
-  const int across = std::clamp(params_.first_look_cells, 1, static_cast<int>(kMaxCells));
-  const int side = std::max(picture.width, picture.height) / across + 1;
+  constexpr auto kAcross = static_cast<int>(kFirstLookCells);
+  const int side = std::max(picture.width, picture.height) / kAcross + 1;
   for (const Corner& corner : corners) {
-    const auto cell = static_cast<std::size_t>(corner.y / side) * static_cast<std::size_t>(across) +
+    const auto cell = static_cast<std::size_t>(corner.y / side) * kFirstLookCells +
                       static_cast<std::size_t>(corner.x / side);
     const Corner*& place = strongest[kGrounds * cell + static_cast<std::size_t>(ground_of(corner.label))];
     if (place == nullptr || corner.response > place->response) place = &corner;
@@ -169,7 +168,7 @@ void Tracker::look_first(std::span<const Corner> corners) {
     if (point.height_known) range.high_mm = range.low_mm;
     FoundPatch found;
     if (!search(pixel, ray, range, look, found)) continue;
-    if (found.correlation < params_.first_look_correlation ||
+    if (found.correlation < params_.min_correlation ||
         found.correlation - found.runner_up < params_.min_lead) {
       continue;
     }
@@ -187,11 +186,11 @@ bool Tracker::look_closer(const Vec2& pixel, const TableRay& ray, std::uint8_t l
   double height_mm = 0.0;
   if (known_height(label, height_mm) &&
       search(pixel, ray, {height_mm, height_mm}, {kSecondLookLevel, params_.table_margin_px}, found) &&
-      found.correlation >= params_.min_table_correlation) {
+      found.correlation >= params_.min_correlation) {
     return true;
   }
   return search(pixel, ray, all_heights(), {kSecondLookLevel, params_.margin_px}, found) &&
-         found.correlation >= params_.min_correlation;
+         found.correlation >= params_.min_height_correlation;
 }
 
 bool Tracker::align(const Vec2& pixel, const TableRay& ray, std::uint8_t label, const FoundPatch& found,
@@ -218,8 +217,7 @@ bool Tracker::align(const Vec2& pixel, const TableRay& ray, std::uint8_t label, 
                    alignment)) {
     return false;
   }
-  return alignment.correlation >= params_.min_aligned_correlation &&
-         alignment.sigma_px <= params_.max_sigma_px;
+  return alignment.correlation >= params_.min_correlation && alignment.sigma_px <= params_.max_sigma_px;
 }
 
 bool Tracker::returns(const Vec2& pixel, const PatchAlignment& alignment) const {
@@ -306,7 +304,7 @@ Status track_points(const TrackedView& first, const TrackedView& second,
       {first.gray.levels[kCornerLevel], first.labels, 1 << kCornerLevel, tracker.find_occluded_cells()},
       params.corners, random, workspace.corners, corners);
   report.corners = corners.size();
-  if (corners.size() < static_cast<std::size_t>(params.min_tracks)) return StatusCode::too_few_features;
+  if (corners.size() < std::size_t{kMinTracks}) return StatusCode::too_few_features;
 
   tracker.look_first(corners.items());
   BoundedList<PointTrack> found(workspace.track_storage);
@@ -318,8 +316,7 @@ Status track_points(const TrackedView& first, const TrackedView& second,
   report.camera_from_table = tracker.cameras();
   report.tracks = found.size();
   tracks = found.items();
-  return found.size() < static_cast<std::size_t>(params.min_tracks) ? StatusCode::too_few_matches
-                                                                    : StatusCode::ok;
+  return found.size() < std::size_t{kMinTracks} ? StatusCode::too_few_matches : StatusCode::ok;
 }
 
 }  // namespace traygauge

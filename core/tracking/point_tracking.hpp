@@ -20,6 +20,8 @@
 
 namespace traygauge {
 
+inline constexpr std::size_t kFirstLookCells = 10;  // across the picture, of the first look
+
 struct PointTrackingParams {
   CornerParams corners;
   PatchAlignmentParams alignment;
@@ -34,26 +36,22 @@ struct PointTrackingParams {
   double band_height_mm = 20.0;
 
   // First look, at quarter size: a few strong corners, wherever the card's error may have put them. The
-  // picture is divided into so many cells across, and the strongest corner of each ground in each is used.
-  int first_look_cells = 10;
+  // picture is divided into kFirstLookCells across, and the strongest corner of each ground in each is used.
   // Pixels of the stored picture around the predicted segment: 0.5° and 3 mm at 1400 px and 450 mm.
   double first_look_margin_px = 24.0;
-  double first_look_correlation = 0.8;
 
   // Second look, at half size: all corners, near where the corrected pose has them. Pixels of the stored
   // picture around the segment, or around the point where the height is known.
   double margin_px = 5.0;
   double table_margin_px = 6.0;
-  // Least correlation at whole pixels; a corner that is not found at table height with the second one is
-  // looked for at all heights.
-  double min_correlation = 0.7;
-  double min_table_correlation = 0.8;
+  // Least correlation: in the first look, where the height is known, and of the finished track; and of a
+  // corner that is not found at the height of its ground and is looked for at all heights.
+  double min_correlation = 0.8;
+  double min_height_correlation = 0.7;
   // Lead of the best correlation over any other peak: below, repeated texture is taken for itself.
   double min_lead = 0.05;
 
-  // The finished track: correlation and standard deviation as aligned.
-  double min_aligned_correlation = 0.8;
-  double max_sigma_px = 0.25;
+  double max_sigma_px = 0.25;  // standard deviation of the finished track, as aligned
   // How far from its start it may end when followed back; better tracks than the second always return.
   double max_return_px = 0.3;
   double sure_sigma_px = 0.1;
@@ -62,7 +60,6 @@ struct PointTrackingParams {
   double max_epipolar_px = 1.0;
   double pose_error_px = 0.1;
   double max_deviations = 4.0;
-  int min_tracks = 20;  // fewer cannot support a pose
 };
 
 // Where the corners went.
@@ -109,7 +106,7 @@ struct PointTrackingWorkspace {
 };
 
 // Tracks from `first` to `second`, in the workspace's memory; `camera_from_table` may be wrong by about half
-// a degree and 3 mm. too_few_features: hardly a corner; too_few_matches: fewer than min_tracks.
+// a degree and 3 mm. too_few_features: hardly a corner; too_few_matches: fewer than kMinTracks.
 Status track_points(const TrackedView& first, const TrackedView& second,
                     const TableCameras& camera_from_table, double card_thickness_mm,
                     const PointTrackingParams& params, Random& random, PointTrackingWorkspace& workspace,

@@ -82,7 +82,7 @@ struct HeightMapWorkspace {
     std::uint8_t label = 0;
     bool known = false;
   };
-  static constexpr std::size_t kCornerRows = 3;
+  static constexpr std::size_t kCornerRows = 3;  // a row and its neighbours
 
   std::span<HeightCell> first;
   std::span<HeightCell> second;

@@ -10,7 +10,7 @@
 namespace traygauge {
 namespace {
 
-constexpr double kHeightBinMm = 0.5;
+constexpr double kHeightBinMm = 0.5;  // kBins of them, 128 mm, are more than food is high
 
 bool is_border(const HeightMap& map, int x, int y) {
   const std::uint8_t label = map.cells.at(x, y).label;

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
+#include "core/base/units.hpp"
 #include "core/labels/label_regions.hpp"
 #include "core/volume/contact_level.hpp"
 #include "core/volume/densest_window.hpp"
@@ -10,16 +12,16 @@
 namespace traygauge {
 namespace {
 
-constexpr int kDirections = 64;
-constexpr double kLevelBinMm = 0.125;
-constexpr double kLowestMm = -16.0;
+constexpr int kDirections = 64;  // 5.6 degrees apart
+constexpr double kLowestMm =
+    -16.0;  // kBins of kContactBinMm reach from here to 112 mm, more than food is high
 
 bool is_seen(const HeightCell& cell, std::uint8_t label) {
   return cell.kind == CellKind::surface && cell.label == label;
 }
 
 std::uint8_t largest_item(const HeightMap& map) {
-  std::array<std::uint32_t, 256> count{};
+  std::array<std::uint32_t, kByteValues> count{};
   for (int y = 0; y < map.cells.height; ++y) {
     for (int x = 0; x < map.cells.width; ++x) ++count[map.cells.at(x, y).label];
   }
@@ -44,12 +46,13 @@ double find_level(const HeightMap& map, std::uint8_t label, double tolerance_mm,
     }
   };
   for_seen([&](double z) {
-    ++histogram[static_cast<std::size_t>(std::clamp((z - kLowestMm) / kLevelBinMm, 0.0, bins - 1.0))];
+    ++histogram[static_cast<std::size_t>(std::clamp((z - kLowestMm) / kContactBinMm, 0.0, bins - 1.0))];
     seen += 1.0;
   });
-  const auto window = static_cast<std::size_t>(std::clamp(2.0 * tolerance_mm / kLevelBinMm, 1.0, 0.5 * bins));
+  const auto window =
+      static_cast<std::size_t>(std::clamp(2.0 * tolerance_mm / kContactBinMm, 1.0, 0.5 * bins));
   const std::size_t best = find_densest_window(histogram, window).last;
-  double level = kLowestMm + kLevelBinMm * (static_cast<double>(best) + 1.0) - tolerance_mm;
+  double level = kLowestMm + kContactBinMm * (static_cast<double>(best) + 1.0) - tolerance_mm;
   double within = 0.0;
   for (int step = 0; step < 3; ++step) {
     double sum = 0.0;
@@ -70,7 +73,7 @@ bool reaches_wall(const HeightMap& map, const InnerSurface& dish, std::uint8_t l
                   const LevelLiquidParams& params) {
   int reached = 0;
   for (int k = 0; k < kDirections; ++k) {
-    const double angle = 2.0 * M_PI * k / kDirections;
+    const double angle = 2.0 * std::numbers::pi * k / kDirections;
     const Vec2& axis = dish.place.axis;
     const Vec2 along = std::cos(angle) * axis + std::sin(angle) * Vec2(-axis.y(), axis.x());
     // From the outside inward, past the crest, to where the wall comes down to the level.
@@ -110,7 +113,7 @@ double noise_mm(const HeightMap& map, const LevelLiquid& liquid) {
       count += 1.0;
     }
   }
-  return count > 0.0 ? std::sqrt(0.5 * M_PI) * sum_mm / count : 0.0;
+  return count > 0.0 ? std::sqrt(0.5 * std::numbers::pi) * sum_mm / count : 0.0;
 }
 
 void make_level(const InnerSurface& dish, const LevelLiquid& liquid, const LevelLiquidParams& params,
@@ -148,7 +151,7 @@ LevelLiquid level_liquid(std::span<const SurfaceGrid> views, const InnerSurface&
   const ContactLevel contact =
       find_contact_level(views, dish, label, params.contact_tolerance_mm, workspace.histogram);
   const bool has_contact = contact.share >= params.min_contact_fraction && contact.level_mm >= least_mm &&
-                           std::abs(contact.level_mm - matched_mm) <= params.max_contact_difference_mm;
+                           std::abs(contact.level_mm - matched_mm) <= params.max_gap_mm;
   if (!has_contact && (share < params.min_level_fraction || matched_mm < least_mm)) return {};
   const LevelLiquid liquid{label, has_contact ? contact.level_mm : matched_mm};
   if (!reaches_wall(map, dish, label, liquid.level_mm, params)) return {};

@@ -14,14 +14,13 @@ struct LevelLiquidParams {
   double contact_tolerance_mm = 1.0;
   // … when so much of the outline does: the near wall hides up to half, other items some of the rest.
   double min_contact_fraction = 0.5;
-  // Matched heights that lie further from it are of something that stands on the wall.
-  double max_contact_difference_mm = 4.0;
   // Without such an outline: heights within this of the level are the liquid's surface, waves, meniscus and
   // depth noise, and an item is a liquid when so much of its seen area is level.
   double tolerance_mm = 2.0;
   double min_level_fraction = 0.6;
   // It reaches the wall at its level, within so much, in so many of 64 directions from the centre; the others
-  // are hidden by the near wall or covered by other items.
+  // are hidden by the near wall or covered by other items. Matched heights that lie further from the wall's
+  // level are of something that stands on the wall.
   double max_gap_mm = 4.0;
   double min_wall_fraction = 0.8;
   // Shallower than this over the bottom a level item may be a slice.

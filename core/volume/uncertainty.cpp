@@ -31,6 +31,8 @@ double outline_mm(double area_mm2) {
 
 double height_sigma_mm(const Vec3& point_mm, const TableCameras& camera_from_table,
                        const BundleMatrix& covariance) {
+  // Steps of the derivatives, rad and mm: far above rounding, and a hundred-thousandth of what would bend
+  // them.
   constexpr double kTurnRad = 1e-5;
   constexpr double kShiftMm = 1e-3;
   const std::array<Vec3, 2> rays = {camera_from_table[0] * point_mm, camera_from_table[1] * point_mm};

@@ -4,10 +4,10 @@
 
 #include "core/base/parameter_range.hpp"
 #include "core/paper/pipeline/configuration.hpp"
+#include "core/paper/stereo/block_rows.hpp"
 #include "core/paper/stereo/hierarchy.hpp"
 #include "core/paper/stereo/smoothness.hpp"
 #include "core/stereo/median.hpp"
-#include "core/stereo/row_lanes.hpp"
 
 namespace traygauge::paper {
 

@@ -3,8 +3,8 @@
 
 #include <span>
 
+#include "core/paper/stereo/block_rows.hpp"
 #include "core/stereo/disparity.hpp"
-#include "core/stereo/row_lanes.hpp"
 
 namespace traygauge::paper {
 

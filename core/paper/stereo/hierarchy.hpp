@@ -5,9 +5,9 @@
 #include <span>
 
 #include "core/image_view/image_view.hpp"
+#include "core/paper/stereo/block_rows.hpp"
 #include "core/paper/stereo/stereo_params.hpp"
 #include "core/stereo/disparity.hpp"
-#include "core/stereo/row_lanes.hpp"
 
 namespace traygauge::paper {
 

@@ -5,7 +5,7 @@
 #include <span>
 
 #include "core/image_view/image_view.hpp"
-#include "core/stereo/row_lanes.hpp"
+#include "core/paper/stereo/block_rows.hpp"
 
 namespace traygauge::paper {
 

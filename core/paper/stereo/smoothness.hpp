@@ -4,9 +4,9 @@
 
 #include <span>
 
+#include "core/paper/stereo/block_rows.hpp"
 #include "core/paper/stereo/row_block.hpp"
 #include "core/paper/stereo/stereo_params.hpp"
-#include "core/stereo/row_lanes.hpp"
 
 namespace traygauge::paper {
 

@@ -1,10 +1,10 @@
 #include "core/paper/stereo/stereo_params.hpp"
 
 #include "core/base/is_within.hpp"
+#include "core/paper/stereo/block_rows.hpp"
 #include "core/paper/stereo/hierarchy.hpp"
 #include "core/paper/stereo/smoothness.hpp"
 #include "core/stereo/median.hpp"
-#include "core/stereo/row_lanes.hpp"
 
 namespace traygauge::paper {
 

@@ -113,7 +113,7 @@ TEST(TrackWeighing, BelievesMoreWhileTheCamerasAreUnsure) {
 
 TEST(TrackWeighing, LeavesOutTheCardAndTooFewTracksOnDishes) {
   WeighedScene scene(test::random_seed(),
-                     with_option(&test::BundleSceneOptions::dish_tracks, BundleParams().min_dish_tracks - 1));
+                     with_option(&test::BundleSceneOptions::dish_tracks, kMinTracks - 1));
   EXPECT_FALSE(scene.weighing.has_enough_on_dishes());
   for (PointTrack& track : scene.scene.tracks) track.label = kCardLabel;
   scene.weigh(TrackTrust::all);

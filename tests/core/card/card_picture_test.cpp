@@ -35,7 +35,7 @@ struct PicturedCard {
   void load() {
     const LabelRegions regions = measure_regions(test::view_of(render.labels));
     EXPECT_TRUE(
-        picture->load(test::view_of(render.gray), test::view_of(render.labels), regions.card, lens, {}).ok());
+        picture->load(test::view_of(render.gray), test::view_of(render.labels), regions.card, lens).ok());
   }
   const CardPatternLevel& level() const { return refinement.level_for(truth, 0.6); }
   CardCorrelation correlate(const Pose& pose) {
@@ -182,10 +182,10 @@ TEST(CardPicture, KnowsWhichPosesArePossibleAndHowLargeTheyLook) {
 TEST(CardPicture, FindsNoCardInAPictureWithoutItsLabel) {
   PicturedCard card;
   card.render.labels.setTo(0);
-  EXPECT_EQ(card.picture
-                ->load(test::view_of(card.render.gray), test::view_of(card.render.labels), {}, card.lens, {})
-                .code(),
-            StatusCode::card_not_found);
+  EXPECT_EQ(
+      card.picture->load(test::view_of(card.render.gray), test::view_of(card.render.labels), {}, card.lens)
+          .code(),
+      StatusCode::card_not_found);
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <random>
 #include <vector>
 
+#include "core/base/units.hpp"
 #include "tests/core/stereo/solid_scene.hpp"
 #include "tests/support/allocated.hpp"
 #include "tests/support/random_seed.hpp"
@@ -180,7 +181,7 @@ TEST_F(RingsOfADish, NeitherPlainNorBurntNorUnmatchedSamplesTellAHeight) {
   EXPECT_EQ(known_rings(), 0);
 
   std::mt19937 random(2);
-  for (std::uint8_t& gray : gray_) gray = random() % 2 == 0 ? 250 : 255;
+  for (std::uint8_t& gray : gray_) gray = random() % 2 == 0 ? kBurntGray : std::uint8_t{255};
   ASSERT_TRUE(collect().ok());
   EXPECT_EQ(known_rings(), 0);
 

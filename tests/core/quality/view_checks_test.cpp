@@ -47,8 +47,8 @@ struct CheckedScene {
     const LabelRegions regions = measure_regions(test::view_of(labels));
     test::Allocated<CardSilhouetteWorkspace> space(600);
     ViewQuality quality;
-    assess_view({test::frame_of(picture), test::view_of(gray), test::view_of(labels), &regions, &lens}, {},
-                {}, *space, quality);
+    assess_view({test::frame_of(picture), test::view_of(gray), test::view_of(labels), &regions, &lens},
+                {85.6, 53.98}, {}, *space, quality);
     return quality;
   }
 };

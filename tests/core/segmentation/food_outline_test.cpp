@@ -232,16 +232,15 @@ TEST(Geodesic, OwnersAreThoseOfTheShortestWay) {
     for (int i = 0; i < 60; ++i) owners[random() % owners.size()] = kBarred;
     const std::vector<std::uint8_t> seeds = owners;
     test::Allocated<GeodesicWorkspace> memory{kWidth * kHeight};
-    const GeodesicParams params;
-    spread_owners({colours.data(), kWidth, kHeight}, params, *memory, {owners.data(), kWidth, kHeight});
+    spread_owners({colours.data(), kWidth, kHeight}, *memory, {owners.data(), kWidth, kHeight});
 
     const auto cost = [&](int a, int b) {
       const auto& p = colours[static_cast<std::size_t>(a)];
       const auto& q = colours[static_cast<std::size_t>(b)];
       const int luma = p.luma - q.luma;
       const int red = p.red - q.red;
-      const int squares = params.luma_weight * luma * luma + params.share_weight * red * red;
-      return std::min(params.step_cost + squares / 16, kMaxGeodesicStep);
+      const int squares = luma * luma + 4 * red * red;
+      return std::min(1 + squares / 16, kMaxGeodesicStep);
     };
     for (int label = 1; label <= 4; ++label) {
       std::vector<int> distance(colours.size(), 1 << 20);

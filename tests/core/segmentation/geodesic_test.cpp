@@ -24,8 +24,8 @@ struct SeedField {
   test::Allocated<GeodesicWorkspace> space{kFieldWidth * kFieldHeight};
 
   CellColour& colour(int x, int y) { return colours[static_cast<std::size_t>(y * kFieldWidth + x)]; }
-  void spread(const GeodesicParams& params = {}) {
-    spread_owners({colours.data(), kFieldWidth, kFieldHeight}, params, *space,
+  void spread() {
+    spread_owners({colours.data(), kFieldWidth, kFieldHeight}, *space,
                   {owners.data, kFieldWidth, kFieldHeight});
   }
 };

@@ -17,10 +17,10 @@ using test::kNone;
 using test::px;
 using Row = test::DisparityRow;
 
-Row keep(const Row& own, const Row& other, int sign, const ConsistencyParams& params = {}) {
+Row keep(const Row& own, const Row& other, int sign) {
   const auto width = static_cast<int>(own.size());
   Row kept(own.size());
-  keep_consistent({own.data(), width, 1}, {other.data(), width, 1}, sign, params, {kept.data(), width, 1});
+  keep_consistent({own.data(), width, 1}, {other.data(), width, 1}, sign, {kept.data(), width, 1});
   return kept;
 }
 
@@ -57,16 +57,14 @@ TEST(KeepConsistent, FollowsNegativeDisparities) {
   }
 }
 
-TEST(KeepConsistent, ToleratesTheGreatestDifferenceAndNoMore) {
-  ConsistencyParams params;
-  params.max_difference_px = 2.0;
+TEST(KeepConsistent, ToleratesOneAndAHalfPixelsAndNoMore) {
   const Row first(kSamples, px(4));
   for (const int sign : {1, -1}) {
     const std::size_t middle = kSamples / 2;
-    for (const double off_px : {2.0, -2.0})
-      EXPECT_EQ(keep(first, Row(kSamples, px(4.0 + off_px)), sign, params)[middle], px(4)) << off_px;
-    for (const double off_px : {2.0625, -2.0625})
-      EXPECT_EQ(keep(first, Row(kSamples, px(4.0 + off_px)), sign, params)[middle], kNone) << off_px;
+    for (const double off_px : {1.5, -1.5})
+      EXPECT_EQ(keep(first, Row(kSamples, px(4.0 + off_px)), sign)[middle], px(4)) << off_px;
+    for (const double off_px : {1.5625, -1.5625})
+      EXPECT_EQ(keep(first, Row(kSamples, px(4.0 + off_px)), sign)[middle], kNone) << off_px;
   }
 }
 
