@@ -121,11 +121,21 @@ ParameterList shared_parameters(ProfileParameters& parameters) {
   return list;
 }
 
-// When an item is doubted.
+// When an item is doubted, and what its uncertainty follows from (tests/evaluation/fit).
 ParameterList best_parameters(Configuration& configuration) {
   ParameterList list;
   list("items.min_matched_fraction", configuration.pipeline.min_matched_fraction, ParameterRange{0, 1});
   list("items.max_sigma_fraction", configuration.pipeline.max_sigma_fraction, ParameterRange{0, 100});
+  UncertaintyParams& uncertainty = configuration.uncertainty;
+  const ParameterRange weight{0, 1000};
+  list("uncertainty.disparity_bias_px", uncertainty.disparity_bias_px, weight);
+  list("uncertainty.height_mm", uncertainty.height_mm, weight);
+  list("uncertainty.hidden_fraction", uncertainty.hidden_fraction, weight);
+  list("uncertainty.outline_px", uncertainty.outline_px, weight);
+  list("uncertainty.found_outline_mm", uncertainty.found_outline_mm, weight);
+  list("uncertainty.wall_mm", uncertainty.wall_mm, weight);
+  list("uncertainty.filled_fraction", uncertainty.filled_fraction, weight);
+  list("uncertainty.round_fraction", uncertainty.round_fraction, weight);
   return list;
 }
 
