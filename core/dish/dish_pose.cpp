@@ -11,9 +11,6 @@ namespace {
 
 constexpr double kLooseAzimuthSigmaRad = 0.5;   // of a measured place, 29 degrees: keeps a round one regular
 constexpr double kRoundAzimuthSigmaRad = 0.01;  // of a round dish, whose azimuth means nothing
-constexpr double kHold =
-    1e4;  // times the information of a described size and height: a hundredth of its sigma
-constexpr double kMinImprovement = 1e-6;  // relative decrease of the cost that is worth another iteration
 
 double information(double sigma) {
   return 1.0 / (sigma * sigma);
@@ -93,10 +90,7 @@ class DishPoseFit {
         focals_px_(focals_px),
         params_(params),
         workspace_(workspace),
-        step_(outline_step(outlines, params.max_view_points)) {
-    search_.max_iterations = params.iterations;
-    search_.min_improvement = kMinImprovement;
-  }
+        step_(outline_step(outlines, params.max_view_points)) {}
 
   Status place(std::span<const DishModel> candidates, PlacedDish& placed) {
     DishPose best;
@@ -127,7 +121,7 @@ class DishPoseFit {
   // points, which a freer one would stretch towards. Returns the cost at the narrow end.
   double fit_described(const DishModel& model, DishPose& place) {
     PlacePrior prior = prior_of(model, place.azimuth_rad, params_);
-    prior.information.segment<3>(kPlaceHeight) *= kHold;
+    prior.information.segment<3>(kPlaceHeight).setConstant(kHeldInformation);
     double cost = kUnseenPlace;
     for (const double scale_px : params_.first_robust_scales_px) cost = fit(prior, scale_px, place);
     return cost;
@@ -138,10 +132,8 @@ class DishPoseFit {
   void measure(const DishPose& described, PlacedDish& placed) {
     const PlacePrior prior = prior_of_measurement(described, params_);
     OutlineFit unused;
-    DishPoseParams reaching = params_;
-    reaching.max_robust_scale_px = params_.first_robust_scales_px[0];
     double scale_px =
-        robust_scale_px(outlines_, cameras_, focals_px_, described, reaching, workspace_, unused);
+        robust_scale_px(outlines_, cameras_, focals_px_, described, params_, workspace_, unused);
     fit(prior, scale_px, placed.measured);
     scale_px =
         robust_scale_px(outlines_, cameras_, focals_px_, placed.measured, params_, workspace_, placed.fit);
@@ -163,7 +155,7 @@ class DishPoseFit {
 
   double fit(const PlacePrior& prior, double scale_px, DishPose& place) const {
     const DishPoseProblem problem(outlines_, cameras_, focals_px_, prior, scale_px, step_);
-    return minimise<kPlaceParameters>(problem, search_, place).cost;
+    return minimise<kPlaceParameters>(problem, {}, place).cost;
   }
 
   const DishOutlines& outlines_;
@@ -172,7 +164,6 @@ class DishPoseFit {
   const DishPoseParams& params_;
   DishPoseWorkspace& workspace_;
   std::size_t step_;
-  LevenbergMarquardtParams search_;
 };
 
 }  // namespace
@@ -255,12 +246,12 @@ double robust_scale_px(const DishOutlines& outlines, const TableCameras& cameras
         workspace.magnitudes_px[count++] = std::abs(residual_px);
     }
   }
-  if (count == 0) return params.max_robust_scale_px;
+  if (count == 0) return params.first_robust_scales_px[0];
   const std::span<double> magnitudes_px = workspace.magnitudes_px.first(count);
   std::sort(magnitudes_px.begin(), magnitudes_px.end());
   const double sigma_px = kMedianToSigma * magnitudes_px[count / 2];
-  const double scale_px =
-      std::max(std::min(kOutlierSigmas * sigma_px, params.max_robust_scale_px), params.min_robust_scale_px);
+  const double scale_px = std::max(std::min(kOutlierSigmas * sigma_px, params.first_robust_scales_px[0]),
+                                   params.min_robust_scale_px);
   double squares = 0.0;
   for (const double magnitude_px : magnitudes_px) {
     if (magnitude_px > scale_px) break;

@@ -17,11 +17,14 @@
 
 namespace traygauge {
 
+// 1 / mm², of what is described and held: a hundredth of a millimetre.
+inline constexpr double kHeldInformation = 1e4;
+
 struct DishPoseParams {
   // A point further off than about this counts as something else: a glass before the rim, a wall below it.
-  // Geman and McClure's scale; taken from the points' median, within these bounds.
+  // Geman and McClure's scale; taken from the points' median, at least this, at most the first of those
+  // below.
   double min_robust_scale_px = 1.5;
-  double max_robust_scale_px = 6.0;
   std::array<double, 3> first_robust_scales_px{25.0, 10.0, 5.0};  // while the place is not yet known
   // What a dish of a known kind may differ by: glaze and firing, feet, and a tray that is not level.
   double height_sigma_mm = 0.5;
@@ -33,7 +36,6 @@ struct DishPoseParams {
   int min_view_points = 8;           // a view with fewer has no say
   double min_inlier_fraction = 0.5;  // of each view's points on the outline found; fewer contradict it
   double max_rms_px = 3.0;           // of those
-  int iterations = 12;               // for each robust scale
   DishChoiceParams choice;
 };
 

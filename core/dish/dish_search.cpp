@@ -11,8 +11,6 @@
 namespace traygauge {
 namespace {
 
-constexpr double kDescribedInformation = 1e4;  // 1 / mm², of what is described: held to 0.01 mm
-
 class DishSearch {
  public:
   DishSearch(const DishSearchViews& views, const RimEdges& edges, std::span<const FoundDish> taken,
@@ -64,7 +62,7 @@ class DishSearch {
   Result<FoundDish> confirm(const RimPeak& peak) {
     DishPose place = peak.place;
     PlacePrior prior = prior_of(*peak.dish, place.azimuth_rad, params_.placement);
-    prior.information.tail<kPlaceParameters - kPlaceHeight>().setConstant(kDescribedInformation);
+    prior.information.tail<kPlaceParameters - kPlaceHeight>().setConstant(kHeldInformation);
     LevenbergMarquardtParams search;
     search.max_iterations = params_.iterations;
     double unused = 0.0;

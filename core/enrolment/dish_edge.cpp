@@ -58,10 +58,8 @@ class EdgeSearch {
     return {outlines_, cameras_, focals_px_, prior, scale_px, step_};
   }
   void fit(double scale_px, DishPose& place) const {
-    LevenbergMarquardtParams search;
-    search.max_iterations = placement_.iterations;
     const PlacePrior prior = free_prior(place, placement_);
-    minimise<kPlaceParameters>(problem(prior, scale_px), search, place);
+    minimise<kPlaceParameters>(problem(prior, scale_px), {}, place);
   }
 
   const DishOutlines& outlines_;
