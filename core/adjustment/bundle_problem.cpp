@@ -3,8 +3,6 @@
 namespace traygauge {
 namespace {
 
-constexpr double kEliminationDamping = 1e-9;  // of the place's diagonal: an azimuth may be almost free
-
 double robust_cost(double residual, double variance, double squared_scale) {
   const double square = residual * residual;
   return square / (variance * (1.0 + square / squared_scale));
@@ -159,7 +157,7 @@ double BundleProblem::add_rim(const BundleState& state, std::size_t index, Equat
     slope += sums.gradient.tail<kPlaceParameters>();
   }
   PlaceElimination& gone = eliminations_[index];
-  information.diagonal() *= 1.0 + kEliminationDamping;
+  information.diagonal() *= 1.0 + kRounding;  // an azimuth may be almost free
   gone.covariance = inverse_information<kPlaceParameters>(information);
   gone.from_place = gone.covariance * slope;
   gone.from_cameras = gone.covariance.lazyProduct(mixed);

@@ -100,7 +100,7 @@ bool find_table(std::span<TableSighting> sightings, const Mat3& prior, const Tab
     best = table;
     best_score = sum;
   }
-  for (int round = 0; round < params.refits; ++round) {
+  for (int round = 0; round < kSettlingRounds; ++round) {
     const TableCorrection table = refit(sightings, information, best, squared_limit);
     if (!(table.dot(information * table) <= params.max_squared_deviation)) break;
     best = table;

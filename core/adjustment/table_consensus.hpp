@@ -30,7 +30,6 @@ struct TableConsensusParams {
   // A point counts for 1 / (1 + (distance / this)²): the card's level is carried outwards, or else a large
   // table under the tray takes the plane away with a slope that the card alone would still allow.
   double reach_mm = 150.0;
-  int refits = 3;
   // The table stands out: so many points within the limit, and of those as far off again at most this share
   // of them. A tray's rim or a cloth passes through any level, with as many points beside it as on it.
   int min_points = 16;

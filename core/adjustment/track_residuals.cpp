@@ -5,9 +5,6 @@
 namespace traygauge {
 namespace {
 
-// Of an epipolar line; a point that near the epipole has no direction.
-constexpr double kMinNormalMm = 1e-9;
-
 struct EpipolarLine {
   Vec3 line = Vec3::Zero();  // in the second view
   double normal = 0.0;
@@ -16,7 +13,7 @@ struct EpipolarLine {
 bool find_line(const Mat3& essential, const PointTrack& track, EpipolarLine& epipolar) {
   epipolar.line = essential * track.first.homogeneous();
   epipolar.normal = epipolar.line.head<2>().norm();
-  return epipolar.normal > kMinNormalMm;
+  return epipolar.normal > kRounding;
 }
 
 }  // namespace

@@ -3,17 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/geometry/camera.hpp"
 #include "core/geometry/table_frame.hpp"
 
 namespace traygauge {
-namespace {
-
-constexpr double kMinDescent =
-    0.05;  // of the ray a unit of depth; a flatter view, below 3 degrees, sees no rim
-constexpr double kMinRadius = 0.05;  // of the semi-axis; nearer to the centre there is no outward direction
-
-}  // namespace
-
 // Where a ray meets the plane of the edge. rho is 1 on the ellipse; the derivatives are those of
 // F = rho − 1 − drop · max(0, tangent) · |grad rho|, which vanishes on the outline.
 struct RimProjection::Crossing {
@@ -49,7 +42,7 @@ bool RimProjection::cross(const Vec2& ray, Crossing& crossing) const {
                          cosine_ * offset.y() - sine_ * offset.x()};
   const Vec2 semi(0.5 * place_.size_mm[0], 0.5 * place_.size_mm[1]);
   crossing.rho = crossing.on_axes_mm.cwiseQuotient(semi).norm();
-  if (!(crossing.rho > kMinRadius)) return false;
+  if (!(crossing.rho > kRounding)) return false;
   crossing.rho_on_axes = crossing.on_axes_mm.cwiseQuotient(semi.cwiseAbs2()) / crossing.rho;
   crossing.rho_by_place = {cosine_ * crossing.rho_on_axes.x() - sine_ * crossing.rho_on_axes.y(),
                            sine_ * crossing.rho_on_axes.x() + cosine_ * crossing.rho_on_axes.y()};

@@ -8,7 +8,6 @@ namespace traygauge {
 namespace {
 
 constexpr double kRayTolerance = 1e-11;      // of a ray's coordinates: below 1e-7 px at any focal length
-constexpr double kLargestRay = 5.0;          // tan 79°: no pinhole camera sees further out
 constexpr double kSmallestRadialGain = 0.1;  // d(distorted)/d(ideal radius); a fold is near below it
 constexpr int kRadiusSteps = 1024;           // of the monotony check, from the axis to kLargestRay
 constexpr int kGridIntervals = 16;           // of the check over the picture's area; distortion is smooth

@@ -6,6 +6,11 @@
 
 namespace traygauge {
 
+// tan 79°: no pinhole camera sees further out.
+inline constexpr double kLargestRay = 5.0;
+// Of a ray a unit of depth, towards the table: a flatter view, below 3 degrees, shows neither rim nor table.
+inline constexpr double kMinDescent = 0.05;
+
 // An undistorted picture's geometry. A ray is (X/Z, Y/Z): pixel = (fx * ray.x + cx, fy * ray.y + cy).
 struct PinholeCamera {
   double fx_px = 0.0;

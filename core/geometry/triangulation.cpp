@@ -5,19 +5,13 @@
 #include <cstddef>
 
 namespace traygauge {
-namespace {
-
-constexpr double kMinSquaredSine = 1e-14;  // of the rays' angle; below it depth is rounding noise
-
-}  // namespace
-
 bool intersect_rays(const RayMatch& match, const Pose& second_from_first, RayDepths& depths) {
   const Vec3 a = second_from_first.rotation * match.first.homogeneous();
   const Vec3 b = match.second.homogeneous();
   const Vec3& t = second_from_first.translation;
   const Vec3 normal = b.cross(a);
   const double squared_sine_scaled = normal.squaredNorm();
-  if (!(squared_sine_scaled > kMinSquaredSine * a.squaredNorm() * b.squaredNorm())) return false;
+  if (!(squared_sine_scaled > kRounding * a.squaredNorm() * b.squaredNorm())) return false;
   depths.first =
       t.cross(b).dot(normal) / squared_sine_scaled;  // depth b = depth' a + t, crossed with b and a
   depths.second = t.cross(a).dot(normal) / squared_sine_scaled;

@@ -4,9 +4,6 @@ namespace traygauge {
 namespace {
 
 constexpr double kDifferencePx = 4.0;  // of the derivatives: small against the curvature of any lens
-constexpr double kNearestMm = 10.0;    // in front of the second camera
-constexpr double kSteepestRay = 0.1;   // least fall of a ray, as a share of its length: 6° over the table
-constexpr double kLargestTransferredRay = 2.0;  // tan 63°: beyond, a lens model is an extrapolation
 
 }  // namespace
 
@@ -36,16 +33,16 @@ bool HeightTransfer::cast_ray(const Vec2& first_pixel, TableRay& ray) const {
 
 bool HeightTransfer::point_at(const TableRay& ray, double height_mm, Vec3& point_mm) const {
   const double fall_mm = height_mm - first_centre_mm_.z();
-  if (!(ray.direction.z() < -kSteepestRay && fall_mm < 0.0)) return false;
+  if (!(ray.direction.z() < -kMinDescent && fall_mm < 0.0)) return false;
   point_mm = first_centre_mm_ + fall_mm / ray.direction.z() * ray.direction;
   return true;
 }
 
 bool HeightTransfer::project(const Vec3& point_mm, Vec2& pixel) const {
   const Vec3 seen = second_from_table_ * point_mm;
-  if (!(seen.z() > kNearestMm)) return false;
+  if (!(seen.z() > kNearMm)) return false;
   const Vec2 ray = seen.head<2>() / seen.z();
-  if (!(ray.squaredNorm() < kLargestTransferredRay * kLargestTransferredRay)) return false;
+  if (!(ray.squaredNorm() < kLargestRay * kLargestRay)) return false;
   pixel = second_.pixel(ray);
   return pixel.allFinite();
 }
