@@ -11,7 +11,6 @@ namespace {
 // Standard deviations grow by it: the noise of compressed pictures is not white. Measured on rendered scenes
 // of all kinds, where it lies between 1.2 and 1.5.
 constexpr double kCorrelatedNoise = 1.4;
-constexpr double kLeastDeterminant = 0.25;  // of a step of the map: half the size in a direction
 
 using Mat2 = Eigen::Matrix2d;
 
@@ -114,7 +113,7 @@ class Aligner {
     change(1, 0) += step[kYByX];
     change(1, 1) += step[kYByY];
     const double determinant = change.determinant();
-    if (!(determinant > kLeastDeterminant)) return false;
+    if (!(determinant > 0.0)) return false;
     const Vec2 d(step[kShiftX], step[kShiftY]);
     alignment_.pixel -= Vec2((change(1, 1) * d.x() - change(0, 1) * d.y()) / determinant,
                              (change(0, 0) * d.y() - change(1, 0) * d.x()) / determinant);

@@ -17,7 +17,6 @@ constexpr float kMinVariation =
 constexpr double kApart = 2.0;  // pixels within which two bands see the same peak
 
 constexpr float kNotScored = std::numeric_limits<float>::lowest();
-constexpr float kLeastPeak = 0.3F;  // lower ones can neither be right nor rival
 
 struct alignas(16) SearchTemplate {
   std::int16_t values[kPixels];
@@ -135,8 +134,7 @@ void PatchSearch::note_peaks(int left, int top, int width, int height) {
     const float* row = workspace_.scores.data() + (y + 1) * kStride + 1;
     for (int x = 0; x < width; ++x) {
       const float* at = row + x;
-      if (*at < kLeastPeak || *at < at[-1] || *at <= at[1] || *at < at[-kStride] || *at <= at[kStride])
-        continue;
+      if (*at < at[-1] || *at <= at[1] || *at < at[-kStride] || *at <= at[kStride]) continue;
       const auto [low, high] =
           std::minmax({at[-1 - kStride], at[1 - kStride], at[kStride - 1], at[kStride + 1]});
       if (*at < high || std::min({low, at[-1], at[1], at[-kStride], at[kStride]}) == kNotScored) continue;
