@@ -189,7 +189,7 @@ class CardSearch {
   }
 
   bool can_look_closer(const CardSearchMatch& seed, double scale) const {
-    return closer_scale(seed, scale) >= params_.min_close_gain * scale;
+    return closer_scale(seed, scale) > scale;
   }
 
   // The card where `seed` puts it, in a finer picture of that place alone.

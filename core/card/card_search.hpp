@@ -53,7 +53,6 @@ struct CardSearchParams {
   // has few that resemble one place alone.
   double close_px_per_mm = 2.0;  // about, of the print in that picture: as fine as it is learned
   int close_px = 250'000;        // of that picture, at most
-  double min_close_gain = 1.15;  // of its scale over that of the picture searched
 };
 
 // A corner of the picture and the print's that looks like it.

@@ -56,7 +56,7 @@ CardLocationParams half_size_params() {
 TEST(CardLocation, CloserLookShowsASmallCard) {
   const cv::Mat1b print = random_print(7);
   CardLocationParams without = half_size_params();
-  without.search.min_close_gain = 100.0;
+  without.search.close_px_per_mm = 0.0;
   CardLocatorUnderTest closer(print, half_size_params());
   CardLocatorUnderTest coarse(print, without);
   constexpr int kRounds = 16;
