@@ -41,8 +41,6 @@ struct DishSearchParams {
   double min_step = 4.0;             // of grey values, across the rim
   double min_step_over_noise = 3.0;  // over the median magnitude of the steps beside the rim
   double min_support = 0.5;          // of the rim, along which there is such a step; less is no dish
-  // Dishes do not overlap seen from above by more than this, of the sum of their smaller half axes.
-  double max_overlap = 0.12;
 };
 
 inline constexpr std::size_t kBallotCells = 256;  // to a side of the votes: 1 m of table

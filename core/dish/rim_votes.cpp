@@ -95,7 +95,7 @@ class Vote {
     return std::all_of(taken_.begin(), taken_.end(), [&](const FoundDish& other) {
       const DishPose& place = other.place;
       const double sum = radius + 0.5 * std::min(place.size_mm[0], place.size_mm[1]);
-      return (centre_mm - place.centre_mm).norm() >= (1.0 - params_.max_overlap) * sum;
+      return (centre_mm - place.centre_mm).norm() >= sum;
     });
   }
 

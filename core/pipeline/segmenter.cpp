@@ -250,7 +250,7 @@ bool Segmenter::outline_view(const SegmentedDish& dish, const DishInViews& scene
   };
   outline = ring(params_.flange_begin_mm);
   mark_zone(raster, outline, DishZone::flange);
-  outline = ring(std::max(well_mm, params_.flange_begin_mm + params_.min_flange_mm));
+  outline = ring(std::max(well_mm, 2.0 * params_.flange_begin_mm));
   mark_zone(raster, outline, DishZone::inside);
   cells = {memory_.food.cells.data(), raster.width(), raster.height()};
   const ImageView<HeightSample> laid{memory_.food.outline.relief.data(), raster.width(), raster.height()};
@@ -316,10 +316,8 @@ int Segmenter::keep_confirmed(std::uint8_t first, int items, std::uint8_t dish) 
   int kept = 0;
   for (int i = 0; i < items; ++i) {
     const std::size_t label = first + static_cast<std::size_t>(i);
-    const double fewer = std::min(regions[0].pixels[label], regions[1].pixels[label]);
-    const double more = std::max(regions[0].pixels[label], regions[1].pixels[label]);
-    renamed[label] =
-        fewer > params_.min_confirmed_fraction * more ? static_cast<std::uint8_t>(first + kept++) : dish;
+    const bool is_in_both = std::min(regions[0].pixels[label], regions[1].pixels[label]) > 0;
+    renamed[label] = is_in_both ? static_cast<std::uint8_t>(first + kept++) : dish;
   }
   if (kept < items) rename_items(first, items, renamed);
   return kept;

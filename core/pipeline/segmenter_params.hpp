@@ -28,15 +28,13 @@ struct SegmenterParams {
   // Two items that are more alike may be one: about even odds, without what food.split.likeness.constant
   // takes off them.
   double doubtful_likeness = -1.8;
-  // Insets from the outer edge between which a flange counts as such, and the depth below it where the well
-  // begins.
+  // Inset from the outer edge where a flange begins, which is as wide as that at least; and the depth below
+  // the edge where the well begins.
   double flange_begin_mm = 2.5;
   double flange_depth_mm = 6.0;
-  double min_flange_mm = 4.0;
   // Over the bottom of the dish, between which food is seen; what is carried to the other view counts where
   // both lead to the same item.
   std::array<double, 2> food_heights_mm{3.0, 22.0};
-  double min_confirmed_fraction = 0.2;  // of an item's pixels in one view over the other's
   // Of print and picture, where the card lies flat and free: 0.954 and more in pictures without a fault. A
   // fifth of the card covered leaves 0.7, ends bent up by a fiftieth of its length 0.92.
   double sure_card_correlation = 0.94;

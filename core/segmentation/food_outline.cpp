@@ -116,7 +116,7 @@ bool outline_food(const DishRaster& raster, ImageView<const HeightSample> relief
   threshold_fraction(cells, opening, 0.5 / ((2.0 * opening + 1.0) * (2.0 * opening + 1.0)), workspace);
   const double per_mm2 = cells_per_mm * cells_per_mm;
   drop_small(cells, kFoodSeed, kGlazeSeed, params.min_item_mm2 * per_mm2, workspace.queue);
-  drop_small(cells, kGlazeSeed, kFoodSeed, params.min_hole_mm2 * per_mm2, workspace.queue);
+  drop_small(cells, kGlazeSeed, kFoodSeed, params.min_item_mm2 * per_mm2, workspace.queue);
   return true;
 }
 

@@ -26,8 +26,7 @@ struct FoodOutlineParams {
   double band_mm = 3.0;         // to either side of the field's outline, in which the picture's edges decide
   double smoothing_mm = 1.6;    // radius of the majority that smooths outlines
   double opening_mm = 2.4;      // radius of what fits into food: rings of decoration and bridges do not
-  double min_item_mm2 = 250.0;  // smaller is a crumb, a drop or a highlight
-  double min_hole_mm2 = 150.0;  // of glaze within food; smaller is food
+  double min_item_mm2 = 250.0;  // smaller is a crumb, a drop or a highlight; so is glaze within food
 };
 
 struct FoodOutlineWorkspace {
