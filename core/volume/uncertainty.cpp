@@ -31,18 +31,14 @@ double outline_mm(double area_mm2) {
 
 double height_sigma_mm(const Vec3& point_mm, const TableCameras& camera_from_table,
                        const BundleMatrix& covariance) {
-  // Steps of the derivatives, rad and mm: far above rounding, and a hundred-thousandth of what would bend
-  // them.
-  constexpr double kTurnRad = 1e-5;
-  constexpr double kShiftMm = 1e-3;
+  constexpr double kStep = 1e-4;  // rad or mm: far above rounding, far below what bends the derivatives
   const std::array<Vec3, 2> rays = {camera_from_table[0] * point_mm, camera_from_table[1] * point_mm};
   Eigen::Matrix<double, 12, 1> slope;
   for (int i = 0; i < 12; ++i) {
-    const double size = i % 6 < 3 ? kTurnRad : kShiftMm;
     TableCameras stepped = camera_from_table;
     auto& camera = stepped[i < 6 ? 0 : 1];
-    camera = moved(camera, size * Eigen::Matrix<double, 6, 1>::Unit(i % 6));
-    slope[i] = (triangulate(stepped, rays).z() - point_mm.z()) / size;
+    camera = moved(camera, kStep * Eigen::Matrix<double, 6, 1>::Unit(i % 6));
+    slope[i] = (triangulate(stepped, rays).z() - point_mm.z()) / kStep;
   }
   return std::sqrt(std::max(0.0, slope.dot(covariance.topLeftCorner<12, 12>() * slope)));
 }
