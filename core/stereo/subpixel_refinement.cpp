@@ -12,8 +12,7 @@ namespace {
 
 constexpr int kChannels = SubpixelRefinementWorkspace::kChannels;
 constexpr int kOutlinePx = 2 * kRefinementRadius;
-constexpr float kLeastHold = 1e-6F;    // grey²: keeps a sample that nothing holds where it is
-constexpr float kLeastEnergy = 0.01F;  // grey², of a window without any gradient
+constexpr float kLeastEnergy = 0.01F;  // grey², of a window without any gradient, and of what holds a sample
 
 // Value and slope of the cubic through four samples (Catmull-Rom).
 struct CubicSample {
@@ -222,8 +221,8 @@ void relax_row(const MembraneRow& row, float up, float stiffness, int first, int
     const float pull =
         left_tie * old[x - 1] + right_tie * old[x + 1] + upper_tie * above[x] + lower_tie * below[x];
     const float ties = left_tie + right_tie + upper_tie + lower_tie;
-    const float total = kLeastHold + row.certainty[x] + stiffness * ties;
-    disparity[x] = (kLeastHold * old[x] + row.target[x] + stiffness * pull) / total;
+    const float total = kLeastEnergy + row.certainty[x] + stiffness * ties;
+    disparity[x] = (kLeastEnergy * old[x] + row.target[x] + stiffness * pull) / total;
   };
   if (first == last) return;
   relax_one(first, 0.0F);
