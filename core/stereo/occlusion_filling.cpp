@@ -128,7 +128,7 @@ class RowFiller {
     if (side == row_.sign && fill_within_hull(known, outline, side)) return;
     const int beyond = outline + side;
     const double share = params_.contact_fraction +
-                         ramp(row_.camera.lean(beyond, side), params_.flank_run, params_.flank_run_spread) *
+                         ramp(row_.camera.lean(beyond, side), params_.flank_run, params_.lean_spread) *
                              (params_.limb_fraction - params_.contact_fraction);
     const Known end{beyond, static_cast<int>(share * known.disparity)};
     fill_between(gap, side > 0 ? known : end, side > 0 ? end : known, 1.0);
@@ -152,9 +152,8 @@ class RowFiller {
     if (!other) return false;
     const double height = known.disparity;
     const double bound = std::clamp(side * (*other - outline) * kDisparityScale / height, 0.0, 1.0);
-    const double over = ramp(outline_.at(outline, side), params_.wall_lean, params_.wall_lean_spread);
-    const double of_bound =
-        params_.seen_wall_fraction + over * (params_.limb_hull_fraction - params_.seen_wall_fraction);
+    const double over = ramp(outline_.at(outline, side), 0.0, params_.lean_spread);
+    const double of_bound = params_.seen_wall_fraction + over * (1.0 - params_.seen_wall_fraction);
     const double share = std::max(bound * of_bound, params_.contact_fraction);
     const double open = 1.0 - bound;
     const double other_fraction = std::max(

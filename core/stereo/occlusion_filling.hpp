@@ -16,18 +16,15 @@ struct OcclusionParams {
   // On an item's side that the other view sees more of: of its last known height what its flank has where its
   // outline ends, next to nothing where the view sees down to the foot; where it looks over the item, the
   // outline is a limb. Items differ in their flanks' run over rise, so far to either side it counts as partly
-  // both.
+  // both; so does an outline that a view looks along.
   double contact_fraction = 0.15;
   double limb_fraction = 0.6;
   double flank_run = 0.2;
-  double flank_run_spread = 0.1;
+  double lean_spread = 0.1;
   // On the side that this view sees more of, no sample lies beyond the other view's outline, which bounds its
-  // height (visual hull; Laurentini, PAMI 16, 1994). Of that bound the outline has the first share where the
-  // view looks at a wall from outside, down to its foot, the second where it looks over it.
+  // height (visual hull; Laurentini, PAMI 16, 1994). Of that bound the outline has this share where the view
+  // looks at a wall from outside, down to its foot, and all of it where it looks over the wall.
   double seen_wall_fraction = 0.3;
-  double limb_hull_fraction = 0.95;
-  double wall_lean = -0.05;
-  double wall_lean_spread = 0.1;
   // Of its last known height what the item has at the other view's outline where the bound is nothing; all of
   // it where the bound is its height.
   double other_outline_fraction = 0.25;

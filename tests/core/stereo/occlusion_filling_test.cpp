@@ -177,7 +177,7 @@ TEST(FillGaps, FlanksEndOnTheDishWhereTheViewSeesTheirFoot) {
   params.contact_fraction = 0.0;
   params.limb_fraction = 1.0;
   params.flank_run = 0.2;
-  params.flank_run_spread = 0.1;
+  params.lean_spread = 0.1;
   const auto last_of = [&](double foot_column, bool on_right) {
     Sight sight;
     sight.camera.foot_column = foot_column;
@@ -237,11 +237,9 @@ GapRow fill_within_hull(int sign, int other_end, double outline_lean, const Occl
 }
 
 TEST(FillGaps, AnOutlineIsNoHigherThanTheOtherViewsOutlineAllows) {
-  OcclusionParams params;
-  params.limb_hull_fraction = 1.0;
   for (const int sign : {1, -1}) {
     for (int other_end = 33; other_end <= 42; ++other_end) {
-      const GapRow filled = fill_within_hull(sign, other_end, 1.0, params);
+      const GapRow filled = fill_within_hull(sign, other_end, 1.0);
       EXPECT_NEAR(filled[19], px(std::min(other_end - 19.0, 20.0)), 1) << other_end << ", sign " << sign;
       for (std::size_t x = 14; x < 20; ++x) {
         EXPECT_LE(filled[x], filled[x - 1]) << x;
@@ -260,7 +258,7 @@ TEST(FillGaps, AWallSeenFromOutsideReachesFurtherDown) {
     EXPECT_LE(filled[19], above) << percent;
     above = filled[19];
   }
-  EXPECT_EQ(fill_within_hull(1, 35, 1.0)[19], static_cast<int>(16.0 * params.limb_hull_fraction * 16.0));
+  EXPECT_EQ(fill_within_hull(1, 35, 1.0)[19], px(16));
   EXPECT_EQ(fill_within_hull(1, 35, -1.0)[19], static_cast<int>(16.0 * params.seen_wall_fraction * 16.0));
   EXPECT_EQ(fill_within_hull(1, 20, -1.0), fill_within_hull(1, 20, 1.0))
       << "where the known sample's partner is not on the item the outline says nothing";
