@@ -7,9 +7,9 @@
 
 namespace traygauge {
 
-inline constexpr double kMm3PerMl = 1000.0;  // SI
-inline constexpr double kRadiansPerDegree = std::numbers::pi / 180.0;
-inline constexpr std::size_t kByteValues = 256;  // grey values, labels
+inline constexpr double kMm3PerMl = 1000.0;                            // SI
+inline constexpr double kRadiansPerDegree = std::numbers::pi / 180.0;  // definition
+inline constexpr std::size_t kByteValues = 256;                        // grey values, labels
 // Grey value from which all channels are at their end.
 inline constexpr std::uint8_t kBurntGray = 252;
 

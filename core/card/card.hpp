@@ -32,6 +32,8 @@ enum class CardModel : std::uint8_t {
   absolute_pose,  // a calibrated view of a card of known size: six (the paper's alternative, V-A-3)
 };
 
+// Half or twice of any number here changes no volume of six pairs of the captures with found outlines
+// (tests/evaluation/numbers.tsv), but for inlier_fraction, and twice of min_tracks and max_skew.
 struct CardDetectionParams {
   CardModel model = CardModel::homography;
   double inlier_fraction = 0.03;   // inlier distance on the pattern, as a share of the card's length (paper)

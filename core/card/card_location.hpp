@@ -19,7 +19,7 @@ namespace traygauge {
 
 // How often a card that was found is aligned, each time from the outline that the last one gave.
 struct CardRoundsParams {
-  int max_alignments = 3;
+  int max_alignments = 3;  // two or six leave the captures' volumes as they are (numbers.tsv)
   // Of print and picture, from which the card's place is sure; a print out of focus or hidden reaches less,
   // and one seen from above, tilted the wrong way, 0.94.
   double sure_correlation = 0.95;

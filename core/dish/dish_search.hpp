@@ -21,6 +21,9 @@
 
 namespace traygauge {
 
+// Chosen on the captures' dishes, and sharply: half or twice of cells, azimuths, bands, samples, sure_step or
+// edge_reach_mm costs six pairs of the captures with found outlines 2 to 6 points, two of them by the glossy
+// egg of m06, which turns over after most changes (tests/evaluation/numbers.tsv).
 struct DishSearchParams {
   RimEdgeParams edges;
   DishPoseParams placement;

@@ -25,6 +25,8 @@ constexpr Ground ground_of(std::uint8_t label) {
   return is_item(label) ? Ground::food : Ground::dish;
 }
 
+// Half or twice of any number here moves the MAPE of six pairs of the captures by 0.06 points at most
+// (tests/evaluation/numbers.tsv).
 struct CornerParams {
   // Side of a cell of the picture searched. Every ground in a cell has a bucket of its own.
   int cell_px = 32;

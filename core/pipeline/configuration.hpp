@@ -22,6 +22,9 @@
 namespace traygauge {
 
 // What ties the stages together.
+// Half or twice of any number here moves the MAPE of six pairs of the captures by 0.06 points at most
+// (tests/evaluation/numbers.tsv), but for half of min_top_mm, which cuts summits off, half of
+// max_height_cells, which refuses large dishes, and twice of min_rim_inlier_fraction, which refuses all.
 struct PipelineParams {
   int min_item_px = 64;  // of an item in either view, about 25 mm²
   // Above the tallest sparse point on a dish the surface is searched this much higher: corners sit on edges
@@ -35,7 +38,8 @@ struct PipelineParams {
   // Of an item's samples; fewer: its volume is doubtful. Food with texture reaches 0.65 and more between
   // 10 and 30 degrees, a banana 0.6.
   double min_matched_fraction = 0.62;
-  // Of an item's sigma in its volume; above, its volume is doubtful. One volume in thirty of rendered meals.
+  // Of an item's sigma in its volume; above, its volume is doubtful. One volume in thirty of rendered meals;
+  // of the captures, meals-14 and trays-8 of seed 61 that is 0.059 (tests/evaluation/fit/fit_uncertainty.py).
   double max_sigma_fraction = 0.063;
   std::size_t max_contour_sides = 8192;  // of one dish in one view, twice what a round one of 1600 px has
   std::size_t max_outline_points = max_contour_sides / DishOutlineParams{}.block_sides;

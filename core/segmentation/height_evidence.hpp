@@ -26,6 +26,8 @@ constexpr DenseStereoParams coarse_surface_params() {
   return params;
 }
 
+// Half or twice of any number here moves the MAPE of six pairs of the captures with found outlines by 0.19
+// points at most (tests/evaluation/numbers.tsv).
 struct HeightEvidenceParams {
   DenseStereoParams surface = coarse_surface_params();
   double highest_mm = 60.0;  // over the bottom, that is looked for

@@ -20,6 +20,9 @@ struct HeightSample {
   double height_mm() const { return kHeightUnitMm * height; }
 };
 
+// Half or twice of any number here moves the MAPE of six pairs of the captures with found outlines by 0.11
+// points at most (tests/evaluation/numbers.tsv), but for twice of min_height_mm (2.7, with the glossy egg of
+// m06) and half of full_bits (0.70).
 struct HeightWeightParams {
   double min_height_mm = 3.0;  // lower may be glaze
   double full_bits = 9.0;      // of a difference in cost that leaves no doubt

@@ -6,8 +6,8 @@
 
 namespace traygauge {
 
-using Disparity = std::int16_t;  // in sixteenths of a pixel
-inline constexpr int kDisparityScale = 16;
+using Disparity = std::int16_t;             // in sixteenths of a pixel
+inline constexpr int kDisparityScale = 16;  // whole steps of 16 bits then reach ±2046 px
 inline constexpr Disparity kNoDisparity = std::numeric_limits<Disparity>::min();
 
 inline constexpr int kMaxDisparityPx =

@@ -14,6 +14,8 @@
 
 namespace traygauge {
 
+// Half or twice of any number here moves the MAPE of six pairs of the captures by 0.05 points at most
+// (tests/evaluation/numbers.tsv).
 struct SubpixelRefinementParams {
   int iterations = 3;        // each resamples the picture anew
   double max_step_px = 1.0;  // of an iteration: the linearisation reaches about a pixel

@@ -10,6 +10,8 @@
 
 namespace traygauge {
 
+// Half or twice of any number here moves the MAPE of six pairs of the captures by 0.07 points at most
+// (tests/evaluation/numbers.tsv).
 struct PatchAlignmentParams {
   // Steps of the shift alone, 3 to 5 are usual; and steps of the whole map, each of which samples the patch
   // anew.

@@ -9,7 +9,7 @@
 
 namespace traygauge {
 
-inline constexpr int kPatchUnit = 16;
+inline constexpr int kPatchUnit = 16;  // four bits beside the eight of a grey value
 
 // Grey values times kPatchUnit at centre + map · (i − ½(side − 1), j − ½(side − 1)), bilinear with fractions
 // of 1/128 px, row by row into `values`. False where the patch leaves the picture.

@@ -22,6 +22,8 @@ namespace traygauge {
 
 inline constexpr std::size_t kFirstLookCells = 10;  // across the picture, of the first look
 
+// Half or twice of any number here moves the MAPE of six pairs of the captures by 0.12 points at most
+// (tests/evaluation/numbers.tsv), but for correlations: twice of one is none, and refuses or takes all.
 struct PointTrackingParams {
   CornerParams corners;
   PatchAlignmentParams alignment;

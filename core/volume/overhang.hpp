@@ -17,7 +17,7 @@ struct OverhangParams {
   // more); between them it may be either.
   double wall_undercut_fraction = 0.3;
   double fruit_undercut_fraction = 0.65;
-  // Column volume over closed volume: scanned fruit has 1.14 to 1.24, a ball 1.25.
+  // Column volume over closed volume: the middle of what scanned fruit has, 1.14 to 1.24; a ball has 1.25.
   double column_over_closed = 1.19;
   double min_undercut_mm2 = 30.0;  // what a few wrong samples make; nearly vertical views never show more
 };
