@@ -90,7 +90,8 @@ void Segmenter::segment() {
       for (SegmentedDish& dish : result_.dishes) dish.is_split_doubtful = false;
       result_.misses_hint = result_.items != params_.items;
     }
-    if (result_.items == 0) result_.status = StatusCode::no_food_label;
+    const bool is_empty_tray = result_.is_bare() && params_.items == 0;
+    if (result_.items == 0 && !is_empty_tray) result_.status = StatusCode::no_food_label;
   }
   result_.status = blame_card(result_, result_.status);
   clock.stop();
@@ -204,6 +205,7 @@ void Segmenter::draw_food(const FoodOutlineParams& params) {
     SegmentedDish& dish = result_.dishes[d];
     dish.items = 0;
     dish.is_split_doubtful = false;
+    dish.is_bare = false;
     const DishInViews& scene = scenes_[d];
     if (!scene.is_described) continue;
     const auto first = static_cast<std::uint8_t>(kFirstItemLabel + result_.items);
@@ -215,6 +217,9 @@ void Segmenter::draw_food(const FoodOutlineParams& params) {
     const ItemSplit split = label_items(raster, relief, params, memory_.food.outline, first, room, cells);
     draw_cells(raster, cells, dish.label, views_[0].labels);
     if (!outline_view(dish, scene, 1, raster, relief, cells)) continue;
+    const std::span<const std::uint8_t> second(
+        cells.data, static_cast<std::size_t>(raster.width()) * static_cast<std::size_t>(raster.height()));
+    dish.is_bare = split.items == 0 && std::find(second.begin(), second.end(), kFoodSeed) == second.end();
     carry_labels(raster, dish, cells);
     spread_items(raster, params, memory_.food.outline, cells);
     draw_cells(raster, cells, dish.label, views_[1].labels);

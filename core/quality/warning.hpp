@@ -43,6 +43,7 @@ namespace traygauge {
   CODE(dish_not_found, \
        "A dish was not found whole in both pictures, and its food is not measured; see traygauge " \
        "segment.") \
+  CODE(dish_empty, "No food was seen on a dish; it counts as empty.") \
   CODE(item_uncertain, \
        "An item's volume is less sure than usual, as of steep pieces with gaps; see its sigma, or " \
        "measure from another side.") \
