@@ -23,7 +23,7 @@ say = @echo "== $$(date +%T) $(1)"
 sources = git ls-files '*.cpp' '*.hpp'
 ctest = ctest --output-on-failure --no-tests=error -j $(JOBS) -LE '^bench$$'
 
-.PHONY: configure build build-all demo test test-programs golden bench board-test board-packages board-guest arm-sysroot board-programs board-drivers board-gpiod-2 board-station arm-test test-debian13 lint lint-changed format check-format check-captures sanitize asan-ubsan tsan packages page-packages clean
+.PHONY: configure build build-all demo test test-programs golden bench board-test board-packages board-guest arm-sysroot board-programs board-drivers board-gpiod-2 board-station board-power-cuts arm-test test-debian13 lint lint-changed format check-format check-captures sanitize asan-ubsan tsan packages page-packages clean
 
 configure: packages
 	cmake --preset release $(options)
@@ -111,6 +111,16 @@ endif
 board-station: board-programs
 	$(in_board) tests/board/station.sh $(board_build)/traygauge $(board_build)/traygauge-station \
 	  $(board_build)/tests/board/station_cycle simulator/demo/mash_and_meatballs
+
+# The power of an emulated machine is cut while it runs station and hub under load, POWER_CUTS=100 times: power_cuts.py.
+power_programs = traygauge-hub tests/board/cut_station tests/board/cut_check tests/board/no_sync.so
+board-power-cuts: BOARD = amd64
+board-power-cuts: board-guest
+	cmake --preset release $(options)
+	cmake --build --preset release -j $(JOBS) --target traygauge-hub cut_station cut_check no_sync
+	tests/board/pack_guest.sh amd64 $(board_guest) build-board/power-cuts.cpio tests/board/power_cuts.sh \
+	  $(addprefix build/,$(power_programs)) /sbin/e2fsck
+	tests/board/power_cuts.py $(board_guest) build-board/power-cuts.cpio
 
 # The cross-build under user-mode emulation: tests of the core without captures, the drivers' tests, and the volumes of the
 # demo beside this machine's. Not the alignment of the card, which takes minutes: the volumes depend on the card's place.
