@@ -2,6 +2,7 @@
 # make board-test: the drivers and the station on a real kernel in an emulated machine; BOARD=arm64 cross-builds for it.
 # make arm-test: cross-builds for 64-bit ARM, runs tests and compares volumes under user-mode emulation.
 # make test-debian13: builds and tests in a Debian 13, whatever this machine is.
+# make soak: the long runs of station and hub: power cuts, kills, fuzzing, trays in a row; two to three hours. Sizes: SOAK_….
 # make lint | format | sanitize: further checks; lint takes a quarter of an hour. CI=true adds to `make test` clang-tidy on what
 # the last commit changed, the sanitizers, ARM, and the drivers on a real kernel.
 
@@ -23,7 +24,7 @@ say = @echo "== $$(date +%T) $(1)"
 sources = git ls-files '*.cpp' '*.hpp'
 ctest = ctest --output-on-failure --no-tests=error -j $(JOBS) -LE '^bench$$'
 
-.PHONY: configure build build-all demo test test-programs golden bench board-test board-packages board-guest arm-sysroot board-programs board-drivers board-gpiod-2 board-station board-power-cuts arm-test test-debian13 lint lint-changed format check-format check-captures sanitize asan-ubsan tsan packages page-packages clean
+.PHONY: configure build build-all demo test test-programs golden bench board-test board-packages board-guest arm-sysroot board-programs board-drivers board-gpiod-2 board-station board-power-cuts arm-test test-debian13 lint lint-changed format check-format check-captures sanitize asan-ubsan tsan soak soak-cuts soak-kills fuzz soak-trays packages page-packages clean
 
 configure: packages
 	cmake --preset release $(options)
@@ -135,6 +136,39 @@ arm-test: build arm-sysroot
 	  env TRAYGAUGE_CAPTURES= sh -c '$(in_arm) "$$(find build-aarch64/tests -type f -name TEST)" --gtest_brief=1 --gtest_filter=-CardAlignment*'
 	RUN_B='$(in_arm)' LIMIT_ML=0.01 tests/captures/compare_builds.sh build build-aarch64 simulator/demo/*_and_*
 
+# Each part is a target of its own; a failure ends it. Fuzzing builds with clang, sanitizers on, and goes on from the corpora
+# of the last run in build-fuzz/fuzz.
+SOAK_CRASH_POINTS ?= 100000
+SOAK_KILLS ?= 1000
+SOAK_FUZZ_RUNS ?= 10000000
+SOAK_TRAYS ?= 10000
+soak: soak-cuts soak-kills fuzz soak-trays
+	$(call say,all of it passed)
+
+soak-cuts: configure
+	cmake --build --preset release -j $(JOBS) --target journal_power_cut_test store_crash_test
+	$(call say,power cuts: $(SOAK_CRASH_POINTS) states of the disk for each test of the journal and of the store: some seven minutes)
+	TRAYGAUGE_CRASH_POINTS=$(SOAK_CRASH_POINTS) build/tests/firmware/journal/journal_power_cut_test --gtest_brief=1
+	TRAYGAUGE_CRASH_POINTS=$(SOAK_CRASH_POINTS) build/tests/firmware/store/store_crash_test --gtest_brief=1
+
+soak-kills: configure
+	cmake --build --preset release -j $(JOBS) --target kill_test
+	$(call say,station and hub killed at $(SOAK_KILLS) moments: some two minutes)
+	TRAYGAUGE_KILLS=$(SOAK_KILLS) build/tests/firmware/hub/kill_test --gtest_brief=1
+
+fuzz: packages
+	config/install_packages.sh tests/fuzz/packages.txt
+	cmake --preset debug -B build-fuzz -DCMAKE_CXX_COMPILER=clang++ -DTRAYGAUGE_SANITIZERS=address,undefined \
+	  -DTRAYGAUGE_PRECOMPILED_HEADERS=OFF -DTRAYGAUGE_PAPER=OFF -DCMAKE_CXX_FLAGS=-fsanitize=fuzzer-no-link \
+	  -DCMAKE_CXX_FLAGS_DEBUG='-O1 -g1' $(options)
+	cmake --build build-fuzz -j $(JOBS) --target fuzz_targets
+	$(call say,fuzzing: $(SOAK_FUZZ_RUNS) runs over all targets: half an hour)
+	tests/fuzz/run_fuzz.sh build-fuzz $(SOAK_FUZZ_RUNS)
+
+soak-trays: build
+	$(call say,$(SOAK_TRAYS) trays in a row on simulated devices: three quarters of an hour)
+	tests/soak/trays.py build simulator/demo $(SOAK_TRAYS)
+
 # Builds and tests in a Debian 13 beside this machine's, which stays in build-debian13: half an hour on two cores.
 test-debian13: packages
 	config/install_packages.sh tests/debian13/packages.txt
@@ -189,4 +223,4 @@ tsan: packages
 	printf '%s\n' $(TSAN_TESTS) | xargs -P $(JOBS) -I TEST sh -c '"$$(find build-tsan -type f -name TEST)" --gtest_brief=1'
 
 clean:
-	rm -rf build build-debug build-lint build-asan-ubsan build-tsan build-aarch64 build-gpiod-2 build-board build-debian13
+	rm -rf build build-debug build-lint build-asan-ubsan build-tsan build-aarch64 build-gpiod-2 build-board build-debian13 build-fuzz
