@@ -76,6 +76,7 @@ class Cuts:
     def __init__(self, guest, initrd, folder, seed):
         self.guest, self.initrd, self.folder = guest, initrd, folder
         self.random = random.Random(seed)
+        self.machine = None
         self.boots = self.disks = 0
         self.stored = 0  # on this disk, when it was last checked
         self.told = {}  # by the tray's name, on this disk
@@ -111,7 +112,8 @@ class Cuts:
             file.write(subprocess.run(["cpio", "-o", "-H", "newc", "--quiet"], input=names, cwd=self.folder, check=True,
                                       capture_output=True).stdout)
         shutil.copyfile(self.folder / "disk", self.folder / "before")
-        return Machine(self.guest, initrd, self.folder)
+        self.machine = Machine(self.guest, initrd, self.folder)
+        return self.machine
 
     def note_boot(self, machine):
         """What the boot found. False where something is wrong."""
@@ -189,8 +191,15 @@ class Cuts:
             if all(self.cut_once() for _ in range(left)):
                 self.check()
             self.sums["stored"] += self.stored
+        # Few cuts may all hit the recovery.
+        has_load = self.sums["done"] + self.sums["kept"] > 0 or count < CUTS_OF_A_DISK
+        return 0 if self.sums["failed"] == 0 and has_load else 1
+
+    def close(self):
+        """Says what came of it, however it ended."""
+        if self.machine is not None:
+            self.machine.cut()
         print(f"{self.disks} disks; " + ", ".join(f"{name}: {value}" for name, value in self.sums.items()))
-        return 0 if self.sums["failed"] == 0 and self.sums["done"] > 0 else 1
 
 
 def main():
@@ -198,7 +207,11 @@ def main():
     seed = int(os.environ.get("POWER_SEED", random.SystemRandom().randrange(1 << 32)))
     print(f"POWER_SEED={seed}", flush=True)
     with tempfile.TemporaryDirectory() as folder:
-        return Cuts(pathlib.Path(sys.argv[1]), pathlib.Path(sys.argv[2]), pathlib.Path(folder), seed).run(count)
+        cuts = Cuts(pathlib.Path(sys.argv[1]), pathlib.Path(sys.argv[2]), pathlib.Path(folder), seed)
+        try:
+            return cuts.run(count)
+        finally:
+            cuts.close()
 
 
 if __name__ == "__main__":
