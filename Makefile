@@ -115,7 +115,7 @@ board-station: board-programs
 
 # The power of an emulated machine is cut while it runs station and hub under load, POWER_CUTS=100 times: power_cuts.py.
 power_programs = traygauge-hub tests/board/cut_station tests/board/cut_check tests/board/no_sync.so
-board-power-cuts: BOARD = amd64
+board-power-cuts: override BOARD = amd64
 board-power-cuts: board-guest
 	cmake --preset release $(options)
 	cmake --build --preset release -j $(JOBS) --target traygauge-hub cut_station cut_check no_sync
