@@ -211,7 +211,7 @@ ImageView<const std::uint8_t> TrayEstimator::labels(std::size_t view) const {
 
 std::span<std::byte> TrayEstimator::scratch() const {
   return state_ == nullptr ? std::span<std::byte>()
-                           : state_->shared.subspan(state_->memory.segmentation_bytes);
+                           : state_->shared.subspan(state_->memory.segmentation.kept_bytes);
 }
 
 void TrayEstimator::reset() {
