@@ -10,6 +10,7 @@
 #include "core/geometry/camera.hpp"
 #include "core/geometry/geometry.hpp"
 #include "core/geometry/table_frame.hpp"
+#include "core/quality/check.hpp"
 #include "core/quality/view_checks.hpp"
 #include "core/quality/warning.hpp"
 #include "core/stereo/disparity.hpp"
@@ -107,6 +108,7 @@ struct Measurement {
   double segmentation_ms = 0.0;  // before the stages, where labels were drawn; part of the total
   double total_ms = 0.0;
   WarningSet warnings;
+  CheckList checks;
   MeasurementReport report;
   MeasurementViews views;
 };

@@ -187,7 +187,8 @@ const Measurement& TrayEstimator::estimate(std::uint64_t seed, StageObserver* ob
   if (measurement_.status.ok() && is_found && !is_bare)
     measurement_.status = prepare_found_views(state, clock);
   if (measurement_.status.ok() && !is_bare)
-    measure_tray(state.memory, state.configuration, seed, observer, clock, measurement_);
+    measure_tray(state.memory, state.configuration, is_found ? &state.segmentation : nullptr, seed, observer,
+                 clock, measurement_);
   if (is_found && state.segmentation.status.ok()) {
     warn_about_labels(state.segmentation, measurement_.warnings);
     measurement_.status = blame_card(state.segmentation, measurement_.status);
