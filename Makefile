@@ -2,6 +2,7 @@
 # make board-test: the drivers and the station on a real kernel in an emulated machine; BOARD=arm64 cross-builds for it.
 # make arm-test: cross-builds for 64-bit ARM, runs tests and compares volumes under user-mode emulation.
 # make test-debian13: builds and tests in a Debian 13, whatever this machine is.
+# make soak: the long runs of station and hub: power cuts, kills, fuzzing, trays in a row; two to three hours. Sizes: SOAK_….
 # make lint | format | sanitize: further checks; lint takes a quarter of an hour. CI=true adds to `make test` clang-tidy on what
 # the last commit changed, the sanitizers, ARM, and the drivers on a real kernel.
 
@@ -23,7 +24,7 @@ say = @echo "== $$(date +%T) $(1)"
 sources = git ls-files '*.cpp' '*.hpp'
 ctest = ctest --output-on-failure --no-tests=error -j $(JOBS) -LE '^bench$$'
 
-.PHONY: configure build build-all demo test test-programs golden bench board-test board-packages board-guest arm-sysroot board-programs board-drivers board-gpiod-2 board-station arm-test test-debian13 lint lint-changed format check-format check-captures sanitize asan-ubsan tsan packages page-packages clean
+.PHONY: configure build build-all demo test test-programs golden bench board-test board-packages board-guest arm-sysroot board-programs board-drivers board-gpiod-2 board-station board-power-cuts arm-test test-debian13 lint lint-changed format check-format check-captures sanitize asan-ubsan tsan soak soak-cuts soak-kills fuzz soak-trays packages page-packages clean
 
 configure: packages
 	cmake --preset release $(options)
@@ -112,6 +113,16 @@ board-station: board-programs
 	$(in_board) tests/board/station.sh $(board_build)/traygauge $(board_build)/traygauge-station \
 	  $(board_build)/tests/board/station_cycle simulator/demo/mash_and_meatballs
 
+# The power of an emulated machine is cut while it runs station and hub under load, POWER_CUTS=100 times: power_cuts.py.
+power_programs = traygauge-hub tests/board/cut_station tests/board/cut_check tests/board/no_sync.so
+board-power-cuts: override BOARD = amd64
+board-power-cuts: board-guest
+	cmake --preset release $(options)
+	cmake --build --preset release -j $(JOBS) --target traygauge-hub cut_station cut_check no_sync
+	tests/board/pack_guest.sh amd64 $(board_guest) build-board/power-cuts.cpio tests/board/power_cuts.sh \
+	  $(addprefix build/,$(power_programs)) /sbin/e2fsck
+	tests/board/power_cuts.py $(board_guest) build-board/power-cuts.cpio
+
 # The cross-build under user-mode emulation: tests of the core without captures, the drivers' tests, and the volumes of the
 # demo beside this machine's. Not the alignment of the card, which takes minutes: the volumes depend on the card's place.
 ARM_TESTS = base_test geometry_test image_test features_test tracking_test card_test adjustment_test dish_test segmentation_test \
@@ -124,6 +135,39 @@ arm-test: build arm-sysroot
 	printf '%s\n' $(ARM_TESTS) | xargs -P $(JOBS) -I TEST \
 	  env TRAYGAUGE_CAPTURES= sh -c '$(in_arm) "$$(find build-aarch64/tests -type f -name TEST)" --gtest_brief=1 --gtest_filter=-CardAlignment*'
 	RUN_B='$(in_arm)' LIMIT_ML=0.01 tests/captures/compare_builds.sh build build-aarch64 simulator/demo/*_and_*
+
+# Each part is a target of its own; a failure ends it. Fuzzing builds with clang, sanitizers on, and goes on from the corpora
+# of the last run in build-fuzz/fuzz.
+SOAK_CRASH_POINTS ?= 100000
+SOAK_KILLS ?= 1000
+SOAK_FUZZ_RUNS ?= 10000000
+SOAK_TRAYS ?= 10000
+soak: soak-cuts soak-kills fuzz soak-trays
+	$(call say,all of it passed)
+
+soak-cuts: configure
+	cmake --build --preset release -j $(JOBS) --target journal_power_cut_test store_crash_test
+	$(call say,power cuts: $(SOAK_CRASH_POINTS) states of the disk for each test of the journal and of the store: some seven minutes)
+	TRAYGAUGE_CRASH_POINTS=$(SOAK_CRASH_POINTS) build/tests/firmware/journal/journal_power_cut_test --gtest_brief=1
+	TRAYGAUGE_CRASH_POINTS=$(SOAK_CRASH_POINTS) build/tests/firmware/store/store_crash_test --gtest_brief=1
+
+soak-kills: configure
+	cmake --build --preset release -j $(JOBS) --target kill_test
+	$(call say,station and hub killed at $(SOAK_KILLS) moments: some two minutes)
+	TRAYGAUGE_KILLS=$(SOAK_KILLS) build/tests/firmware/hub/kill_test --gtest_brief=1
+
+fuzz: packages
+	config/install_packages.sh tests/fuzz/packages.txt
+	cmake --preset debug -B build-fuzz -DCMAKE_CXX_COMPILER=clang++ -DTRAYGAUGE_SANITIZERS=address,undefined \
+	  -DTRAYGAUGE_PRECOMPILED_HEADERS=OFF -DTRAYGAUGE_PAPER=OFF -DCMAKE_CXX_FLAGS=-fsanitize=fuzzer-no-link \
+	  -DCMAKE_CXX_FLAGS_DEBUG='-O1 -g1' $(options)
+	cmake --build build-fuzz -j $(JOBS) --target fuzz_targets
+	$(call say,fuzzing: $(SOAK_FUZZ_RUNS) runs over all targets: half an hour)
+	tests/fuzz/run_fuzz.sh build-fuzz $(SOAK_FUZZ_RUNS)
+
+soak-trays: build
+	$(call say,$(SOAK_TRAYS) trays in a row on simulated devices: three quarters of an hour)
+	tests/soak/trays.py build simulator/demo $(SOAK_TRAYS)
 
 # Builds and tests in a Debian 13 beside this machine's, which stays in build-debian13: half an hour on two cores.
 test-debian13: packages
@@ -179,4 +223,4 @@ tsan: packages
 	printf '%s\n' $(TSAN_TESTS) | xargs -P $(JOBS) -I TEST sh -c '"$$(find build-tsan -type f -name TEST)" --gtest_brief=1'
 
 clean:
-	rm -rf build build-debug build-lint build-asan-ubsan build-tsan build-aarch64 build-gpiod-2 build-board build-debian13
+	rm -rf build build-debug build-lint build-asan-ubsan build-tsan build-aarch64 build-gpiod-2 build-board build-debian13 build-fuzz

@@ -12,10 +12,10 @@ namespace {
 constexpr double kInitialDamping = 1e-8;  // the card alone is near enough for Gauss and Newton's steps
 // Relative decrease of the cost that is worth another iteration: before the next round weighs anew, and last.
 // Neither matters within a factor of two (tests/evaluation/numbers.tsv).
-constexpr double kMinImprovement = 1e-2;
+constexpr double kMinRoundImprovement = 1e-2;
 constexpr double kMinLastImprovement = 1e-5;
 
-double information(double sigma) {
+double information_of(double sigma) {
   return 1.0 / (sigma * sigma);
 }
 
@@ -36,8 +36,8 @@ class BundleAdjustment {
         tracks_(input, used_tracks(input, params, workspace), params, workspace) {
     terms_.cards = input.cards;
     terms_.card_pivot_mm = input.card_middle_mm;
-    terms_.lie_tilt_information = information(params.card_tilt_sigma_deg * kRadiansPerDegree);
-    terms_.lie_raised_information = information(params.card_raised_sigma_mm);
+    terms_.lie_tilt_information = information_of(params.card_tilt_sigma_deg * kRadiansPerDegree);
+    terms_.lie_raised_information = information_of(params.card_raised_sigma_mm);
     terms_.focals_px = input.focals_px;
     terms_.tracks = used_tracks(input, params, workspace);
     terms_.weights = workspace.weights.first(terms_.tracks.size());
@@ -55,7 +55,7 @@ class BundleAdjustment {
       const BundleState before = state_;
       if (trust == TrackTrust::consensus && params_.use_table)
         tracks_.find_table_tracks(state_.camera_from_table, result_.covariance);
-      improve(trust == TrackTrust::table ? kMinLastImprovement : kMinImprovement);
+      improve(trust == TrackTrust::table ? kMinLastImprovement : kMinRoundImprovement);
       if (tracks_.is_table_found() && !is_card_plausible()) {
         tracks_.drop_table();
         state_ = before;

@@ -28,14 +28,9 @@ struct CardTilt {
   }
 };
 
-// The step from the alignment to the card where camera and lie put it. Turns are taken for small: half the
-// antisymmetric part of a rotation is its axis times the sine.
+// The step from the alignment to the card where camera and lie put it.
 inline Vec6 card_deviation(const CardPrior& alignment, const Pose& camera_from_card) {
-  const Mat3 turn = camera_from_card.rotation * alignment.camera_from_table.rotation.transpose();
-  Vec6 deviation;
-  deviation << 0.5 * (turn(2, 1) - turn(1, 2)), 0.5 * (turn(0, 2) - turn(2, 0)),
-      0.5 * (turn(1, 0) - turn(0, 1)), camera_from_card.translation - alignment.camera_from_table.translation;
-  return deviation;
+  return step_between(alignment.camera_from_table, camera_from_card);
 }
 
 // Its derivatives by a step of camera_from_table and by the lie (tilt, raised).

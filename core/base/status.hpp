@@ -54,6 +54,15 @@ namespace traygauge {
   CODE(pose_contradicts_card, \
        "The camera motion found from the scene contradicts the reference card; card and dish must not " \
        "move between the pictures.") \
+  CODE(dish_moved, \
+       "Dish and reference card moved against each other between the pictures; keep hands off the tray until " \
+       "both are taken.") \
+  CODE(scale_disagrees, \
+       "Reference card and dish disagree about the scale; check the card's printed size with a ruler, and " \
+       "that the dish is the one described.") \
+  CODE(card_lifted, \
+       "Reference card and dish disagree about where the table is; lay the card flat on what the dish " \
+       "stands on, and check its thickness and the dish's height as described.") \
   CODE(card_not_found, \
        "The reference card was not found in both pictures; lay it flat beside the dish, fully visible " \
        "and without glare.") \

@@ -12,7 +12,7 @@ namespace {
 constexpr double kLooseAzimuthSigmaRad = 0.5;   // of a measured place, 29 degrees: keeps a round one regular
 constexpr double kRoundAzimuthSigmaRad = 0.01;  // of a round dish, whose azimuth means nothing
 
-double information(double sigma) {
+double information_at(double sigma) {
   return 1.0 / (sigma * sigma);
 }
 
@@ -193,10 +193,10 @@ bool guess_place(const DishOutlines& outlines, const TableCameras& cameras, doub
 PlacePrior loose_prior(const DishPose& place, double height_sigma_mm, double size_sigma_mm,
                        const DishPoseParams& params) {
   PlacePrior prior{as_vector(place), PlaceVector::Zero()};
-  prior.information[kPlaceAzimuth] = information(kLooseAzimuthSigmaRad);
-  prior.information[kPlaceHeight] = information(height_sigma_mm);
-  prior.information.segment<2>(kPlaceSize).setConstant(information(size_sigma_mm));
-  prior.information[kPlaceDrop] = information(params.edge_drop_mm);
+  prior.information[kPlaceAzimuth] = information_at(kLooseAzimuthSigmaRad);
+  prior.information[kPlaceHeight] = information_at(height_sigma_mm);
+  prior.information.segment<2>(kPlaceSize).setConstant(information_at(size_sigma_mm));
+  prior.information[kPlaceDrop] = information_at(params.edge_drop_mm);
   return prior;
 }
 
@@ -221,13 +221,13 @@ PlacePrior prior_of(const DishModel& model, double azimuth_rad, const DishPosePa
   PlacePrior prior;
   prior.mean[kPlaceAzimuth] = azimuth_rad;
   const bool is_round = is_round_dish(model.outer_size_mm);
-  prior.information[kPlaceAzimuth] = is_round ? information(kRoundAzimuthSigmaRad) : 0.0;
+  prior.information[kPlaceAzimuth] = is_round ? information_at(kRoundAzimuthSigmaRad) : 0.0;
   prior.mean[kPlaceHeight] = edge_height_mm(model);
-  prior.information[kPlaceHeight] = information(params.height_sigma_mm);
+  prior.information[kPlaceHeight] = information_at(params.height_sigma_mm);
   prior.mean.segment<2>(kPlaceSize) = Vec2(model.outer_size_mm[0], model.outer_size_mm[1]);
-  prior.information.segment<2>(kPlaceSize).setConstant(information(params.size_sigma_mm));
+  prior.information.segment<2>(kPlaceSize).setConstant(information_at(params.size_sigma_mm));
   prior.mean[kPlaceDrop] = params.edge_drop_mm;
-  prior.information[kPlaceDrop] = information(params.edge_drop_mm);
+  prior.information[kPlaceDrop] = information_at(params.edge_drop_mm);
   return prior;
 }
 

@@ -120,7 +120,7 @@ Status DishSurveyor::find_edge(const ViewPair& views, std::uint64_t seed) {
   SceneGeometryWorkspace& workspace = memory_.geometry;
   geometry = {};
   geometry.dish_count = 1;
-  geometry.dishes[0] = {kDishLabel, labels_of_single_dish(), {}};
+  geometry.dishes[0] = {kDishLabel, labels_of_single_dish(), {}, {}};
   Random random(seed);
   StageClock clock;
   MeasurementReport report;

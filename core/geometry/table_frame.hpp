@@ -41,4 +41,14 @@ inline Pose moved(const Pose& pose, const Eigen::Matrix<double, 6, 1>& step) {
   return {rotation_about(step.head<3>()) * pose.rotation, pose.translation + step.tail<3>()};
 }
 
+// The step that leads from one pose to another nearby. Turns are taken for small: half the antisymmetric part
+// of a rotation is its axis times the sine.
+inline Eigen::Matrix<double, 6, 1> step_between(const Pose& from, const Pose& to) {
+  const Mat3 turn = to.rotation * from.rotation.transpose();
+  Eigen::Matrix<double, 6, 1> step;
+  step << 0.5 * (turn(2, 1) - turn(1, 2)), 0.5 * (turn(0, 2) - turn(2, 0)), 0.5 * (turn(1, 0) - turn(0, 1)),
+      to.translation - from.translation;
+  return step;
+}
+
 }  // namespace traygauge

@@ -9,6 +9,7 @@
 #include "core/labels/dish_membership.hpp"
 #include "core/pipeline/food_agreement_params.hpp"
 #include "core/pipeline/segmenter_params.hpp"
+#include "core/pipeline/tray_check_params.hpp"
 #include "core/pipeline/tray_setup.hpp"
 #include "core/stereo/dense_stereo.hpp"
 #include "core/tracking/point_tracking.hpp"
@@ -57,6 +58,7 @@ struct Configuration : TraySetup {
   DishMembershipParams membership;
   DishOutlineParams outline;
   BundleParams bundle;
+  TrayCheckParams checks;
   SpecularParams specular;
   DenseStereoParams surface;
   RoundBodyParams round_body;

@@ -72,6 +72,7 @@ void measure_dish(const ViewPair& views, const SceneGeometry& geometry, std::siz
   };
   const BundleDishResult& placed = geometry.bundle.dishes[index];
   if (!placed.status.ok()) return refuse(placed.status);
+  if (!dish.verdict.ok()) return refuse(dish.verdict);
   for (const TrayView* view : views) {
     if (is_cut_off(*view, dish.labels)) return refuse(StatusCode::dish_cut_off);
   }

@@ -11,6 +11,7 @@
 #include "core/geometry/geometry.hpp"
 #include "core/geometry/table_frame.hpp"
 #include "core/labels/label_regions.hpp"
+#include "core/quality/check.hpp"
 #include "core/quality/view_checks.hpp"
 #include "core/quality/warning.hpp"
 #include "core/stereo/disparity.hpp"
@@ -108,6 +109,7 @@ struct Measurement {
   double segmentation_ms = 0.0;  // before the stages, where labels were drawn; part of the total
   double total_ms = 0.0;
   WarningSet warnings;
+  CheckList checks;
   MeasurementReport report;
   MeasurementViews views;
 };

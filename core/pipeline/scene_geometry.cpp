@@ -60,7 +60,7 @@ Status list_dishes(const ViewPair& views, const Configuration& configuration,
     if (!is_dish(label) || !is_seen(views, label)) continue;
     if (geometry.dish_count == kMaxPlacedDishes) return StatusCode::too_many_dishes;
     DishOnTray& dish = geometry.dishes[geometry.dish_count++];
-    dish = {label, {}, candidates_for(label, configuration.dishes)};
+    dish = {label, {}, candidates_for(label, configuration.dishes), {}};
     dish.labels.add(label);
     if (dish.candidates.empty()) return StatusCode::dish_unknown;
   }

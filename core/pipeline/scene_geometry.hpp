@@ -19,6 +19,7 @@ struct DishOnTray {
   std::uint8_t label = kDishLabel;
   LabelSet labels;                        // its own and its items'
   std::span<const DishModel> candidates;  // the one described, or all that are known
+  Status verdict;                         // why it cannot be measured, though it was placed
 };
 
 struct SceneGeometry {

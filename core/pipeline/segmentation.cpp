@@ -12,6 +12,7 @@ void warn_about_labels(const Segmentation& segmentation, WarningSet& warnings) {
   for (std::size_t d = 0; d < segmentation.dish_count; ++d) {
     const SegmentedDish& dish = segmentation.dishes[d];
     warnings.raise_if(!dish.status.ok(), Warning::dish_not_found, dish.label);
+    warnings.raise_if(dish.is_bare, Warning::dish_empty, dish.label);
     warnings.raise_if(dish.is_split_doubtful, Warning::items_doubtful, dish.label);
   }
   warnings.raise_if(segmentation.misses_hint, Warning::items_doubtful);

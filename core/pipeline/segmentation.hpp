@@ -9,6 +9,7 @@
 #include "core/base/status.hpp"
 #include "core/card/card_alignment.hpp"
 #include "core/dish/dish_search.hpp"
+#include "core/dish/dish_sighting.hpp"
 #include "core/quality/warning.hpp"
 
 namespace traygauge {
@@ -17,9 +18,11 @@ struct SegmentedDish {
   std::uint8_t label = kDishLabel;
   Status status;
   FoundDish found;
-  DishModel model;                 // as described, where it was found
-  int items = 0;                   // that lie on it: their labels follow those of the dish before
-  bool is_split_doubtful = false;  // two of them may be one food
+  std::array<DishSighting, 2> sightings;  // of its rim in each view by itself
+  DishModel model;                        // as described, where it was found
+  int items = 0;                          // that lie on it: their labels follow those of the dish before
+  bool is_split_doubtful = false;         // two of them may be one food
+  bool is_bare = false;                   // found, and neither view shows food on it
 };
 
 // The labels themselves are in the pictures that were to be filled.
@@ -38,6 +41,12 @@ struct Segmentation {
   bool has_all_dishes() const {
     return std::all_of(dishes.begin(), dishes.begin() + static_cast<std::ptrdiff_t>(dish_count),
                        [](const SegmentedDish& dish) { return dish.status.ok(); });
+  }
+  // Every dish that was asked for was found, and neither view shows food on any of them.
+  bool is_bare() const {
+    return dish_count > 0 &&
+           std::all_of(dishes.begin(), dishes.begin() + static_cast<std::ptrdiff_t>(dish_count),
+                       [](const SegmentedDish& dish) { return dish.is_bare; });
   }
   bool is_split_doubtful() const {
     return misses_hint ||

@@ -91,7 +91,8 @@ void Segmenter::segment() {
       for (SegmentedDish& dish : result_.dishes) dish.is_split_doubtful = false;
       result_.misses_hint = result_.items != params_.items;
     }
-    if (result_.items == 0) result_.status = StatusCode::no_food_label;
+    const bool is_empty_tray = result_.is_bare() && params_.items == 0;
+    if (result_.items == 0 && !is_empty_tray) result_.status = StatusCode::no_food_label;
   }
   result_.status = blame_card(result_, result_.status);
   clock.stop();
@@ -150,6 +151,7 @@ Status Segmenter::find_dishes() {
     dish.found = *found;
     dish.model = candidates[static_cast<std::size_t>(dish.found.candidate)];
     taken[taken_count++] = dish.found;
+    sight(dish);
     for (const DishSearchView& camera : cameras_) {
       if (!is_within(camera.frame, rim_outline(dish.found.place, camera, 0.0, 0.0)))
         dish.status = StatusCode::dish_cut_off;
@@ -158,6 +160,23 @@ Status Segmenter::find_dishes() {
   }
   if (found_count > 0) return StatusCode::ok;
   return taken_count > 0 ? StatusCode::dish_cut_off : StatusCode::rim_not_found;
+}
+
+// About where both views have the dish, and about where this one alone wants it: bands of a decoration draw
+// the second place aside, a slip between the pictures the first. More of the rim agrees about the right one.
+void Segmenter::sight(SegmentedDish& dish) {
+  for (std::size_t v = 0; v < 2; ++v) {
+    const DishSearchView& camera = cameras_[v];
+    const DishPose own = shift_in_view(cameras_, v, dish.found, params_.dish, memory_.dish);
+    for (const DishPose& about : {dish.found.place, own}) {
+      trace_rim(cameras_, v, about, dish.found.inside_sign, params_.dish, memory_.dish,
+                memory_.dish.outlines[v]);
+      const DishSighting sighting =
+          sight_dish(memory_.dish.outlines[v].items(), camera.camera_from_table,
+                     camera.lens.pinhole.mean_focal_px(), about, configuration_.checks.sighting);
+      if (sighting.points > dish.sightings[v].points) dish.sightings[v] = sighting;
+    }
+  }
 }
 
 void Segmenter::draw_dishes() const {
@@ -205,6 +224,7 @@ void Segmenter::draw_food(const FoodOutlineParams& params) {
     SegmentedDish& dish = result_.dishes[d];
     dish.items = 0;
     dish.is_split_doubtful = false;
+    dish.is_bare = false;
     const DishInViews& scene = scenes_[d];
     if (!scene.is_described) continue;
     const auto first = static_cast<std::uint8_t>(kFirstItemLabel + result_.items);
@@ -216,6 +236,9 @@ void Segmenter::draw_food(const FoodOutlineParams& params) {
     const ItemSplit split = label_items(raster, relief, params, memory_.food.outline, first, room, cells);
     draw_cells(raster, cells, dish.label, views_[0].labels);
     if (!outline_view(dish, scene, 1, raster, relief, cells)) continue;
+    const std::span<const std::uint8_t> second(
+        cells.data, static_cast<std::size_t>(raster.width()) * static_cast<std::size_t>(raster.height()));
+    dish.is_bare = split.items == 0 && std::find(second.begin(), second.end(), kFoodSeed) == second.end();
     carry_labels(raster, dish, cells);
     spread_items(raster, params, memory_.food.outline, cells);
     draw_cells(raster, cells, dish.label, views_[1].labels);

@@ -37,8 +37,9 @@ class Segmenter {
   // another size than the lens or the pictures to be filled; frame_too_dark, frame_too_bright;
   // card_not_found; card_hidden where it is cut off. What fails here is also what segment() reports.
   Status add_view(const SegmentedView& view);
-  // Draws the labels of both views. rim_not_found (no dish at all), dish_cut_off (none whole), no_food_label;
-  // card_hidden instead of each where a card is doubtful.
+  // Draws the labels of both views. rim_not_found (no dish at all), dish_cut_off (none whole), no_food_label
+  // (none was found, and yet the tray is not seen to be bare); card_hidden instead of each where a card is
+  // doubtful.
   void segment();
 
  private:
@@ -53,6 +54,7 @@ class Segmenter {
   Status check_view(const SegmentedView& view, const LensModel& lens) const;
   Status find_card(const SegmentedView& view, const LensModel& lens, std::size_t index);
   Status find_dishes();
+  void sight(SegmentedDish& dish);
   void draw_dishes() const;
   void look_at_dishes();
   void draw_items(const FoodOutlineParams& params);

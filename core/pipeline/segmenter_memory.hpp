@@ -53,6 +53,7 @@ struct SegmenterMemory {
   CardStageWorkspace card;
   DishSearchWorkspace dish;
   FoodStageWorkspace food;
+  std::size_t kept_bytes = 0;  // of the arena, from one view to the next
 
   template <class Allocator>
   constexpr void allocate_kept(Allocator& arena, const SegmenterParams& params) {
@@ -66,7 +67,9 @@ struct SegmenterMemory {
   }
   template <class Allocator>
   constexpr void allocate(Allocator& arena, const Configuration& configuration) {
+    const std::size_t before = arena.used_bytes();
     allocate_kept(arena, configuration.segmentation);
+    kept_bytes = arena.used_bytes() - before;
     arena.overlay([&] { card.allocate(arena, configuration); },
                   [&] { dish.allocate(arena, configuration.segmentation.dish); },
                   [&] { food.allocate(arena, configuration.segmentation); });

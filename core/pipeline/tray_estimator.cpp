@@ -183,9 +183,12 @@ const Measurement& TrayEstimator::estimate(std::uint64_t seed, StageObserver* ob
   StageClock clock = state.preparation_clock;
   measurement_.status = check_views(state);
   const bool is_found = state.is_finding_labels && state.views > 0;
-  if (measurement_.status.ok() && is_found) measurement_.status = prepare_found_views(state, clock);
-  if (measurement_.status.ok())
-    measure_tray(state.memory, state.configuration, seed, observer, clock, measurement_);
+  const bool is_bare = is_found && measurement_.status.ok() && state.segmentation.is_bare();
+  if (measurement_.status.ok() && is_found && !is_bare)
+    measurement_.status = prepare_found_views(state, clock);
+  if (measurement_.status.ok() && !is_bare)
+    measure_tray(state.memory, state.configuration, is_found ? &state.segmentation : nullptr, seed, observer,
+                 clock, measurement_);
   if (is_found && state.segmentation.status.ok()) {
     warn_about_labels(state.segmentation, measurement_.warnings);
     measurement_.status = blame_card(state.segmentation, measurement_.status);
@@ -209,7 +212,7 @@ ImageView<const std::uint8_t> TrayEstimator::labels(std::size_t view) const {
 
 std::span<std::byte> TrayEstimator::scratch() const {
   return state_ == nullptr ? std::span<std::byte>()
-                           : state_->shared.subspan(state_->memory.segmentation_bytes);
+                           : state_->shared.subspan(state_->memory.segmentation.kept_bytes);
 }
 
 void TrayEstimator::reset() {

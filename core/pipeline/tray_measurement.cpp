@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/pipeline/dish_observation.hpp"
+#include "core/pipeline/tray_checks.hpp"
 #include "core/quality/view_input.hpp"
 
 namespace traygauge {
@@ -43,6 +44,14 @@ void report_pose(const SceneGeometry& geometry, bool reversed, Measurement& meas
   if (reversed) std::swap(measurement.views.camera_from_table[0], measurement.views.camera_from_table[1]);
 }
 
+// What a dish says of the fault that tracks alone cannot name.
+Status named(Status status, const SceneGeometry& geometry) {
+  for (const DishOnTray& dish : std::span(geometry.dishes).first(geometry.dish_count)) {
+    if (!dish.verdict.ok()) return dish.verdict;
+  }
+  return status;
+}
+
 void warn_about_guessed_dishes(const SceneGeometry& geometry, WarningSet& warnings) {
   for (const DishOnTray& dish : std::span(geometry.dishes).first(geometry.dish_count))
     warnings.raise_if(dish.candidates.size() > 1, Warning::dish_guessed, dish.label);
@@ -50,8 +59,8 @@ void warn_about_guessed_dishes(const SceneGeometry& geometry, WarningSet& warnin
 
 }  // namespace
 
-void measure_tray(TrayMemory& memory, const Configuration& configuration, std::uint64_t seed,
-                  StageObserver* observer, StageClock& clock, Measurement& measurement) {
+void measure_tray(TrayMemory& memory, const Configuration& configuration, const Segmentation* found,
+                  std::uint64_t seed, StageObserver* observer, StageClock& clock, Measurement& measurement) {
   const bool reversed = works_in_reverse(memory);
   const ViewPair views = {&memory.views[reversed ? 1 : 0], &memory.views[reversed ? 0 : 1]};
   DishMeasurementWorkspace dish = memory.dish;
@@ -65,9 +74,17 @@ void measure_tray(TrayMemory& memory, const Configuration& configuration, std::u
   if (!measurement.status.ok()) return;
   measurement.status = list_dishes(views, configuration, memory.geometry, geometry);
   if (!measurement.status.ok()) return;
+  const CheckedTray checked{views, reversed, found};
+  measurement.status = check_standstill(checked, configuration, measurement.checks);
+  if (!measurement.status.ok()) return;
   measurement.status =
       find_geometry(views, configuration, random, memory.geometry, clock, measurement.report, geometry);
-  if (!measurement.status.ok()) return;
+  if (measurement.status.ok() || measurement.status.code() == StatusCode::pose_contradicts_card)
+    check_dishes(checked, memory.geometry, configuration, geometry, measurement.checks, measurement.warnings);
+  if (!measurement.status.ok()) {
+    measurement.status = named(measurement.status, geometry);
+    return;
+  }
   if (observer != nullptr) {
     observer->on_order(measurement.views.reference_view);
     observer->on_geometry(geometry.bundle, std::span(geometry.dishes).first(geometry.dish_count));

@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "core/pipeline/measurement.hpp"
+#include "core/pipeline/segmentation.hpp"
 #include "core/pipeline/stage_clock.hpp"
 #include "core/pipeline/stage_observer.hpp"
 #include "core/pipeline/tray_memory.hpp"
@@ -11,8 +12,9 @@
 namespace traygauge {
 
 // Fills everything but the times. The view that shows more of the dishes is worked first, so that a pair
-// measures the same bits in either order. `observer` may be null.
-void measure_tray(TrayMemory& memory, const Configuration& configuration, std::uint64_t seed,
-                  StageObserver* observer, StageClock& clock, Measurement& measurement);
+// measures the same bits in either order. `found`: where
+// the labels come from, null where they were given. `observer` may be null.
+void measure_tray(TrayMemory& memory, const Configuration& configuration, const Segmentation* found,
+                  std::uint64_t seed, StageObserver* observer, StageClock& clock, Measurement& measurement);
 
 }  // namespace traygauge

@@ -26,8 +26,7 @@ struct TrayMemory {
   TrayViewWorkspace preparation;
   SegmenterMemory segmentation;
   SceneGeometryWorkspace geometry;
-  std::size_t kept_bytes = 0;          // of the arena, up to where the stages share
-  std::size_t segmentation_bytes = 0;  // of what they share, that finding labels uses
+  std::size_t kept_bytes = 0;  // of the arena, up to where the stages share
 
   template <class Allocator>
   constexpr void allocate_kept(Allocator& arena, const Configuration& configuration) {
@@ -56,13 +55,9 @@ struct TrayMemory {
   constexpr void allocate(Allocator& arena, const Configuration& configuration) {
     allocate_kept(arena, configuration);
     kept_bytes = arena.used_bytes();
-    arena.overlay(
-        [&] {
-          allocate_segmentation(arena, configuration);
-          segmentation_bytes = arena.used_bytes() - kept_bytes;
-        },
-        [&] { preparation.allocate(arena, configuration); },
-        [&] { allocate_measurement(arena, configuration); });
+    arena.overlay([&] { allocate_segmentation(arena, configuration); },
+                  [&] { preparation.allocate(arena, configuration); },
+                  [&] { allocate_measurement(arena, configuration); });
   }
 };
 

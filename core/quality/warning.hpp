@@ -43,6 +43,14 @@ namespace traygauge {
   CODE(dish_not_found, \
        "A dish was not found whole in both pictures, and its food is not measured; see traygauge " \
        "segment.") \
+  CODE(dish_moved, "Dish and reference card moved a little against each other between the pictures.") \
+  CODE(scale_disagrees, \
+       "Reference card and dish disagree about the scale; check the card's printed size, and the dish's " \
+       "description.") \
+  CODE(card_lifted, \
+       "Reference card and dish disagree about where the table is; check that the card lies flat, its " \
+       "thickness and the dish's description.") \
+  CODE(dish_empty, "No food was seen on a dish; it counts as empty.") \
   CODE(item_uncertain, \
        "An item's volume is less sure than usual, as of steep pieces with gaps; see its sigma, or " \
        "measure from another side.") \

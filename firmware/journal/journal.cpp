@@ -120,7 +120,8 @@ std::uint64_t Journal::free_blocks() const {
 }
 
 bool Journal::has_room(std::size_t payload_bytes) const {
-  return payload_bytes <= kMaxPayloadBytes && blocks_of(payload_bytes) <= free_blocks();
+  return payload_bytes <= kMaxPayloadBytes && blocks_of(payload_bytes) <= free_blocks() &&
+         next_sequence_ <= kLastSequence;
 }
 
 Failure Journal::no_room(std::size_t payload_bytes) const {

@@ -19,9 +19,6 @@
 
 namespace traygauge {
 
-inline constexpr std::uint64_t kMinJournalBytes = std::uint64_t{32} << 10;
-inline constexpr std::uint64_t kMaxJournalBytes = std::uint64_t{1} << 30;
-
 struct JournalOptions {
   std::string path;
   // Of the file, two blocks of 4,096 bytes for heads included; from kMinJournalBytes to kMaxJournalBytes, cut

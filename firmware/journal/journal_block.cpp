@@ -85,7 +85,8 @@ std::optional<BlockHeader> decode_block(ConstBlockBytes block, std::uint64_t jou
   header.payload_bytes = load_little_endian<std::uint32_t>(block, kPayloadBytesAt);
   header.payload_crc = load_little_endian<std::uint32_t>(block, kPayloadCrcAt);
   header.part = load_little_endian<std::uint16_t>(block, kPartAt);
-  if (header.payload_bytes > kMaxPayloadBytes || header.part >= blocks_of(header.payload_bytes)) {
+  if (header.sequence == 0 || header.sequence > kLastSequence || header.payload_bytes > kMaxPayloadBytes ||
+      header.part >= blocks_of(header.payload_bytes)) {
     return std::nullopt;
   }
   return header;

@@ -21,6 +21,13 @@ inline constexpr std::size_t kChecksumBytes = 4;
 inline constexpr std::size_t kBlockPayloadBytes = kBlockBytes - kRecordHeaderBytes - kChecksumBytes;
 inline constexpr std::size_t kMaxPayloadBytes = 65536;
 
+// Records are numbered from 1; the number after the last one is still a number.
+inline constexpr std::uint64_t kLastSequence = UINT64_MAX - 1;
+
+// Of the whole file.
+inline constexpr std::uint64_t kMinJournalBytes = std::uint64_t{32} << 10;
+inline constexpr std::uint64_t kMaxJournalBytes = std::uint64_t{1} << 30;
+
 using BlockBytes = std::span<std::byte, kBlockBytes>;
 using ConstBlockBytes = std::span<const std::byte, kBlockBytes>;
 

@@ -39,9 +39,9 @@ struct FoundHead {
 
 bool is_usable(const JournalHead& head) {
   const std::uint64_t blocks = head.file_bytes / kBlockBytes;
-  return head.file_bytes % kBlockBytes == 0 && blocks > kHeadsInFile && blocks - kHeadsInFile <= UINT32_MAX &&
+  return head.file_bytes % kBlockBytes == 0 && blocks > kHeadsInFile && head.file_bytes <= kMaxJournalBytes &&
          head.oldest.block < blocks - kHeadsInFile && head.next_block < blocks - kHeadsInFile &&
-         head.oldest.sequence <= head.next_sequence;
+         head.oldest.sequence > 0 && head.oldest.sequence <= head.next_sequence;
 }
 
 FoundHead read_head(File& file, std::uint64_t offset_bytes) {

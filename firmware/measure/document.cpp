@@ -57,6 +57,7 @@ std::string compose_document(const MeasureReport& report) {
   document["pose"] = pose_of(measurement);
   document["timing_ms"] = timing_of(report);
   document["memory_bytes"] = {{"reserved", report.reserved_bytes}, {"used", report.used_bytes}};
+  document["checks"] = check_documents(measurement.checks);
   document["warnings"] = warning_documents(report.warnings);
   // A path may hold bytes that are not UTF-8.
   return document.dump(-1, ' ', false, Json::error_handler_t::replace);

@@ -21,6 +21,19 @@ Json item_document(const ItemResult& item) {
           {"max_height_mm", number_or_null(item.max_height_mm, measured)}};
 }
 
+Json check_documents(const CheckList& checks) {
+  Json list = Json::array();
+  for (const Check& check : checks.items()) {
+    list.push_back({{"name", name(check.kind)},
+                    {"label", check.label},
+                    {"value", check.value},
+                    {"sigma", check.sigma},
+                    {"limit", check.limit},
+                    {"verdict", name(check.verdict)}});
+  }
+  return list;
+}
+
 Json warning_documents(const std::vector<ReportedWarning>& warnings) {
   Json list = Json::array();
   for (const ReportedWarning& warning : warnings) {

@@ -79,6 +79,7 @@ std::string scan_text(const ScanResult& result) {
   const bool measured = result.outcome == ScanOutcome::measured;
   if (measured) {
     const char* separator = "";
+    if (result.measurement->items.empty()) text += "no food";
     for (const ItemResult& item : result.measurement->items) {
       text += separator + item_text(item);
       separator = ", ";

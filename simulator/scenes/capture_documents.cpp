@@ -75,6 +75,16 @@ Json compose_place(const LaidDish& dish) {
   return json;
 }
 
+Json compose_displacements(const Photograph& view) {
+  Json displaced = Json::array();
+  for (const Displacement& moved : view.displaced) {
+    displaced.push_back({{"label", moved.label},
+                         {"shift_mm", {thousandths(moved.shift_mm.x()), thousandths(moved.shift_mm.y())}},
+                         {"turn_deg", moved.turn_deg}});
+  }
+  return displaced;
+}
+
 void add_angles(Json& json, const LaidScene& laid) {
   const SceneDescription& scene = laid.description();
   const LaidDish& dish = scene.dishes.front();
@@ -146,6 +156,7 @@ Json compose_truth(const LaidScene& laid, const std::vector<std::vector<std::siz
   for (const Photograph& view : scene.views) {
     json["exposure_gain"].push_back(view.exposure);
     json["wb_gain_rgb"].push_back({view.white_balance[0], 1.0, view.white_balance[1]});
+    json["displaced"].push_back(compose_displacements(view));
   }
   json["depth"] = "depth_0.png: view 0, z along the optical axis, uint16, 0.02 mm per unit";
   for (const std::vector<std::size_t>& pixels : visible) {

@@ -117,6 +117,12 @@ bool holds(const fs::path& file, const std::string& text) {
   return stream.good() && content.str() == text;
 }
 
+// Whether something was moved between two views, not the camera alone.
+bool is_scene_other(const Photograph& before, const Photograph& view) {
+  return !before.displaced.empty() || !view.displaced.empty() ||
+         !world_from_room(view).isApprox(world_from_room(before));
+}
+
 SensorSettings sensor_of(const SceneDescription& scene, const Photograph& view, double exposure) {
   SensorSettings sensor;
   sensor.exposure = exposure * view.exposure;
@@ -174,8 +180,7 @@ void render_capture(const SceneDescription& scene, const fs::path& folder, const
   double exposure = 1.0;
   for (std::size_t i = 0; i < scene.views.size(); ++i) {
     const Photograph& photograph = scene.views[i];
-    const bool moves = i > 0 && !world_from_room(photograph).isApprox(world_from_room(scene.views[i - 1]));
-    if (!renderer || moves) {
+    if (i == 0 || is_scene_other(scene.views[i - 1], photograph)) {
       renderer.reset();
       renderer.emplace(laid.scene_of(photograph));
     }

@@ -1,6 +1,8 @@
 #include "simulator/scenes/laid_scene.hpp"
 
 #include <algorithm>
+#include <stdexcept>
+#include <string>
 #include <utility>
 
 #include "simulator/scenes/card_print.hpp"
@@ -16,6 +18,21 @@ constexpr std::uint8_t kCardLabel = 255;
 constexpr double kTableHalfMm = 1500.0;
 constexpr double kClearanceMm = 0.01;  // what lies on something does not share its surface
 
+// A pattern that goes with what it is on.
+class DisplacedMaterial : public Material {
+ public:
+  DisplacedMaterial(std::shared_ptr<const Material> still, const Eigen::Isometry3d& still_from_world)
+      : still_(std::move(still)), still_from_world_(still_from_world.cast<float>()) {}
+
+  Reflectance at(const Eigen::Vector3f& point_mm, const Eigen::Vector3f& normal) const override {
+    return still_->at(still_from_world_ * point_mm, still_from_world_.linear() * normal);
+  }
+
+ private:
+  std::shared_ptr<const Material> still_;
+  Eigen::Isometry3f still_from_world_;
+};
+
 Eigen::Isometry3d moved(const Eigen::Isometry3d& pose, double x, double y, double z) {
   return pose * Eigen::Translation3d(x, y, z);
 }
@@ -28,7 +45,7 @@ LaidScene::LaidScene(SceneDescription description, int threads) : description_(s
   add_card();
   add_tray();
   add_utensils();
-  tray_objects_ = scene_.objects.size();
+  on_tray_ = std::move(scene_.objects);
   scene_.ambient = description_.ambient.cast<float>();
 }
 
@@ -103,8 +120,39 @@ void LaidScene::add_room(const Eigen::Isometry3d& world_of_room) {
   }
 }
 
+// Of a dish, a food or the card, in the world.
+Eigen::Vector2d LaidScene::middle_of(std::uint8_t label) const {
+  if (label == kCardLabel) return description_.card.centre_mm;
+  for (const LaidDish& dish : description_.dishes) {
+    if (dish.dish.label == label) return dish.centre_mm;
+  }
+  for (const FoodTruth& food : foods_) {
+    if (food.object.label == label) return food.centre_mm;
+  }
+  throw std::invalid_argument("nothing in the scene has label " + std::to_string(label));
+}
+
+void LaidScene::displace(const Displacement& displacement) {
+  const Eigen::Vector2d middle_mm = middle_of(displacement.label);
+  const Eigen::Vector2d to_mm = middle_mm + displacement.shift_mm;
+  const Eigen::Isometry3d motion = placement({to_mm.x(), to_mm.y(), 0.0}, displacement.turn_deg) *
+                                   Eigen::Translation3d(-middle_mm.x(), -middle_mm.y(), 0.0);
+  const auto lies_on_it = [&](std::uint8_t label) {
+    return std::any_of(foods_.begin(), foods_.end(), [&](const FoodTruth& food) {
+      const LaidDish& dish = description_.dishes[static_cast<std::size_t>(food.dish)];
+      return food.object.label == label && dish.dish.label == displacement.label;
+    });
+  };
+  for (SceneObject& object : scene_.objects) {
+    if (object.label != displacement.label && !lies_on_it(object.label)) continue;
+    transform(object.mesh, motion);
+    object.material = std::make_shared<DisplacedMaterial>(object.material, motion.inverse());
+  }
+}
+
 const Scene& LaidScene::scene_of(const Photograph& view) {
-  scene_.objects.resize(tray_objects_);
+  scene_.objects = on_tray_;
+  for (const Displacement& displacement : view.displaced) displace(displacement);
   scene_.lights.clear();
   add_room(world_from_room(view));
   return scene_;

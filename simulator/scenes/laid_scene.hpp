@@ -35,13 +35,15 @@ class LaidScene {
   void add_tray();
   void add_utensils();
   void add_room(const Eigen::Isometry3d& world_of_room);
+  Eigen::Vector2d middle_of(std::uint8_t label) const;
+  void displace(const Displacement& displacement);
 
   SceneDescription description_;
   std::vector<DishShell> shells_;
   std::vector<FoodTruth> foods_;
   std::shared_ptr<const Picture> print_;
-  Scene scene_;  // what moves with the tray first, then the room
-  std::size_t tray_objects_ = 0;
+  std::vector<SceneObject> on_tray_;  // as they were laid
+  Scene scene_;
 };
 
 }  // namespace traygauge

@@ -84,6 +84,13 @@ struct Lamp {
   Eigen::Vector3d radiance = Eigen::Vector3d::Constant(10.0);  // linear RGB
 };
 
+// What was touched between two pictures: a dish with its food, one food, or the card.
+struct Displacement {
+  std::uint8_t label = 0;  // the dish's, the food's (2, 3, … in their order) or the card's (255)
+  Eigen::Vector2d shift_mm = Eigen::Vector2d::Zero();
+  double turn_deg = 0.0;  // about the vertical through its middle
+};
+
 struct Photograph {
   Eigen::Vector3d target_mm = Eigen::Vector3d::Zero();  // in the middle of the picture
   double distance_mm = 500.0;                           // of the pupil from the target
@@ -101,6 +108,7 @@ struct Photograph {
   // Where the tray has moved since it was laid; the camera, the table and the lamps stay.
   Eigen::Vector2d tray_shift_mm = Eigen::Vector2d::Zero();
   double tray_turn_deg = 0.0;
+  std::vector<Displacement> displaced;  // since the scene was laid, in this view alone
 };
 
 struct PhotographySettings {

@@ -108,9 +108,16 @@ class Digest {
   }
   void write(const Photograph& view) {
     const auto& [target_mm, distance_mm, tilt_deg, azimuth_deg, roll_deg, exposure, white_balance,
-                 focus_error_mm, motion_mm, motion_deg, arm_angle_deg, tray_shift_mm, tray_turn_deg] = view;
+                 focus_error_mm, motion_mm, motion_deg, arm_angle_deg, tray_shift_mm, tray_turn_deg,
+                 displaced] = view;
     add(target_mm, distance_mm, tilt_deg, azimuth_deg, roll_deg, exposure, white_balance, focus_error_mm,
         motion_mm, motion_deg, tray_shift_mm, tray_turn_deg);
+    // Captures in which nothing moved keep the digest that they have.
+    if (!displaced.empty()) add(displaced);
+  }
+  void write(const Displacement& displacement) {
+    const auto& [label, shift_mm, turn_deg] = displacement;
+    add(label, shift_mm, turn_deg);
   }
   void write(const PictureSize& size) {
     const auto& [width, height] = size;

@@ -20,6 +20,7 @@ namespace {
 
 constexpr std::size_t kMaxSceneBytes = std::size_t{1} << 20U;
 constexpr std::size_t kMaxFoods = 198;
+constexpr std::size_t kMaxDisplacements = 20;
 constexpr std::size_t kMaxViews = 100;
 constexpr int kFirstFurtherDish = 201;
 constexpr NumberRange kPlaceMm{-1000.0, 1000.0};
@@ -182,10 +183,19 @@ void read_card(const JsonNode& node, LaidCard& card) {
   table.read("design", card.design);
 }
 
+Displacement read_displacement(const JsonNode& node) {
+  const SceneTable table(node, {"label", "shift_mm", "turn_deg"});
+  Displacement displacement;
+  displacement.label = static_cast<std::uint8_t>(node.member("label").integer(1, 255));
+  table.read("shift_mm", displacement.shift_mm, kPlaceMm);
+  table.read("turn_deg", displacement.turn_deg, kAngleDeg);
+  return displacement;
+}
+
 Photograph read_view(const JsonNode& node) {
-  const SceneTable table(
-      node, {"target_mm", "distance_mm", "tilt_deg", "azimuth_deg", "roll_deg", "exposure", "white_balance",
-             "focus_error_mm", "motion_mm", "motion_deg", "arm_angle_deg", "tray_shift_mm", "tray_turn_deg"});
+  const SceneTable table(node, {"target_mm", "distance_mm", "tilt_deg", "azimuth_deg", "roll_deg", "exposure",
+                                "white_balance", "focus_error_mm", "motion_mm", "motion_deg", "arm_angle_deg",
+                                "tray_shift_mm", "tray_turn_deg", "displaced"});
   Photograph view;
   table.read("target_mm", view.target_mm, kPlaceMm);
   table.read("distance_mm", view.distance_mm, {50.0, 5000.0});
@@ -199,6 +209,10 @@ Photograph read_view(const JsonNode& node) {
   table.read("motion_deg", view.motion_deg, {-20.0, 20.0});
   table.read("tray_shift_mm", view.tray_shift_mm, kPlaceMm);
   table.read("tray_turn_deg", view.tray_turn_deg, kAngleDeg);
+  if (const auto nodes = table.find("displaced")) {
+    for (const JsonNode& entry : nodes->elements(1, kMaxDisplacements))
+      view.displaced.push_back(read_displacement(entry));
+  }
   if (const auto angle = table.find("arm_angle_deg")) view.arm_angle_deg = angle->number(kAngleDeg);
   return view;
 }

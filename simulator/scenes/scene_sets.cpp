@@ -20,6 +20,7 @@ constexpr auto kSets = std::to_array<SceneSet>({
     {"meals-14", "14 meals with foods and tables that are in no other set: Meals-14"},
     {"trays-8", "8 trays with several dishes and cutlery"},
     {"moved-4", "4 trays, each moved under a still camera"},
+    {"slips-10", "10 meals and trays whose card, dish or food slips by 0.5 to 15 mm between two pictures"},
 });
 
 constexpr double kPhoneFocalPx = 1400.0;  // 60 degrees across: the phones of the paper
@@ -230,6 +231,28 @@ std::vector<SceneDescription> make_trays(std::uint64_t seed, const std::string& 
   });
 }
 
+// Every fourth is a tray.
+std::vector<SceneDescription> make_slips(std::uint64_t seed) {
+  Draws menu_draws(seed, "slips-10 menu");
+  Menu menu(menu_draws, {FoodGroup::canteen, FoodGroup::fast_food}, FoodServing::solid);
+  Menu soups(menu_draws, {FoodGroup::canteen}, FoodServing::soup);
+  Menu desserts(menu_draws, {FoodGroup::canteen}, FoodServing::dessert);
+  const auto lay = [&](std::size_t i, const std::string& name, Draws& draws) {
+    const auto kinds = menu.deal(2 + i % 2);
+    const bool is_tray = i % 4 == 3;
+    SceneDescription scene = is_tray ? lay_tray(name, draws, false, kinds, soups, desserts)
+                                     : lay_meal(name, draws, kPlates[i % 3], 1.0, kinds, kTables);
+    draw_views(scene, draws, 2, is_tray ? kTrayViews : ViewLimits());
+    return scene;
+  };
+  std::vector<SceneDescription> scenes = make_each(10, "s", "slips-10", seed, lay);
+  for (SceneDescription& scene : scenes) {
+    Draws draws(seed, "slips-10 slips of " + scene.name);
+    add_slips(scene, draws);
+  }
+  return scenes;
+}
+
 // A quarter of the pixels.
 void halve(CameraDescription& camera) {
   camera.size = {camera.size.width / 2, camera.size.height / 2};
@@ -269,6 +292,9 @@ std::vector<SceneDescription> make_scenes(std::string_view set, std::uint64_t se
     scenes = make_trays(seed, "trays-8", "t", 8, false);
   } else if (set == "moved-4") {
     scenes = make_trays(seed, "moved-4", "v", 4, true);
+  } else if (set == "slips-10") {
+    scenes = make_slips(seed);
+    reduced_count = 10;
   } else {
     throw std::invalid_argument("no set is called " + std::string(set));
   }

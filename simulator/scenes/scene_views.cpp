@@ -189,6 +189,35 @@ void draw_moved_views(SceneDescription& scene, Draws& draws, const ViewLimits& l
   throw std::invalid_argument(scene.name + ": no views found");
 }
 
+void add_slips(SceneDescription& scene, Draws& draws) {
+  constexpr std::array kLengthsMm = {0.5, 1.0, 2.0, 4.0, 8.0, 15.0};
+  constexpr double kSpreadDeg = 60.0;  // to either side of straight away
+  constexpr double kLeverMm = 60.0;    // a slip turns what slips: its length over this, at most
+  constexpr std::uint8_t kCardLabel = 255;
+  constexpr std::ptrdiff_t kFirstFoodLabel = 2;
+  const LaidDish& dish = scene.dishes.front();
+  const Eigen::Vector2d from_card = dish.centre_mm - scene.card.centre_mm;
+  const Photograph second = scene.views.at(1);
+  const auto add = [&](std::uint8_t label, double length_mm, const Eigen::Vector2d& away) {
+    const Eigen::Rotation2Dd aside(radians(draws.between(-kSpreadDeg, kSpreadDeg)));
+    const double turn_deg = draws.between(-1.0, 1.0) * length_mm / kLeverMm / radians(1.0);
+    Photograph view = second;
+    view.displaced = {{label, length_mm * (aside * away.normalized()), turn_deg}};
+    scene.pairs.push_back({0, static_cast<int>(scene.views.size())});
+    scene.views.push_back(view);
+  };
+  const auto food = std::find_if(scene.foods.begin(), scene.foods.end(),
+                                 [](const LaidFood& laid) { return laid.dish == 0 && laid.level_mm == 0.0; });
+  const auto food_label = static_cast<std::uint8_t>(kFirstFoodLabel + (food - scene.foods.begin()));
+  scene.pairs = {{0, 1}};
+  for (const double length_mm : kLengthsMm) {
+    add(kCardLabel, length_mm, -from_card);
+    add(static_cast<std::uint8_t>(dish.dish.label), length_mm, from_card);
+    if (food != scene.foods.end())
+      add(food_label, length_mm, Eigen::Vector2d(draws.between(-1.0, 1.0), draws.between(-1.0, 1.0)));
+  }
+}
+
 void keep_first_pairs(SceneDescription& scene, std::size_t count) {
   if (scene.pairs.size() <= count) return;
   scene.pairs.resize(count);

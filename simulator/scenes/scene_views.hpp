@@ -32,6 +32,11 @@ void draw_arm_views(SceneDescription& scene, Draws& draws, double distance_mm);
 // One view, and one of the tray turned and shifted under the still camera.
 void draw_moved_views(SceneDescription& scene, Draws& draws, const ViewLimits& limits);
 
+// To a first and a second view: the second again with the card, the first dish with its food, or a food on
+// that dish slipped by each of several lengths, card and dish away from each other; pairs of the first with
+// each.
+void add_slips(SceneDescription& scene, Draws& draws);
+
 // Keeps the first `count` pairs, and of the views those up to the last that these need.
 void keep_first_pairs(SceneDescription& scene, std::size_t count);
 

@@ -2,12 +2,12 @@
 # Makes a guest for the board tests: make_guest.sh amd64|arm64 FOLDER
 # Debian's own kernel, a base of busybox and modules: FOLDER/vmlinuz, FOLDER/base.cpio. The kernel's gpio-sim is not among
 # Debian's modules; it is built from Debian's kernel source. Packages are downloaded, none is installed. Needs the packages
-# of tests/board/packages.txt. Does nothing when the guest is there.
+# of tests/board/packages.txt. Does nothing when the guest is there and was made by this very script.
 set -euo pipefail
 
 arch=$1
 folder=$2
-[ -e "$folder/base.cpio" ] && exit 0
+cmp -s "$0" "$folder/made_by" && exit 0
 case $arch in
   amd64) triplet=x86_64-linux-gnu ;;
   arm64) triplet=aarch64-linux-gnu ;;
@@ -62,7 +62,7 @@ rm -rf "$base"
 mkdir -p "$base"/{bin,dev,proc,sys,tmp,etc}
 dpkg-deb --fsys-tarfile "$folder/debs/"busybox-static_*.deb | tar -xO ./bin/busybox >"$base/bin/busybox"
 chmod +x "$base/bin/busybox"
-for module in configfs gpio-sim vivid uvcvideo vhci-hcd; do
+for module in configfs gpio-sim vivid uvcvideo vhci-hcd virtio_pci virtio_blk crc32c_generic ext4; do
   modprobe -d "$kernel" -S "$release" --show-depends "$module" 2>/dev/null | sed -n 's/^insmod \([^ ]*\).*/\1/p'
 done | sort -u | while read -r file; do
   to=$base/lib/modules/$release/${file#"$kernel/lib/modules/$release/"}
@@ -91,5 +91,6 @@ chmod +x "$base/init"
 cp "$kernel/boot/vmlinuz-$release" "$folder/vmlinuz"
 (cd "$base" && find . | cpio -o -H newc --quiet) >"$folder/base.cpio.part"
 mv "$folder/base.cpio.part" "$folder/base.cpio"
+cp "$0" "$folder/made_by"
 rm -rf "$kernel" "$headers" "$modules" "$base" "$folder/debs" "$apt"
 say "done"

@@ -4,8 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdio>
-#include <cstdlib>
 #include <fstream>
 #include <string>
 #include <string_view>
@@ -20,12 +18,6 @@ namespace traygauge {
 namespace {
 
 constexpr std::string_view kToken = "view-token-0123456789";
-
-void demand(bool is_true, const char* what) {
-  if (is_true) return;
-  std::fprintf(stderr, "not true: %s\n", what);
-  std::abort();
-}
 
 class FuzzedSite {
  public:
@@ -86,13 +78,6 @@ class FuzzedSite {
   Site site_{{{"hub.local"}, {"kitchen"}}, access_, router_, files_, events_};
 };
 
-std::string_view take_line(std::string_view& rest) {
-  const std::size_t end = std::min(rest.find('\n'), rest.size());
-  const std::string_view line = rest.substr(0, end);
-  rest.remove_prefix(std::min(end + 1, rest.size()));
-  return line;
-}
-
 PeerAddress peer_of(std::size_t choice) {
   constexpr std::array<const char*, 3> kPeers{"192.0.2.1", "10.1.2.3", "2001:db8::1"};
   return choice % 4 == 3 ? PeerAddress() : *PeerAddress::parse(kPeers[choice % 4]);
@@ -103,14 +88,14 @@ PeerAddress peer_of(std::size_t choice) {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   static traygauge::FuzzedSite site;
-  std::string_view rest(reinterpret_cast<const char*>(data), size);
-  std::string_view first = traygauge::take_line(rest);
+  std::string_view rest = traygauge::text_of_input(data, size);
+  std::string_view first = traygauge::take_until(rest, '\n');
   traygauge::RequestHead head;
   head.header_bytes = size;
   head.method = first.substr(0, first.find(' '));
   head.target = first.substr(std::min(head.method.size() + 1, first.size()));
   while (!rest.empty()) {
-    const std::string_view line = traygauge::take_line(rest);
+    const std::string_view line = traygauge::take_until(rest, '\n');
     if (line.empty()) break;
     const std::size_t colon = std::min(line.find(": "), line.size());
     traygauge::take_field(head.fields, line.substr(0, colon), line.substr(std::min(colon + 2, line.size())));

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <random>
+#include <span>
 
 #include "tests/firmware/journal/journal_disk.hpp"
 #include "tests/support/power_cut.hpp"
@@ -128,6 +129,35 @@ TEST(JournalDamage, WithoutAHeadTheFileIsLeftAlone) {
       "state/results.journal: the first and the last block of this journal are damaged. Check the disk, and "
       "move the file away; a new one is then made. It was not changed.");
   EXPECT_EQ(file_on(disk), before);
+}
+
+// A checksum does not tell who wrote a head: its size is not to make the station read for hours.
+TEST(JournalDamage, AHeadOfAFileLargerThanAnyJournalIsNone) {
+  JournalHead head;
+  head.oldest.sequence = 1;
+  head.file_bytes = kMaxJournalBytes + kBlockBytes;
+  Bytes block(kBlockBytes);
+  encode_head(head, BlockBytes(block));
+  RecordedFileSystem disk({{kTestJournal, block}});
+  EXPECT_FALSE(Journal::open(disk, {kTestJournal, kTestJournalBytes}).ok());
+  EXPECT_EQ(file_on(disk), block);
+}
+
+// Record 0 would wait for ever: whoever reads on asks for what comes after a number.
+TEST(JournalDamage, NumbersThatNoRecordHasAreRefused) {
+  JournalHead head;
+  head.file_bytes = kTestJournalBytes;
+  Bytes file(kTestJournalBytes);
+  encode_head(head, BlockBytes(std::span(file).first<kBlockBytes>()));
+  RecordedFileSystem before_first({{kTestJournal, file}});
+  EXPECT_FALSE(Journal::open(before_first, {kTestJournal, kTestJournalBytes}).ok());
+  head.oldest.sequence = head.next_sequence = kLastSequence;
+  encode_head(head, BlockBytes(std::span(file).first<kBlockBytes>()));
+  RecordedFileSystem at_last({{kTestJournal, file}});
+  const auto journal = open_test_journal(at_last);
+  EXPECT_TRUE(journal->append("last").ok());
+  EXPECT_FALSE(journal->append("after the last").ok());
+  EXPECT_EQ(payloads_in(*journal), (std::vector<std::string>{"last"}));
 }
 
 TEST(JournalDamage, WhatIsDamagedWhileTheJournalIsOpenIsPassedOver) {

@@ -1,0 +1,95 @@
+#include "core/dish/dish_consistency.hpp"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+
+namespace traygauge {
+namespace {
+
+// How far the centre moved (2), and the sizes that both views show.
+using Evidence = Eigen::Matrix<double, 4, 1>;
+using EvidenceMatrix = Eigen::Matrix4d;
+
+Evidence evidence_of(const SightedVector& first, const SightedVector& second) {
+  Evidence evidence;
+  evidence << second.head<2>() - first.head<2>(), first[kSightedSize], second[kSightedSize];
+  return evidence;
+}
+
+// The same of the columns of derivatives, where `second` and `first` vary apart.
+template <int kColumns>
+Eigen::Matrix<double, 4, kColumns> rows_of_first(
+    const Eigen::Matrix<double, kSightedParameters, kColumns>& by) {
+  Eigen::Matrix<double, 4, kColumns> rows = Eigen::Matrix<double, 4, kColumns>::Zero();
+  rows.template topRows<2>() = -by.template topRows<2>();
+  rows.row(2) = by.row(kSightedSize);
+  return rows;
+}
+template <int kColumns>
+Eigen::Matrix<double, 4, kColumns> rows_of_second(
+    const Eigen::Matrix<double, kSightedParameters, kColumns>& by) {
+  Eigen::Matrix<double, 4, kColumns> rows = Eigen::Matrix<double, 4, kColumns>::Zero();
+  rows.template topRows<2>() = by.template topRows<2>();
+  rows.row(3) = by.row(kSightedSize);
+  return rows;
+}
+
+// The amount of one fault that explains the evidence best; its sigma; what is left unexplained.
+double explain(const Evidence& evidence, const EvidenceMatrix& information, const Evidence& by_fault,
+               double& sigma, double& left) {
+  const double weight = by_fault.dot(information * by_fault);
+  const double amount = by_fault.dot(information * evidence) / weight;
+  sigma = 1.0 / std::sqrt(weight);
+  const Evidence rest = evidence - amount * by_fault;
+  left = rest.dot(information * rest);
+  return amount;
+}
+
+}  // namespace
+
+DishConsistency compare_sightings(const std::array<DishSighting, 2>& sightings, const TableCameras& cameras,
+                                  const CamerasStepMatrix& covariance, double size_mm,
+                                  const DishConsistencyParams& params) {
+  const SightedVector first = sightings[0].place_from(cameras[0]);
+  const SightedVector second = sightings[1].place_from(cameras[1]);
+  const Evidence evidence = evidence_of(first, second);
+  // A dish that stands higher looks like one as described that is taken for lower.
+  const Evidence by_height = -evidence_of(sightings[0].by_height, sightings[1].by_height);
+  const Evidence by_size(0.0, 0.0, 1.0, 1.0);
+
+  Eigen::Matrix<double, 4, 12> by_cameras;
+  by_cameras << rows_of_first<6>(sightings[0].by_camera), rows_of_second<6>(sightings[1].by_camera);
+  const Eigen::Matrix4d identity = Eigen::Matrix4d::Identity();
+  const Eigen::Matrix4d of_first = rows_of_first<4>(identity);
+  const Eigen::Matrix4d of_second = rows_of_second<4>(identity);
+  const double size_sigma = params.size_sigma_mm / size_mm;
+  const EvidenceMatrix spread =
+      of_first * sightings[0].covariance * of_first.transpose() +
+      of_second * sightings[1].covariance * of_second.transpose() +
+      by_cameras * covariance * by_cameras.transpose() +
+      size_sigma * size_sigma * by_size * by_size.transpose() +
+      params.height_sigma_mm * params.height_sigma_mm * by_height * by_height.transpose();
+  const EvidenceMatrix information = spread.inverse();
+
+  DishConsistency result;
+  result.squared_deviation = evidence.dot(information * evidence);
+  const auto left = [&](DishFault fault) -> double& { return result.left[static_cast<std::size_t>(fault)]; };
+  result.scale = explain(evidence, information, by_size, result.scale_sigma, left(DishFault::scale));
+  result.height_mm =
+      explain(evidence, information, by_height, result.height_sigma_mm, left(DishFault::height));
+  // A slip explains the motion of the centre, whatever it is; with it the sizes say what they say by
+  // themselves.
+  const Eigen::Vector2d sizes = evidence.tail<2>();
+  left(DishFault::slip) = sizes.dot(spread.bottomRightCorner<2, 2>().inverse() * sizes);
+  const Eigen::Matrix2d slip_covariance = information.topLeftCorner<2, 2>().inverse();
+  result.slip_mm =
+      evidence.head<2>() - spread.topRightCorner<2, 2>() * spread.bottomRightCorner<2, 2>().inverse() * sizes;
+  const double slip_mm = result.slip_mm.norm();
+  const Vec2 along = slip_mm > 0.0 ? Vec2(result.slip_mm / slip_mm) : Vec2::UnitX();
+  result.slip_sigma_mm = std::sqrt(along.dot(slip_covariance * along));
+  result.turn_rad = second[kPlaceAzimuth] - first[kPlaceAzimuth];
+  return result;
+}
+
+}  // namespace traygauge

@@ -1,0 +1,43 @@
+// Whether two views show one dish that stands still, is as large as described and stands on the table at the
+// card's scale; and if not, which single fault explains it best.
+#pragma once
+
+#include <array>
+
+#include "core/dish/dish_sighting.hpp"
+
+namespace traygauge {
+
+struct DishConsistencyParams {
+  // What a dish of a known kind may differ by (see DishPoseParams): glaze, firing, feet, an uneven table.
+  double size_sigma_mm = 0.5;
+  double height_sigma_mm = 0.5;
+};
+
+// What may be wrong with a dish beside the card, each by itself.
+enum class DishFault : std::uint8_t { slip, scale, height };
+inline constexpr std::size_t kDishFaults = 3;
+
+struct DishConsistency {
+  // Squared deviation of both sightings from one still dish as described; four degrees of freedom.
+  double squared_deviation = 0.0;
+  // What of it is left once one fault is allowed for: two degrees of freedom with a slip, else three.
+  std::array<double, kDishFaults> left{};
+  Vec2 slip_mm = Vec2::Zero();  // over the table, from the first view to the second
+  double slip_sigma_mm = 0.0;   // along the slip
+  double turn_rad = 0.0;        // 0 for a round dish
+  double scale = 0.0;           // by which share the card makes everything too large
+  double scale_sigma = 0.0;
+  double height_mm = 0.0;  // of dish and table over where the card puts them
+  double height_sigma_mm = 0.0;
+};
+
+using CamerasStepMatrix = Eigen::Matrix<double, 12, 12>;
+
+// `size_mm`: mean of the dish's axes. The cameras differ from those of the sightings by little; `covariance`
+// is that of a step of both, the first camera first. Both sightings are known.
+DishConsistency compare_sightings(const std::array<DishSighting, 2>& sightings, const TableCameras& cameras,
+                                  const CamerasStepMatrix& covariance, double size_mm,
+                                  const DishConsistencyParams& params);
+
+}  // namespace traygauge

@@ -1,0 +1,122 @@
+#include "core/dish/dish_sighting.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/dish/rim_votes.hpp"
+#include "core/geometry/levenberg_marquardt.hpp"
+
+namespace traygauge {
+namespace {
+
+constexpr double kRobustSigmas = 3.0;
+// Of a round dish, whose azimuth nothing shows; 1 / rad².
+constexpr double kFixedAzimuth = 1e12;
+
+using Vec6 = Eigen::Matrix<double, 6, 1>;
+using SightingEquations = NormalEquations<kSightedParameters>;
+
+// Sums over an outline about one place.
+class RimFit {
+ public:
+  RimFit(std::span<const Vec2> outline, const Pose& camera, double focal_px)
+      : outline_(outline), camera_(camera), focal_px_(focal_px) {}
+
+  // False where a point cannot be on the dish's edge.
+  bool linearise(const DishPose& place, double scale_px, bool is_round) {
+    equations_ = {};
+    by_camera_.setZero();
+    by_height_.setZero();
+    squares_px2_ = 0.0;
+    agreeing_ = 0;
+    if (is_round) equations_.add(0.0, SightedVector::Unit(kPlaceAzimuth), kFixedAzimuth);
+    const RimProjection rim(place, camera_, focal_px_);
+    for (const Vec2& ray : outline_) {
+      double residual_px = 0.0;
+      Vec6 by_camera;
+      PlaceVector by_place;
+      if (!rim.linearise(ray, residual_px, by_camera, by_place)) return false;
+      const double shrink = 1.0 / (1.0 + residual_px * residual_px / (scale_px * scale_px));
+      const double weight = shrink * shrink;
+      SightedVector sighted;
+      sighted << by_place.head<3>(),
+          by_place[kPlaceSize] * place.size_mm[0] + by_place[kPlaceSize + 1] * place.size_mm[1];
+      equations_.add(residual_px, sighted, weight);
+      by_camera_ += weight * sighted * by_camera.transpose();
+      by_height_ += weight * by_place[kPlaceHeight] * sighted;
+      if (std::abs(residual_px) > scale_px) continue;
+      squares_px2_ += residual_px * residual_px;
+      ++agreeing_;
+    }
+    return true;
+  }
+
+  const SightingEquations& equations() const { return equations_; }
+  const Eigen::Matrix<double, kSightedParameters, 6>& by_camera() const { return by_camera_; }
+  const SightedVector& by_height() const { return by_height_; }
+  int agreeing() const { return agreeing_; }
+  double rms_px() const { return agreeing_ > 0 ? std::sqrt(squares_px2_ / agreeing_) : 0.0; }
+
+ private:
+  std::span<const Vec2> outline_;
+  const Pose& camera_;
+  double focal_px_;
+  SightingEquations equations_;
+  Eigen::Matrix<double, kSightedParameters, 6> by_camera_ =
+      Eigen::Matrix<double, kSightedParameters, 6>::Zero();
+  SightedVector by_height_ = SightedVector::Zero();
+  double squares_px2_ = 0.0;
+  int agreeing_ = 0;
+};
+
+bool invert(const SightingEquations& equations, SightedMatrix& inverse) {
+  SightingEquations unit;
+  unit.hessian = equations.hessian;
+  for (int i = 0; i < kSightedParameters; ++i) {
+    unit.gradient = -SightedVector::Unit(i);
+    SightedVector column;
+    if (!unit.solve(0.0, column)) return false;
+    inverse.col(i) = column;
+  }
+  return inverse.allFinite();
+}
+
+}  // namespace
+
+DishSighting sight_dish(std::span<const Vec2> outline, const Pose& camera_from_table, double focal_px,
+                        const DishPose& about, const DishSightingParams& params) {
+  DishSighting sighting;
+  if (static_cast<int>(outline.size()) < params.min_points) return sighting;
+  const bool is_round = is_round_dish(about.size_mm);
+  DishPose place = about;
+  double size = 1.0;
+  RimFit fit(outline, camera_from_table, focal_px);
+  for (const double scale_px : {params.first_scale_px, params.min_scale_px}) {
+    for (int i = 0; i < params.iterations; ++i) {
+      SightedVector step;
+      if (!fit.linearise(place, scale_px, is_round) || !fit.equations().solve(0.0, step)) return sighting;
+      place.centre_mm += step.head<2>();
+      place.azimuth_rad += step[kPlaceAzimuth];
+      size *= 1.0 + step[kSightedSize];
+      if (!(size > 0.5) || !(size < 2.0)) return sighting;
+      for (std::size_t axis = 0; axis < 2; ++axis) place.size_mm[axis] = size * about.size_mm[axis];
+    }
+  }
+  const double scale_px = std::max(params.min_scale_px, kRobustSigmas * fit.rms_px());
+  SightedMatrix inverse = SightedMatrix::Zero();
+  if (!fit.linearise(place, scale_px, is_round) || fit.agreeing() < params.min_points ||
+      fit.agreeing() < params.min_agreeing * static_cast<double>(outline.size()) ||
+      !invert(fit.equations(), inverse))
+    return sighting;
+  sighting.is_known = true;
+  sighting.camera_from_table = camera_from_table;
+  sighting.place << place.centre_mm, place.azimuth_rad, size - 1.0;
+  sighting.covariance = params.points_for_one * fit.rms_px() * fit.rms_px() * inverse;
+  sighting.by_camera = -inverse * fit.by_camera();
+  sighting.by_height = -inverse * fit.by_height();
+  sighting.points = fit.agreeing();
+  sighting.rms_px = fit.rms_px();
+  return sighting;
+}
+
+}  // namespace traygauge

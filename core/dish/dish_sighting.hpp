@@ -1,0 +1,60 @@
+// A dish as one view alone shows it: where its outer edge puts it on the table, and how large it looks.
+//
+// With the camera over the table known, the edge of a dish of known size and height says from a single
+// picture where the dish stands. Two such sightings differ by the dish's own motion between the pictures, by
+// what is wrong about scale, table and description, and by the errors of both cameras.
+#pragma once
+
+#include <array>
+#include <span>
+
+#include "core/dish/rim_residual.hpp"
+#include "core/geometry/geometry.hpp"
+#include "core/geometry/table_frame.hpp"
+
+namespace traygauge {
+
+struct DishSightingParams {
+  // Neighbouring points of an outline repeat each other's error: so many count as one (see DishPoseParams).
+  double points_for_one = 4.0;
+  // Geman and McClure's scale: first, then never below the second, which is three times the error of an edge.
+  double first_scale_px = 6.0;
+  double min_scale_px = 1.0;
+  int min_points = 24;
+  // Of the outline's points, that agree with one edge. A rim that is painted shows two: which of them a point
+  // is on changes along it. Single edges of rendered dishes reach 0.93 and more, painted ones 0.89 at most.
+  double min_agreeing = 0.92;
+  int iterations = 6;  // of Gauss and Newton, with each of both scales
+};
+
+// Centre (mm) and azimuth (rad) in the table frame, and by which share the dish looks larger than described.
+inline constexpr int kSightedParameters = 4;
+inline constexpr int kSightedSize = 3;
+using SightedVector = Eigen::Matrix<double, kSightedParameters, 1>;
+using SightedMatrix = Eigen::Matrix<double, kSightedParameters, kSightedParameters>;
+
+struct DishSighting {
+  bool is_known = false;
+  Pose camera_from_table;  // that it was seen from
+  SightedVector place = SightedVector::Zero();
+  SightedMatrix covariance = SightedMatrix::Zero();  // with camera and height taken for exact
+  // Its answer to a step of the camera as in `moved`, and to a mm of the edge's height.
+  Eigen::Matrix<double, kSightedParameters, 6> by_camera =
+      Eigen::Matrix<double, kSightedParameters, 6>::Zero();
+  SightedVector by_height = SightedVector::Zero();
+  int points = 0;       // that agree
+  double rms_px = 0.0;  // of those
+
+  // As seen from a camera nearby.
+  SightedVector place_from(const Pose& camera) const {
+    return place + by_camera * step_between(camera_from_table, camera);
+  }
+};
+
+// `outline`: rays on the dish's outline in one view. `about`: size and height as described, and roughly the
+// place; the azimuth of a round dish stays as it is. Not known with too few points, or where they do not
+// settle on one place.
+DishSighting sight_dish(std::span<const Vec2> outline, const Pose& camera_from_table, double focal_px,
+                        const DishPose& about, const DishSightingParams& params);
+
+}  // namespace traygauge

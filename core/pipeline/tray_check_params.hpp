@@ -1,0 +1,30 @@
+// The parameters of what card and dishes say about each other.
+#pragma once
+
+#include "core/dish/dish_consistency.hpp"
+#include "core/dish/dish_sighting.hpp"
+
+namespace traygauge {
+
+struct TrayCheckParams {
+  DishSightingParams sighting;
+  DishConsistencyParams consistency;
+  // From which squared deviation, of four degrees of freedom, something is wrong: by chance in one dish of
+  // 100,000.
+  double max_squared_deviation = 28.5;
+  // A slip along the line between the cameras lifts everything by about three times its length: 1 mm is 3 mm
+  // of a food that is some 20 mm high. Dishes that stood still: up to 0.71 mm (22 rendered
+  // meals and trays, 34 captures), on which these two were chosen.
+  double slip_warning_mm = 0.75;
+  double max_slip_mm = 1.2;
+  // Points on a dish are sought within some 6 px of where the cards put them: beyond this nothing is found.
+  double hopeless_slip_mm = 4.0;
+  // Volumes go with the third power.
+  double scale_warning = 0.01;
+  double max_scale = 0.03;
+  // Of the dish's edge. 2 mm are a tenth of a food that is 20 mm high.
+  double height_warning_mm = 1.0;
+  double max_height_mm = 2.0;
+};
+
+}  // namespace traygauge

@@ -1,0 +1,33 @@
+// Did card and dishes stand still between the pictures, and do they agree about scale and height? Each dish
+// whose size and height are described is a second ruler beside the card.
+#pragma once
+
+#include <cstdint>
+
+#include "core/base/status.hpp"
+#include "core/dish/dish_consistency.hpp"
+#include "core/pipeline/scene_geometry.hpp"
+#include "core/pipeline/segmentation.hpp"
+#include "core/quality/check.hpp"
+#include "core/quality/warning.hpp"
+
+namespace traygauge {
+
+// Where both views show a dish, and who looked.
+struct CheckedTray {
+  ViewPair views;
+  bool is_reversed = false;             // the pair's second view comes first
+  const Segmentation* found = nullptr;  // null: outlines were given
+};
+
+// Before anything is matched, by the card's place in each view alone: what moved so far that points would be
+// sought in vain. dish_moved or ok.
+Status check_standstill(const CheckedTray& tray, const Configuration& configuration, CheckList& checks);
+
+// Once the cameras are known well. Adds the checks of each dish and raises warnings; a dish that fails one is
+// not measured: its verdict in `geometry` is dish_moved, scale_disagrees or card_lifted.
+void check_dishes(const CheckedTray& tray, const SceneGeometryWorkspace& workspace,
+                  const Configuration& configuration, SceneGeometry& geometry, CheckList& checks,
+                  WarningSet& warnings);
+
+}  // namespace traygauge

@@ -1,0 +1,56 @@
+// What was compared with what else is known, and how it came out: numbers beside the warnings and refusals
+// that follow from them.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "core/labels/label_set.hpp"
+
+namespace traygauge {
+
+// As the JSON contract spells them, with units.
+enum class CheckKind : std::uint8_t {
+  dish_slip_mm,    // how far dish and card moved against each other between the pictures
+  scale_percent,   // by how much the card's size would have to be wrong for the dish's to be right
+  dish_height_mm,  // how far the dish's edge lies over where card and description put it
+};
+inline constexpr auto kCheckNames =
+    std::to_array<const char*>({"dish_slip_mm", "scale_percent", "dish_height_mm"});
+inline const char* name(CheckKind kind) {
+  return kCheckNames[static_cast<std::size_t>(kind)];
+}
+
+enum class Verdict : std::uint8_t { passed, warned, refused };
+inline constexpr auto kVerdictNames = std::to_array<const char*>({"passed", "warned", "refused"});
+inline const char* name(Verdict verdict) {
+  return kVerdictNames[static_cast<std::size_t>(verdict)];
+}
+
+struct Check {
+  CheckKind kind = CheckKind::dish_slip_mm;
+  std::uint8_t label = kBackgroundLabel;  // of the dish that it is about
+  double value = 0.0;
+  double sigma = 0.0;
+  double limit = 0.0;  // of the magnitude; beyond it the check does not pass
+  Verdict verdict = Verdict::passed;
+};
+
+class CheckList {
+ public:
+  static constexpr std::size_t kCapacity = 32;
+
+  // What does not fit is left out.
+  void add(const Check& check) {
+    if (size_ < kCapacity) checks_[size_++] = check;
+  }
+  std::span<const Check> items() const { return std::span(checks_).first(size_); }
+
+ private:
+  std::array<Check, kCapacity> checks_{};
+  std::size_t size_ = 0;
+};
+
+}  // namespace traygauge

@@ -1,0 +1,127 @@
+// A dish in two views that slipped, is larger or stands higher than described: the amount found against the
+// one that the outlines were made with, and what no fault gives by chance.
+#include "core/dish/dish_consistency.hpp"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <random>
+#include <vector>
+
+#include "tests/core/dish/edge_outlines.hpp"
+#include "tests/support/random_seed.hpp"
+
+namespace traygauge {
+namespace {
+
+constexpr double kNoisePx = 0.15;
+const DishConsistencyParams kParams;
+
+class DishConsistencies : public ::testing::Test {
+ protected:
+  DishPose described() {
+    DishPose place;
+    place.centre_mm = 40.0 * Vec2(unit(), unit());
+    place.azimuth_rad = unit();
+    place.edge_height_mm = 24.0;
+    place.size_mm = {290.0, 210.0};
+    place.edge_drop_mm = 1.0;
+    return place;
+  }
+  // What both views show of dishes that stand like this, and what the description says of it.
+  DishConsistency compare(const DishPose& described, const DishPose& first, const DishPose& second) {
+    std::normal_distribution<double> noise(0.0, kNoisePx / test::kOutlineFocalPx);
+    DishSightingParams params;
+    params.points_for_one = 1.0;
+    std::array<DishSighting, 2> sightings;
+    for (std::size_t v = 0; v < 2; ++v) {
+      std::vector<Vec2> rays = test::outline_of(v == 0 ? first : second, cameras_[v], 160);
+      for (Vec2& ray : rays) ray += Vec2(noise(random_), noise(random_));
+      sightings[v] = sight_dish(rays, cameras_[v], test::kOutlineFocalPx, described, params);
+      EXPECT_TRUE(sightings[v].is_known);
+    }
+    return compare_sightings(sightings, cameras_, CamerasStepMatrix::Zero(), 250.0, kParams);
+  }
+  static double left(const DishConsistency& dish, DishFault fault) {
+    return dish.left[static_cast<std::size_t>(fault)];
+  }
+  double unit() { return std::uniform_real_distribution<double>(-1.0, 1.0)(random_); }
+
+  std::mt19937 random_{test::random_seed()};
+  TableCameras cameras_ = {test::camera_at(8.0, 30.0), test::camera_at(26.0, 75.0)};
+};
+
+TEST_F(DishConsistencies, FindNothingWhereNothingIsWrong) {
+  for (int round = 0; round < 50; ++round) {
+    const DishPose place = described();
+    const DishConsistency dish = compare(place, place, place);
+    // Four degrees of freedom: by chance once in a million. Tolerances of size and height make it rarer.
+    EXPECT_LT(dish.squared_deviation, 33.4);
+    EXPECT_LT(dish.slip_mm.norm(), 0.6);
+  }
+}
+
+TEST_F(DishConsistencies, TellHowTheDishSlipped) {
+  for (int round = 0; round < 30; ++round) {
+    const DishPose place = described();
+    DishPose slipped = place;
+    const Vec2 slip_mm = (3.0 + 3.0 * std::abs(unit())) * Vec2(unit(), unit()).normalized();
+    slipped.centre_mm += slip_mm;
+    slipped.azimuth_rad += 0.05 * unit();
+    const DishConsistency dish = compare(place, place, slipped);
+    EXPECT_GT(dish.squared_deviation, 100.0);
+    EXPECT_LT((dish.slip_mm - slip_mm).norm(), 1.0);
+    EXPECT_NEAR(dish.turn_rad, slipped.azimuth_rad - place.azimuth_rad, 3e-3);
+    EXPECT_LT(left(dish, DishFault::slip), left(dish, DishFault::scale));
+  }
+}
+
+// A card printed too small makes everything too large.
+TEST_F(DishConsistencies, TellAWrongScale) {
+  for (const double scale : {-0.04, -0.02, 0.02, 0.04}) {
+    const DishPose place = described();
+    DishPose larger = place;
+    for (double& axis : larger.size_mm) axis *= 1.0 + scale;
+    const DishConsistency dish = compare(place, larger, larger);
+    EXPECT_NEAR(dish.scale, scale, 0.005);
+    EXPECT_GT(dish.squared_deviation, 28.5);
+    EXPECT_LT(left(dish, DishFault::scale), left(dish, DishFault::slip));
+    EXPECT_LT(left(dish, DishFault::scale), left(dish, DishFault::height));
+  }
+}
+
+TEST_F(DishConsistencies, TellADishThatStandsHigherThanTheTable) {
+  for (const double height_mm : {-5.0, 4.0, 6.0}) {
+    const DishPose place = described();
+    DishPose higher = place;
+    higher.edge_height_mm += height_mm;
+    const DishConsistency dish = compare(place, higher, higher);
+    EXPECT_NEAR(dish.height_mm, height_mm, 1.0);
+    EXPECT_GT(dish.squared_deviation, 28.5);
+    EXPECT_LT(left(dish, DishFault::height), left(dish, DishFault::scale));
+  }
+}
+
+// The less is known of the cameras, the less a motion says.
+TEST_F(DishConsistencies, BlameTheCamerasFirst) {
+  const DishPose place = described();
+  DishPose slipped = place;
+  slipped.centre_mm.x() += 2.0;
+  std::array<DishSighting, 2> sightings;
+  for (std::size_t v = 0; v < 2; ++v) {
+    sightings[v] = sight_dish(test::outline_of(v == 0 ? place : slipped, cameras_[v], 160), cameras_[v],
+                              test::kOutlineFocalPx, place, {});
+  }
+  const auto squared_deviation = [&](double sigma_mm) {
+    CamerasStepMatrix covariance = CamerasStepMatrix::Zero();
+    covariance.diagonal().segment<3>(3).setConstant(sigma_mm * sigma_mm);
+    covariance.diagonal().segment<3>(9).setConstant(sigma_mm * sigma_mm);
+    return compare_sightings(sightings, cameras_, covariance, 250.0, kParams).squared_deviation;
+  };
+  EXPECT_GT(squared_deviation(0.1), 28.5);
+  EXPECT_LT(squared_deviation(3.0), 5.0);
+}
+
+}  // namespace
+}  // namespace traygauge
