@@ -156,7 +156,10 @@ std::vector<Fault> faults_of_pictures() {
 
 // What a profile makes of scenes that changed between the pictures.
 std::vector<Fault> faults_of_scenes(const std::string& /*profile*/) {
-  const std::set<std::string> moved = {"pose_contradicts_card",
+  const std::set<std::string> moved = {"dish_moved",
+                                       "scale_disagrees",
+                                       "card_lifted",
+                                       "pose_contradicts_card",
                                        "card_not_found",
                                        "labels_inconsistent",
                                        "views_identical",
