@@ -63,11 +63,13 @@ DishConsistency compare_sightings(const std::array<DishSighting, 2>& sightings, 
   const Eigen::Matrix4d identity = Eigen::Matrix4d::Identity();
   const Eigen::Matrix4d of_first = rows_of_first<4>(identity);
   const Eigen::Matrix4d of_second = rows_of_second<4>(identity);
+  // Products of this size by Eigen's blocked kernel would allocate.
+  const Eigen::Matrix<double, 4, 12> by_camera_errors = by_cameras.lazyProduct(covariance);
   const double size_sigma = params.size_sigma_mm / size_mm;
   const EvidenceMatrix spread =
       of_first * sightings[0].covariance * of_first.transpose() +
       of_second * sightings[1].covariance * of_second.transpose() +
-      by_cameras * covariance * by_cameras.transpose() +
+      Eigen::Matrix4d(by_camera_errors.lazyProduct(by_cameras.transpose())) +
       size_sigma * size_sigma * by_size * by_size.transpose() +
       params.height_sigma_mm * params.height_sigma_mm * by_height * by_height.transpose();
   const EvidenceMatrix information = spread.inverse();

@@ -91,7 +91,7 @@ DishSighting sight_dish(std::span<const Vec2> outline, const Pose& camera_from_t
   DishPose place = about;
   double size = 1.0;
   RimFit fit(outline, camera_from_table, focal_px);
-  for (const double scale_px : {params.first_scale_px, params.min_scale_px}) {
+  for (const double scale_px : params.scales_px) {
     for (int i = 0; i < params.iterations; ++i) {
       SightedVector step;
       if (!fit.linearise(place, scale_px, is_round) || !fit.equations().solve(0.0, step)) return sighting;
@@ -102,7 +102,7 @@ DishSighting sight_dish(std::span<const Vec2> outline, const Pose& camera_from_t
       for (std::size_t axis = 0; axis < 2; ++axis) place.size_mm[axis] = size * about.size_mm[axis];
     }
   }
-  const double scale_px = std::max(params.min_scale_px, kRobustSigmas * fit.rms_px());
+  const double scale_px = std::max(params.scales_px.back(), kRobustSigmas * fit.rms_px());
   SightedMatrix inverse = SightedMatrix::Zero();
   if (!fit.linearise(place, scale_px, is_round) || fit.agreeing() < params.min_points ||
       fit.agreeing() < params.min_agreeing * static_cast<double>(outline.size()) ||

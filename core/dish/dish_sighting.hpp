@@ -17,14 +17,14 @@ namespace traygauge {
 struct DishSightingParams {
   // Neighbouring points of an outline repeat each other's error: so many count as one (see DishPoseParams).
   double points_for_one = 4.0;
-  // Geman and McClure's scale: first, then never below the second, which is three times the error of an edge.
-  double first_scale_px = 6.0;
-  double min_scale_px = 1.0;
+  // Geman and McClure's scale, coarse to fine: the first as in DishPoseParams, the last three times the error
+  // of an edge.
+  std::array<double, 3> scales_px{25.0, 5.0, 1.0};
   int min_points = 24;
   // Of the outline's points, that agree with one edge. A rim that is painted shows two: which of them a point
   // is on changes along it. Single edges of rendered dishes reach 0.93 and more, painted ones 0.89 at most.
   double min_agreeing = 0.92;
-  int iterations = 6;  // of Gauss and Newton, with each of both scales
+  int iterations = 6;  // of Gauss and Newton, with each scale
 };
 
 // Centre (mm) and azimuth (rad) in the table frame, and by which share the dish looks larger than described.

@@ -20,17 +20,15 @@ enum class PatchMotion : std::uint8_t {
 };
 
 // Parameters: second(u) = first(u + shift + matrix · u) · (1 + gain) + offset.
-enum AlignmentColumn : int {
-  kShiftX,
-  kShiftY,
-  kXByX,
-  kXByY,
-  kYByX,
-  kYByY,
-  kGain,
-  kOffset,
-  kAlignmentColumns
-};
+inline constexpr int kShiftX = 0;
+inline constexpr int kShiftY = kShiftX + 1;
+inline constexpr int kXByX = kShiftY + 1;
+inline constexpr int kXByY = kXByX + 1;
+inline constexpr int kYByX = kXByY + 1;
+inline constexpr int kYByY = kYByX + 1;
+inline constexpr int kGain = kYByY + 1;
+inline constexpr int kOffset = kGain + 1;
+inline constexpr int kAlignmentColumns = kOffset + 1;
 using AlignmentEquations = NormalEquations<kAlignmentColumns>;
 using ShiftEquations = NormalEquations<4>;  // shift, gain, offset
 inline constexpr int kGainOfShift = kXByX;  // in the place of the matrix

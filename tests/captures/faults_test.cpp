@@ -156,22 +156,11 @@ std::vector<Fault> faults_of_pictures() {
 
 // What a profile makes of scenes that changed between the pictures.
 std::vector<Fault> faults_of_scenes(const std::string& /*profile*/) {
-  const std::set<std::string> moved = {"dish_moved",
-                                       "scale_disagrees",
-                                       "card_lifted",
-                                       "pose_contradicts_card",
-                                       "card_not_found",
-                                       "labels_inconsistent",
-                                       "views_identical",
-                                       "views_too_close",
-                                       "pose_not_found",
-                                       "scale_not_found",
-                                       "table_not_found",
-                                       "dish_unknown",
-                                       "rim_not_found",
-                                       "too_little_depth",
-                                       "too_few_matches",
-                                       "disparity_range_too_large"};
+  const std::set<std::string> moved = {
+      "dish_moved",     "scale_disagrees",     "card_lifted",     "pose_contradicts_card",
+      "card_not_found", "labels_inconsistent", "views_identical", "views_too_close",
+      "pose_not_found", "scale_not_found",     "table_not_found", "dish_unknown",
+      "rim_not_found",  "too_little_depth",    "too_few_matches", "disparity_range_too_large"};
   return {
       {"tray moved under a still camera",
        [](FaultyCapture& capture) { test::keep_table_still(capture.view(0), capture.view(1)); }, moved, "",

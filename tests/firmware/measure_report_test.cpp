@@ -50,10 +50,10 @@ std::vector<std::string> keys_of(const std::string& text) {
 
 TEST_F(Report, DocumentHasEveryKeyOfTheContractInItsOrder) {
   document();
-  EXPECT_EQ(
-      keys_of(compose_document(report_)),
-      (std::vector<std::string>{"version", "capture", "pair", "profile", "seed", "status", "message", "items",
-                                "relative_angle_deg", "pose", "timing_ms", "memory_bytes", "warnings"}));
+  EXPECT_EQ(keys_of(compose_document(report_)),
+            (std::vector<std::string>{"version", "capture", "pair", "profile", "seed", "status", "message",
+                                      "items", "relative_angle_deg", "pose", "timing_ms", "memory_bytes",
+                                      "checks", "warnings"}));
 }
 
 TEST_F(Report, DocumentOfAMeasurement) {

@@ -1,5 +1,5 @@
-// Runs a fuzz target over each file of the folders named, and over its beginnings, at most some 64 of them: for
-// compilers without libFuzzer, and as a test that the seeds still pass.
+// Runs a fuzz target over each file of the folders named, and over its beginnings, at most some 64 of them:
+// for compilers without libFuzzer, and as a test that the seeds still pass.
 #include <cstdio>
 #include <exception>
 #include <filesystem>
