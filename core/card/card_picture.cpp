@@ -232,7 +232,8 @@ void CardPicture::select(const Pose& camera_from_table, const CardModelSize& siz
     } else {
       for (std::uint64_t rest = tile.labelled; rest != 0; rest &= rest - 1) {
         const int bit = std::countr_zero(rest);
-        const Vec2 offset(bit % kCardTileSide - kHalf, bit / kCardTileSide - kHalf);
+        const int row = bit / kCardTileSide;
+        const Vec2 offset(bit % kCardTileSide - kHalf, row - kHalf);
         const Vec2 at = from_middle + by_pixel * offset;
         if ((at.cwiseAbs().array() < inside.array()).all()) tile.used |= std::uint64_t{1} << bit;
       }
