@@ -6,9 +6,6 @@
 
 namespace traygauge {
 
-using Vec6 = Eigen::Matrix<double, 6, 1>;
-using Mat6 = Eigen::Matrix<double, 6, 6>;
-
 // A view's alignment with the print, as if the card lay flat on the table; the information is that of a step
 // as in `moved`.
 struct CardPrior {

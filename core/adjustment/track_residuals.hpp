@@ -15,12 +15,9 @@
 namespace traygauge {
 
 inline constexpr int kPairParameters = kPoseParameters + Vec3::SizeAtCompileTime;
-// A step of the first camera, then one of the second.
-inline constexpr int kCameraParameters = 2 * kPoseParameters;
 using PairVector = Eigen::Matrix<double, kPairParameters, 1>;
 using PairMatrix = Eigen::Matrix<double, kPairParameters, kPairParameters>;
 using PairByCameras = Eigen::Matrix<double, kPairParameters, kCameraParameters>;
-using CamerasMatrix = Eigen::Matrix<double, kCameraParameters, kCameraParameters>;
 
 class TrackResiduals {
  public:

@@ -11,30 +11,6 @@ namespace {
 using Evidence = Eigen::Matrix<double, 4, 1>;
 using EvidenceMatrix = Eigen::Matrix4d;
 
-Evidence evidence_of(const SightedVector& first, const SightedVector& second) {
-  Evidence evidence;
-  evidence << second.head<2>() - first.head<2>(), first[kSightedSize], second[kSightedSize];
-  return evidence;
-}
-
-// The same of the columns of derivatives, where `second` and `first` vary apart.
-template <int kColumns>
-Eigen::Matrix<double, 4, kColumns> rows_of_first(
-    const Eigen::Matrix<double, kSightedParameters, kColumns>& by) {
-  Eigen::Matrix<double, 4, kColumns> rows = Eigen::Matrix<double, 4, kColumns>::Zero();
-  rows.template topRows<2>() = -by.template topRows<2>();
-  rows.row(2) = by.row(kSightedSize);
-  return rows;
-}
-template <int kColumns>
-Eigen::Matrix<double, 4, kColumns> rows_of_second(
-    const Eigen::Matrix<double, kSightedParameters, kColumns>& by) {
-  Eigen::Matrix<double, 4, kColumns> rows = Eigen::Matrix<double, 4, kColumns>::Zero();
-  rows.template topRows<2>() = by.template topRows<2>();
-  rows.row(3) = by.row(kSightedSize);
-  return rows;
-}
-
 // The amount of one fault that explains the evidence best; its sigma; what is left unexplained.
 double explain(const Evidence& evidence, const EvidenceMatrix& information, const Evidence& by_fault,
                double& sigma, double& left) {
@@ -49,22 +25,23 @@ double explain(const Evidence& evidence, const EvidenceMatrix& information, cons
 }  // namespace
 
 DishConsistency compare_sightings(const std::array<DishSighting, 2>& sightings, const TableCameras& cameras,
-                                  const CamerasStepMatrix& covariance, double size_mm,
+                                  const CamerasMatrix& covariance, double size_mm,
                                   const DishConsistencyParams& params) {
+  // What a sighting in the first and in the second view adds to the evidence.
+  EvidenceMatrix of_first;
+  of_first << -1, 0, 0, 0, 0, -1, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0;
+  EvidenceMatrix of_second;
+  of_second << 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1;
   const SightedVector first = sightings[0].place_from(cameras[0]);
   const SightedVector second = sightings[1].place_from(cameras[1]);
-  const Evidence evidence = evidence_of(first, second);
+  const Evidence evidence = of_first * first + of_second * second;
   // A dish that stands higher looks like one as described that is taken for lower.
-  const Evidence by_height = -evidence_of(sightings[0].by_height, sightings[1].by_height);
+  const Evidence by_height = -(of_first * sightings[0].by_height + of_second * sightings[1].by_height);
   const Evidence by_size(0.0, 0.0, 1.0, 1.0);
-
-  Eigen::Matrix<double, 4, 12> by_cameras;
-  by_cameras << rows_of_first<6>(sightings[0].by_camera), rows_of_second<6>(sightings[1].by_camera);
-  const Eigen::Matrix4d identity = Eigen::Matrix4d::Identity();
-  const Eigen::Matrix4d of_first = rows_of_first<4>(identity);
-  const Eigen::Matrix4d of_second = rows_of_second<4>(identity);
+  Eigen::Matrix<double, 4, kCameraParameters> by_cameras;
+  by_cameras << of_first.lazyProduct(sightings[0].by_camera), of_second.lazyProduct(sightings[1].by_camera);
   // Products of this size by Eigen's blocked kernel would allocate.
-  const Eigen::Matrix<double, 4, 12> by_camera_errors = by_cameras.lazyProduct(covariance);
+  const Eigen::Matrix<double, 4, kCameraParameters> by_camera_errors = by_cameras.lazyProduct(covariance);
   const double size_sigma = params.size_sigma_mm / size_mm;
   const EvidenceMatrix spread =
       of_first * sightings[0].covariance * of_first.transpose() +

@@ -32,12 +32,10 @@ struct DishConsistency {
   double height_sigma_mm = 0.0;
 };
 
-using CamerasStepMatrix = Eigen::Matrix<double, 12, 12>;
-
 // `size_mm`: mean of the dish's axes. The cameras differ from those of the sightings by little; `covariance`
 // is that of a step of both, the first camera first. Both sightings are known.
 DishConsistency compare_sightings(const std::array<DishSighting, 2>& sightings, const TableCameras& cameras,
-                                  const CamerasStepMatrix& covariance, double size_mm,
+                                  const CamerasMatrix& covariance, double size_mm,
                                   const DishConsistencyParams& params);
 
 }  // namespace traygauge

@@ -45,17 +45,6 @@ DishPose start_of(const DishModel& model, const DishPose& measured) {
   return start;
 }
 
-void invert_information(const NormalEquations<kPlaceParameters>& equations, PlaceMatrix& covariance) {
-  NormalEquations<kPlaceParameters> unit;
-  unit.hessian = equations.hessian;
-  for (int i = 0; i < kPlaceParameters; ++i) {
-    PlaceVector column;
-    unit.gradient = -PlaceVector::Unit(i);
-    if (!unit.solve(0.0, column)) column.setZero();
-    covariance.col(i) = column;
-  }
-}
-
 // Of the points further than `scale_px` off the outline, those between the edge itself and the edge let down
 // to the table.
 int count_on_wall(const DishOutlines& outlines, const TableCameras& cameras, const FocalsPx& focals_px,
@@ -149,7 +138,7 @@ class DishPoseFit {
     const DishPoseProblem problem(outlines_, cameras_, focals_px_, prior, scale_px, step_);
     NormalEquations<kPlaceParameters> equations;
     problem.linearise(placed.place, equations);
-    invert_information(equations, placed.covariance);
+    placed.covariance = inverse_information<kPlaceParameters>(equations.hessian);
     placed.fit = fit_of_outlines(outlines_, cameras_, focals_px_, placed.place, params_, workspace_);
   }
 

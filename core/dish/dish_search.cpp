@@ -118,19 +118,4 @@ Result<FoundDish> search_dish(const DishSearchViews& views, const RimEdges& edge
   return DishSearch(views, edges, taken, params, workspace).run(candidates);
 }
 
-DishPose shift_in_view(const DishSearchViews& views, std::size_t view, const FoundDish& found,
-                       const DishSearchParams& params, DishSearchWorkspace& workspace) {
-  DishPose place = found.place;
-  DishSearchParams wide = params;
-  wide.vote_reach_mm = params.slip_reach_mm;
-  RimTracer(views, wide, workspace).shift_to_edges(std::array{view}, found.inside_sign, place);
-  return place;
-}
-
-void trace_rim(const DishSearchViews& views, std::size_t view, const DishPose& place, int inside_sign,
-               const DishSearchParams& params, DishSearchWorkspace& workspace, BoundedList<Vec2>& rays) {
-  RimTracer tracer(views, params, workspace);
-  tracer.trace(view, place, inside_sign, params.min_step, RimChoice::nearest, rays);
-}
-
 }  // namespace traygauge

@@ -33,7 +33,9 @@ struct DishSearchParams {
   double band_mm = 1.5;
   double sample_mm = 0.3;
   double vote_reach_mm = 10.0;  // of the search for the place at which most of the rim shows an edge
-  double slip_reach_mm = 12.5;  // the same in one view alone: nearly all that a profile across the rim holds
+  // The same in one view alone, where the dish may have slipped: shifts by 0.8 of it, over as much of a
+  // profile as there is room for.
+  double slip_reach_mm = 12.5;
   double shift_step_mm = 1.0;
   int azimuth_steps = 7;       // between two azimuths that were voted for: about a degree each
   double same_place_mm = 1.5;  // places that are nearer are one, of the centre and at the ends of an oval
@@ -119,14 +121,6 @@ struct DishSearchWorkspace {
 Result<FoundDish> search_dish(const DishSearchViews& views, const RimEdges& edges,
                               std::span<const DishModel> candidates, std::span<const FoundDish> taken,
                               const DishSearchParams& params, DishSearchWorkspace& workspace);
-
-// Where one view by itself wants a dish that was found to stand, which may have slipped between the views.
-DishPose shift_in_view(const DishSearchViews& views, std::size_t view, const FoundDish& found,
-                       const DishSearchParams& params, DishSearchWorkspace& workspace);
-
-// The rim's edge in one view, looked for about `place`: rays.
-void trace_rim(const DishSearchViews& views, std::size_t view, const DishPose& place, int inside_sign,
-               const DishSearchParams& params, DishSearchWorkspace& workspace, BoundedList<Vec2>& rays);
 
 // The dish's outer edge at this angle from the first axis (of the ellipse's parameter).
 RimNormal rim_normal(const DishPose& place, const Vec2& cosine_sine);

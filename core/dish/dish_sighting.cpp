@@ -3,17 +3,16 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/dish/rim_votes.hpp"
+#include "core/base/median.hpp"
+#include "core/dish/rim_tracer.hpp"
 #include "core/geometry/levenberg_marquardt.hpp"
 
 namespace traygauge {
 namespace {
 
-constexpr double kRobustSigmas = 3.0;
 // Of a round dish, whose azimuth nothing shows; 1 / rad².
 constexpr double kFixedAzimuth = 1e12;
 
-using Vec6 = Eigen::Matrix<double, 6, 1>;
 using SightingEquations = NormalEquations<kSightedParameters>;
 
 // Sums over an outline about one place.
@@ -69,18 +68,6 @@ class RimFit {
   int agreeing_ = 0;
 };
 
-bool invert(const SightingEquations& equations, SightedMatrix& inverse) {
-  SightingEquations unit;
-  unit.hessian = equations.hessian;
-  for (int i = 0; i < kSightedParameters; ++i) {
-    unit.gradient = -SightedVector::Unit(i);
-    SightedVector column;
-    if (!unit.solve(0.0, column)) return false;
-    inverse.col(i) = column;
-  }
-  return inverse.allFinite();
-}
-
 }  // namespace
 
 DishSighting sight_dish(std::span<const Vec2> outline, const Pose& camera_from_table, double focal_px,
@@ -102,12 +89,12 @@ DishSighting sight_dish(std::span<const Vec2> outline, const Pose& camera_from_t
       for (std::size_t axis = 0; axis < 2; ++axis) place.size_mm[axis] = size * about.size_mm[axis];
     }
   }
-  const double scale_px = std::max(params.scales_px.back(), kRobustSigmas * fit.rms_px());
-  SightedMatrix inverse = SightedMatrix::Zero();
+  const double scale_px = std::max(params.scales_px.back(), kOutlierSigmas * fit.rms_px());
   if (!fit.linearise(place, scale_px, is_round) || fit.agreeing() < params.min_points ||
-      fit.agreeing() < params.min_agreeing * static_cast<double>(outline.size()) ||
-      !invert(fit.equations(), inverse))
+      fit.agreeing() < params.min_agreeing * static_cast<double>(outline.size()))
     return sighting;
+  const SightedMatrix inverse = inverse_information<kSightedParameters>(fit.equations().hessian);
+  if (!inverse.allFinite() || inverse.isZero(0.0)) return sighting;
   sighting.is_known = true;
   sighting.camera_from_table = camera_from_table;
   sighting.place << place.centre_mm, place.azimuth_rad, size - 1.0;
@@ -117,6 +104,29 @@ DishSighting sight_dish(std::span<const Vec2> outline, const Pose& camera_from_t
   sighting.points = fit.agreeing();
   sighting.rms_px = fit.rms_px();
   return sighting;
+}
+
+// About where both views have the dish, and about where this one alone wants it: bands of a decoration draw
+// the second place aside, a slip between the pictures the first. More of the rim agrees about the right one.
+std::array<DishSighting, 2> sight_found_dish(const DishSearchViews& views, const FoundDish& found,
+                                             const DishSearchParams& search, const DishSightingParams& params,
+                                             DishSearchWorkspace& workspace) {
+  DishSearchParams wide = search;
+  wide.vote_reach_mm = search.slip_reach_mm;
+  RimTracer tracer(views, wide, workspace);
+  std::array<DishSighting, 2> sightings;
+  for (std::size_t v = 0; v < 2; ++v) {
+    DishPose own = found.place;
+    tracer.shift_to_edges(std::array{v}, found.inside_sign, own);
+    for (const DishPose& about : {found.place, own}) {
+      BoundedList<Vec2>& rays = workspace.outlines[v];
+      tracer.trace(v, about, found.inside_sign, search.min_step, RimChoice::nearest, rays);
+      const DishSighting sighting = sight_dish(rays.items(), views[v].camera_from_table,
+                                               views[v].lens.pinhole.mean_focal_px(), about, params);
+      if (sighting.points > sightings[v].points) sightings[v] = sighting;
+    }
+  }
+  return sightings;
 }
 
 }  // namespace traygauge

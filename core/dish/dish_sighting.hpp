@@ -8,6 +8,7 @@
 #include <array>
 #include <span>
 
+#include "core/dish/dish_search.hpp"
 #include "core/dish/rim_residual.hpp"
 #include "core/geometry/geometry.hpp"
 #include "core/geometry/table_frame.hpp"
@@ -56,5 +57,10 @@ struct DishSighting {
 // settle on one place.
 DishSighting sight_dish(std::span<const Vec2> outline, const Pose& camera_from_table, double focal_px,
                         const DishPose& about, const DishSightingParams& params);
+
+// Of a dish that was found, by its rim in each view alone; it may have slipped between the views.
+std::array<DishSighting, 2> sight_found_dish(const DishSearchViews& views, const FoundDish& found,
+                                             const DishSearchParams& search, const DishSightingParams& params,
+                                             DishSearchWorkspace& workspace);
 
 }  // namespace traygauge

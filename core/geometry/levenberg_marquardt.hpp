@@ -50,6 +50,22 @@ struct NormalEquations {
   }
 };
 
+// The inverse of a positive definite matrix given by its lower triangle; zero when it is not.
+template <int kSize>
+Eigen::Matrix<double, kSize, kSize> inverse_information(
+    const Eigen::Matrix<double, kSize, kSize>& information) {
+  NormalEquations<kSize> unit;
+  unit.hessian = information;
+  Eigen::Matrix<double, kSize, kSize> covariance;
+  for (int i = 0; i < kSize; ++i) {
+    typename NormalEquations<kSize>::Vector column = NormalEquations<kSize>::Vector::Zero();
+    unit.gradient = -NormalEquations<kSize>::Vector::Unit(i);
+    if (!unit.solve(0.0, column)) return Eigen::Matrix<double, kSize, kSize>::Zero();
+    covariance.col(i) = column;
+  }
+  return covariance;
+}
+
 struct LevenbergMarquardtParams {
   int max_iterations = kMaxNewtonSteps;  // linearisations, and rejected steps, together
   double initial_damping = 1e-4;         // relative to the diagonal of JᵀJ

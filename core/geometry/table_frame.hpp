@@ -35,17 +35,24 @@ inline double angle_between_views_deg(const TableCameras& camera_from_table, con
   return std::acos(std::clamp(first.dot(second), -1.0, 1.0)) * 180.0 / std::numbers::pi;
 }
 
+// A step of a pose, and its information or covariance.
+using Vec6 = Eigen::Matrix<double, kPoseParameters, 1>;
+using Mat6 = Eigen::Matrix<double, kPoseParameters, kPoseParameters>;
+// A step of the first camera, then one of the second.
+inline constexpr int kCameraParameters = 2 * kPoseParameters;
+using CamerasMatrix = Eigen::Matrix<double, kCameraParameters, kCameraParameters>;
+
 // A step of six parameters, turn (radians) and shift (mm): every refinement moves a pose this way, so that
 // their information matrices can be added.
-inline Pose moved(const Pose& pose, const Eigen::Matrix<double, 6, 1>& step) {
+inline Pose moved(const Pose& pose, const Vec6& step) {
   return {rotation_about(step.head<3>()) * pose.rotation, pose.translation + step.tail<3>()};
 }
 
 // The step that leads from one pose to another nearby. Turns are taken for small: half the antisymmetric part
 // of a rotation is its axis times the sine.
-inline Eigen::Matrix<double, 6, 1> step_between(const Pose& from, const Pose& to) {
+inline Vec6 step_between(const Pose& from, const Pose& to) {
   const Mat3 turn = to.rotation * from.rotation.transpose();
-  Eigen::Matrix<double, 6, 1> step;
+  Vec6 step;
   step << 0.5 * (turn(2, 1) - turn(1, 2)), 0.5 * (turn(0, 2) - turn(2, 0)), 0.5 * (turn(1, 0) - turn(0, 1)),
       to.translation - from.translation;
   return step;

@@ -9,8 +9,7 @@ Status blame_card(const Segmentation& segmentation, Status status) {
 }
 
 void warn_about_labels(const Segmentation& segmentation, WarningSet& warnings) {
-  for (std::size_t d = 0; d < segmentation.dish_count; ++d) {
-    const SegmentedDish& dish = segmentation.dishes[d];
+  for (const SegmentedDish& dish : segmentation.sought()) {
     warnings.raise_if(!dish.status.ok(), Warning::dish_not_found, dish.label);
     warnings.raise_if(dish.is_bare, Warning::dish_empty, dish.label);
     warnings.raise_if(dish.is_split_doubtful, Warning::items_doubtful, dish.label);

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 
 #include "core/base/status.hpp"
 #include "core/card/card_alignment.hpp"
@@ -38,20 +39,14 @@ struct Segmentation {
   double dish_ms = 0.0;
   double food_ms = 0.0;
 
+  std::span<const SegmentedDish> sought() const { return std::span(dishes).first(dish_count); }
   bool has_all_dishes() const {
-    return std::all_of(dishes.begin(), dishes.begin() + static_cast<std::ptrdiff_t>(dish_count),
-                       [](const SegmentedDish& dish) { return dish.status.ok(); });
+    return std::ranges::all_of(sought(), [](const SegmentedDish& dish) { return dish.status.ok(); });
   }
   // Every dish that was asked for was found, and neither view shows food on any of them.
-  bool is_bare() const {
-    return dish_count > 0 &&
-           std::all_of(dishes.begin(), dishes.begin() + static_cast<std::ptrdiff_t>(dish_count),
-                       [](const SegmentedDish& dish) { return dish.is_bare; });
-  }
+  bool is_bare() const { return dish_count > 0 && std::ranges::all_of(sought(), &SegmentedDish::is_bare); }
   bool is_split_doubtful() const {
-    return misses_hint ||
-           std::any_of(dishes.begin(), dishes.begin() + static_cast<std::ptrdiff_t>(dish_count),
-                       [](const SegmentedDish& dish) { return dish.is_split_doubtful; });
+    return misses_hint || std::ranges::any_of(sought(), &SegmentedDish::is_split_doubtful);
   }
   double total_ms() const { return card_ms + dish_ms + food_ms; }
 };

@@ -151,7 +151,8 @@ Status Segmenter::find_dishes() {
     dish.found = *found;
     dish.model = candidates[static_cast<std::size_t>(dish.found.candidate)];
     taken[taken_count++] = dish.found;
-    sight(dish);
+    dish.sightings =
+        sight_found_dish(cameras_, dish.found, params_.dish, configuration_.checks.sighting, memory_.dish);
     for (const DishSearchView& camera : cameras_) {
       if (!is_within(camera.frame, rim_outline(dish.found.place, camera, 0.0, 0.0)))
         dish.status = StatusCode::dish_cut_off;
@@ -160,23 +161,6 @@ Status Segmenter::find_dishes() {
   }
   if (found_count > 0) return StatusCode::ok;
   return taken_count > 0 ? StatusCode::dish_cut_off : StatusCode::rim_not_found;
-}
-
-// About where both views have the dish, and about where this one alone wants it: bands of a decoration draw
-// the second place aside, a slip between the pictures the first. More of the rim agrees about the right one.
-void Segmenter::sight(SegmentedDish& dish) {
-  for (std::size_t v = 0; v < 2; ++v) {
-    const DishSearchView& camera = cameras_[v];
-    const DishPose own = shift_in_view(cameras_, v, dish.found, params_.dish, memory_.dish);
-    for (const DishPose& about : {dish.found.place, own}) {
-      trace_rim(cameras_, v, about, dish.found.inside_sign, params_.dish, memory_.dish,
-                memory_.dish.outlines[v]);
-      const DishSighting sighting =
-          sight_dish(memory_.dish.outlines[v].items(), camera.camera_from_table,
-                     camera.lens.pinhole.mean_focal_px(), about, configuration_.checks.sighting);
-      if (sighting.points > dish.sightings[v].points) dish.sightings[v] = sighting;
-    }
-  }
 }
 
 void Segmenter::draw_dishes() const {

@@ -11,8 +11,7 @@ using Sightings = std::array<DishSighting, 2>;
 // In the order of the cameras.
 Sightings found_sightings(const CheckedTray& tray, std::uint8_t label) {
   Sightings sightings;
-  for (std::size_t d = 0; d < tray.found->dish_count; ++d) {
-    const SegmentedDish& dish = tray.found->dishes[d];
+  for (const SegmentedDish& dish : tray.found->sought()) {
     if (dish.label == label) sightings = dish.sightings;
   }
   if (tray.is_reversed) std::swap(sightings[0], sightings[1]);
@@ -101,15 +100,14 @@ Status check_standstill(const CheckedTray& tray, const Configuration& configurat
   if (tray.found == nullptr) return StatusCode::ok;
   const TrayCheckParams& params = configuration.checks;
   TableCameras cameras;
-  CamerasStepMatrix covariance = CamerasStepMatrix::Zero();
+  CamerasMatrix covariance = CamerasMatrix::Zero();
   for (std::size_t v = 0; v < 2; ++v) {
     cameras[v] = tray.views[v]->card().camera_from_table;
     const auto at = static_cast<Eigen::Index>(6 * v);
     covariance.block<6, 6>(at, at) = inverse_information<6>(tray.views[v]->card().information);
   }
   Status status;
-  for (std::size_t d = 0; d < tray.found->dish_count; ++d) {
-    const SegmentedDish& dish = tray.found->dishes[d];
+  for (const SegmentedDish& dish : tray.found->sought()) {
     const Sightings sightings = found_sightings(tray, dish.label);
     if (!dish.status.ok() || !are_known(sightings)) continue;
     const DishConsistency consistency =
@@ -129,8 +127,7 @@ void check_dishes(const CheckedTray& tray, const SceneGeometryWorkspace& workspa
                   WarningSet& warnings) {
   const TrayCheckParams& params = configuration.checks;
   const BundleResult& bundle = geometry.bundle;
-  const CamerasStepMatrix covariance =
-      bundle.covariance.topLeftCorner<kCameraParameters, kCameraParameters>();
+  const CamerasMatrix covariance = bundle.covariance.topLeftCorner<kCameraParameters, kCameraParameters>();
   for (std::size_t d = 0; d < geometry.dish_count; ++d) {
     if (!bundle.dishes[d].status.ok()) continue;
     DishOnTray& dish = geometry.dishes[d];

@@ -13,8 +13,6 @@
 namespace traygauge {
 namespace {
 
-constexpr int kFirstFoodLabel = 2;
-constexpr std::uint8_t kCardLabel = 255;
 constexpr double kTableHalfMm = 1500.0;
 constexpr double kClearanceMm = 0.01;  // what lies on something does not share its surface
 
@@ -58,7 +56,7 @@ void LaidScene::add_dishes(int threads) {
     transform(object.mesh, moved(pose, 0.0, 0.0, kClearanceMm));
     scene_.objects.push_back(std::move(object));
     for (ServedFood& food :
-         serve_foods(description_, static_cast<int>(i), shells_[i], kFirstFoodLabel, threads)) {
+         serve_foods(description_, static_cast<int>(i), shells_[i], kFirstSceneFoodLabel, threads)) {
       transform(food.object.mesh, moved(Eigen::Isometry3d::Identity(), 0.0, 0.0, kClearanceMm));
       scene_.objects.push_back(std::move(food.object));
       food.object = SceneObject{{}, nullptr, scene_.objects.back().label};
@@ -75,7 +73,7 @@ void LaidScene::add_card() {
   const Eigen::Isometry3d pose = world_from_card(card);
   SceneObject object{
       box_mesh({0.0, 0.0, 0.0}, {card.width_mm, card.height_mm, card.thickness_mm - kClearanceMm}),
-      make_card_material(print_, pose.inverse()), kCardLabel};
+      make_card_material(print_, pose.inverse()), kSceneCardLabel};
   transform(object.mesh, pose);
   scene_.objects.push_back(std::move(object));
 }
@@ -122,7 +120,7 @@ void LaidScene::add_room(const Eigen::Isometry3d& world_of_room) {
 
 // Of a dish, a food or the card, in the world.
 Eigen::Vector2d LaidScene::middle_of(std::uint8_t label) const {
-  if (label == kCardLabel) return description_.card.centre_mm;
+  if (label == kSceneCardLabel) return description_.card.centre_mm;
   for (const LaidDish& dish : description_.dishes) {
     if (dish.dish.label == label) return dish.centre_mm;
   }

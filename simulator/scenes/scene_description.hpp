@@ -18,6 +18,10 @@ namespace traygauge {
 // World: mm, z up; z = 0 is what dishes and card stand on, the tray's floor where there is a tray, else the
 // table. Rotations are about z, from x towards y.
 
+// As in labels_N.png: foods from 2 on, in their order.
+inline constexpr std::uint8_t kFirstSceneFoodLabel = 2;
+inline constexpr std::uint8_t kSceneCardLabel = 255;
+
 struct LaidDish {
   DishDescription dish;
   Eigen::Vector2d centre_mm = Eigen::Vector2d::Zero();

@@ -193,8 +193,6 @@ void add_slips(SceneDescription& scene, Draws& draws) {
   constexpr std::array kLengthsMm = {0.5, 1.0, 2.0, 4.0, 8.0, 15.0};
   constexpr double kSpreadDeg = 60.0;  // to either side of straight away
   constexpr double kLeverMm = 60.0;    // a slip turns what slips: its length over this, at most
-  constexpr std::uint8_t kCardLabel = 255;
-  constexpr std::ptrdiff_t kFirstFoodLabel = 2;
   const LaidDish& dish = scene.dishes.front();
   const Eigen::Vector2d from_card = dish.centre_mm - scene.card.centre_mm;
   const Photograph second = scene.views.at(1);
@@ -208,10 +206,10 @@ void add_slips(SceneDescription& scene, Draws& draws) {
   };
   const auto food = std::find_if(scene.foods.begin(), scene.foods.end(),
                                  [](const LaidFood& laid) { return laid.dish == 0 && laid.level_mm == 0.0; });
-  const auto food_label = static_cast<std::uint8_t>(kFirstFoodLabel + (food - scene.foods.begin()));
+  const auto food_label = static_cast<std::uint8_t>(kFirstSceneFoodLabel + (food - scene.foods.begin()));
   scene.pairs = {{0, 1}};
   for (const double length_mm : kLengthsMm) {
-    add(kCardLabel, length_mm, -from_card);
+    add(kSceneCardLabel, length_mm, -from_card);
     add(static_cast<std::uint8_t>(dish.dish.label), length_mm, from_card);
     if (food != scene.foods.end())
       add(food_label, length_mm, Eigen::Vector2d(draws.between(-1.0, 1.0), draws.between(-1.0, 1.0)));

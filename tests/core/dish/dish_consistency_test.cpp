@@ -41,7 +41,7 @@ class DishConsistencies : public ::testing::Test {
       sightings[v] = sight_dish(rays, cameras_[v], test::kOutlineFocalPx, described, params);
       EXPECT_TRUE(sightings[v].is_known);
     }
-    return compare_sightings(sightings, cameras_, CamerasStepMatrix::Zero(), 250.0, kParams);
+    return compare_sightings(sightings, cameras_, CamerasMatrix::Zero(), 250.0, kParams);
   }
   static double left(const DishConsistency& dish, DishFault fault) {
     return dish.left[static_cast<std::size_t>(fault)];
@@ -114,7 +114,7 @@ TEST_F(DishConsistencies, BlameTheCamerasFirst) {
                               test::kOutlineFocalPx, place, {});
   }
   const auto squared_deviation = [&](double sigma_mm) {
-    CamerasStepMatrix covariance = CamerasStepMatrix::Zero();
+    CamerasMatrix covariance = CamerasMatrix::Zero();
     covariance.diagonal().segment<3>(3).setConstant(sigma_mm * sigma_mm);
     covariance.diagonal().segment<3>(9).setConstant(sigma_mm * sigma_mm);
     return compare_sightings(sightings, cameras_, covariance, 250.0, kParams).squared_deviation;
