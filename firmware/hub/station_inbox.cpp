@@ -104,6 +104,11 @@ void StationInbox::greet(Peer& peer, const Message& message) {
     report("a station's socket: expected a name of a-z, 0-9 and '-' in its hello; the connection is closed");
     return peer.connection.close();
   }
+  if (!peer.station.empty() && peer.station != station) {
+    report("station " + peer.station + " said that it is " + station +
+           ": a connection is one station's; it is closed");
+    return peer.connection.close();
+  }
   // A station that was killed comes back before its old connection is seen to be dead.
   for (Peer& other : peers_) {
     if (&other != &peer && other.station == station) {

@@ -178,6 +178,19 @@ TEST_F(Inbox, ANewConnectionOfAStationReplacesItsLast) {
   EXPECT_TRUE(hub_->inbox().stations().at("kitchen").is_connected);
 }
 
+TEST_F(Inbox, AConnectionKeepsItsName) {
+  auto connection = connect_local(folder_.path() / "hub");
+  ASSERT_TRUE(connection.ok());
+  for (const char* hello :
+       {R"({"station":"kitchen"})", R"({"station":"kitchen"})", R"({"station":"canteen"})"})
+    ASSERT_TRUE(connection->send_all(encode({MessageType::hello, hello, {}}), Milliseconds(100)).ok());
+  EXPECT_FALSE(connection->receive_some(Milliseconds(5000)).ok());
+  end();
+  EXPECT_FALSE(hub_->inbox().stations().at("kitchen").is_connected);
+  EXPECT_FALSE(hub_->inbox().stations().contains("canteen"));
+  EXPECT_NE(log_.find("said that it is canteen"), std::string::npos) << log_;
+}
+
 TEST_F(Inbox, ASecondHubIsRefused) {
   HubParams params;
   params.socket = folder_.path() / "hub";
