@@ -11,10 +11,11 @@ seeds=$(dirname "$0")/seeds
 # On a disk the store's syncs would take nearly all of the time.
 if [ -d /dev/shm ]; then export TMPDIR=/dev/shm; fi
 # Percent of the runs, and the longest input in bytes: targets that write files or use sockets are slow.
-targets='web_request 20 600
+targets='web_request 18 600
 message 40 600
 scan_document 25 1500
 station_file 8 1200
+journal 2 1200
 station_socket 4 300
 hub_socket 3 1500'
 
