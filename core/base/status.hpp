@@ -88,6 +88,8 @@ namespace traygauge {
        "Too few pixels could be matched densely; check focus, light and reflections.") \
   CODE(item_too_small, "The item covers too few pixels to be measured.") \
   CODE(item_hidden, "The item is not visible in both pictures.") \
+  CODE(item_moved, \
+       "The item moved on its dish between the pictures; keep the tray still until both are taken.") \
   CODE(item_below_dish, \
        "The item came out below the bottom of the dish; check the dish's height in the configuration.") \
   CODE(item_clipped, \

@@ -6,6 +6,7 @@
 #include "core/geometry/triangulation.hpp"
 #include "core/pipeline/dish_observation.hpp"
 #include "core/pipeline/food_agreement.hpp"
+#include "core/pipeline/item_checks.hpp"
 #include "core/stereo/dish_projection.hpp"
 #include "core/volume/matched_fraction.hpp"
 #include "core/volume/uncertainty.hpp"
@@ -150,6 +151,9 @@ void measure_dish(const ViewPair& views, const SceneGeometry& geometry, std::siz
     const bool is_measured = item.status == StatusCode::ok;
     measurement.warnings.raise_if(is_measured && matched[label] < configuration.pipeline.min_matched_fraction,
                                   Warning::item_hardly_matched, label);
+    if (is_measured)
+      item.status = check_item({label, dish.label, views[1]->lens.pinhole.mean_focal_px()}, geometry, grids,
+                               inner, configuration.checks, measurement.checks, measurement.warnings);
     const UncertaintyInput input{volume,
                                  matched[label],
                                  height_per_px_mm,

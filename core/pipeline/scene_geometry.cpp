@@ -93,6 +93,7 @@ Status find_geometry(const ViewPair& views, const Configuration& configuration, 
                    geometry.tracks, tracking);
   report.corners = static_cast<int>(tracking.corners);
   report.matches = static_cast<int>(tracking.tracks);
+  geometry.strays = tracking.strays;
   if (!status.ok()) return status;
 
   clock.enter(Stage::pose);

@@ -27,6 +27,7 @@ struct SceneGeometry {
   std::size_t dish_count = 0;
   BundleResult bundle;
   std::span<const PointTrack> tracks;
+  std::span<const PointTrack> strays;  // that contradict the cameras' motion
 };
 
 struct SceneGeometryWorkspace {

@@ -52,11 +52,6 @@ DishFault best_fault(const DishConsistency& dish) {
   return scale <= height ? DishFault::scale : DishFault::height;
 }
 
-Verdict judge(double value, double warning, double most) {
-  if (std::abs(value) > most) return Verdict::refused;
-  return std::abs(value) > warning ? Verdict::warned : Verdict::passed;
-}
-
 struct Finding {
   Verdict verdict = Verdict::passed;
   DishFault fault = DishFault::slip;

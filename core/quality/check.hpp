@@ -16,9 +16,11 @@ enum class CheckKind : std::uint8_t {
   dish_slip_mm,    // how far dish and card moved against each other between the pictures
   scale_percent,   // by how much the card's size would have to be wrong for the dish's to be right
   dish_height_mm,  // how far the dish's edge lies over where card and description put it
+  item_slip_mm,    // how far an item moved between the pictures, across the line between the cameras
+  item_foot_mm,    // how high an item's edge came out over the dish; it does not lie below it
 };
-inline constexpr auto kCheckNames =
-    std::to_array<const char*>({"dish_slip_mm", "scale_percent", "dish_height_mm"});
+inline constexpr auto kCheckNames = std::to_array<const char*>(
+    {"dish_slip_mm", "scale_percent", "dish_height_mm", "item_slip_mm", "item_foot_mm"});
 inline const char* name(CheckKind kind) {
   return kCheckNames[static_cast<std::size_t>(kind)];
 }
@@ -31,16 +33,23 @@ inline const char* name(Verdict verdict) {
 
 struct Check {
   CheckKind kind = CheckKind::dish_slip_mm;
-  std::uint8_t label = kBackgroundLabel;  // of the dish that it is about
+  std::uint8_t label = kBackgroundLabel;  // of the dish or item that it is about
   double value = 0.0;
   double sigma = 0.0;
   double limit = 0.0;  // of the magnitude; beyond it the check does not pass
   Verdict verdict = Verdict::passed;
 };
 
+// `value` is significant, or has no sigma: is it too much?
+constexpr Verdict judge(double value, double warning, double most) {
+  const double magnitude = value < 0.0 ? -value : value;
+  if (magnitude > most) return Verdict::refused;
+  return magnitude > warning ? Verdict::warned : Verdict::passed;
+}
+
 class CheckList {
  public:
-  static constexpr std::size_t kCapacity = 32;
+  static constexpr std::size_t kCapacity = 64;  // eight dishes and twenty items
 
   // What does not fit is left out.
   void add(const Check& check) {

@@ -50,6 +50,8 @@ namespace traygauge {
   CODE(card_lifted, \
        "Reference card and dish disagree about where the table is; check that the card lies flat, its " \
        "thickness and the dish's description.") \
+  CODE(item_moved, \
+       "An item seems to have moved a little on its dish between the pictures; its volume may be off.") \
   CODE(dish_empty, "No food was seen on a dish; it counts as empty.") \
   CODE(item_uncertain, \
        "An item's volume is less sure than usual, as of steep pieces with gaps; see its sigma, or " \

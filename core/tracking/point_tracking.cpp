@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
+#include "core/labels/label_regions.hpp"
 #include "core/tracking/height_transfer.hpp"
 
 namespace traygauge {
@@ -56,6 +58,8 @@ class Tracker {
   // Corrects the second pose from the strongest corners.
   void look_first(std::span<const Corner> corners);
   bool track(const Corner& corner, PointTrack& track);
+  // The same, sought far off its line.
+  bool track_lost(const Corner& corner, PointTrack& track);
   void drop_contradicting(BoundedList<PointTrack>& tracks);
   const TableCameras& cameras() const { return cameras_; }
 
@@ -67,6 +71,7 @@ class Tracker {
   bool search(const Vec2& pixel, const TableRay& ray, const HeightRange& range, const Look& look,
               FoundPatch& found);
   bool look_closer(const Vec2& pixel, const TableRay& ray, std::uint8_t label, FoundPatch& found);
+  bool finish(const Corner& corner, const TableRay& ray, const FoundPatch& found, PointTrack& track);
   bool align(const Vec2& pixel, const TableRay& ray, std::uint8_t label, const FoundPatch& found,
              PatchAlignment& alignment);
   bool returns(const Vec2& pixel, const PatchAlignment& alignment) const;
@@ -245,10 +250,27 @@ bool Tracker::track(const Corner& corner, PointTrack& track) {
     ++report_.not_found;
     return false;
   }
+  return finish(corner, ray, found, track);
+}
+
+bool Tracker::track_lost(const Corner& corner, PointTrack& track) {
+  const PointTrackingReport counted = report_;  // each corner once
+  const Vec2 pixel = stored_pixel(corner);
+  TableRay ray;
+  FoundPatch found;
+  const bool is_found = transfer_.cast_ray(pixel, ray) &&
+                        search(pixel, ray, all_heights(), {kFirstLookLevel, params_.lost_margin_px}, found) &&
+                        finish(corner, ray, found, track);
+  report_ = counted;
+  return is_found;
+}
+
+bool Tracker::finish(const Corner& corner, const TableRay& ray, const FoundPatch& found, PointTrack& track) {
   if (found.correlation - found.runner_up < params_.min_lead) {
     ++report_.ambiguous;
     return false;
   }
+  const Vec2 pixel = stored_pixel(corner);
   PatchAlignment alignment;
   if (!align(pixel, ray, corner.label, found, alignment) || !same_ground(corner.label, alignment.pixel)) {
     ++report_.not_aligned;
@@ -273,13 +295,32 @@ void Tracker::drop_contradicting(BoundedList<PointTrack>& tracks) {
   correct_second_pose(seen.items(), focal_px(), correction, cameras_);
   const EpipolarDistance distance(second_from_first(cameras_), focal_px());
   std::size_t kept = 0;
-  for (const PointTrack& track : tracks) {
+  for (PointTrack& track : tracks) {
     const double allowed_px =
         std::min(params_.max_epipolar_px, params_.pose_error_px + params_.max_deviations * track.sigma_px);
-    if (std::abs(distance(track.first, track.second)) <= allowed_px) tracks[kept++] = track;
+    if (std::abs(distance(track.first, track.second)) <= allowed_px) std::swap(tracks[kept++], track);
   }
   report_.off_line = tracks.size() - kept;
-  tracks.truncate(kept);
+  report_.tracks = kept;
+}
+
+// Corners of items of which hardly one was found.
+void find_lost(std::span<const Corner> corners, const PointTrackingParams& params, Tracker& tracker,
+               BoundedList<PointTrack>& tracks) {
+  std::array<int, 256> sought{};
+  std::array<int, 256> followed{};
+  std::array<int, 256> looked_for{};
+  for (const Corner& corner : corners) ++sought[corner.label];
+  for (const PointTrack& track : tracks) ++followed[track.label];
+  for (const Corner& corner : corners) {
+    const std::uint8_t label = corner.label;
+    if (!is_item(label) || sought[label] < params.min_item_corners ||
+        followed[label] > params.min_followed_fraction * sought[label] ||
+        looked_for[label]++ >= params.max_lost_corners)
+      continue;
+    PointTrack track;
+    if (tracker.track_lost(corner, track)) tracks.push_back(track);
+  }
 }
 
 bool is_usable(const TrackedView& view) {
@@ -313,10 +354,11 @@ Status track_points(const TrackedView& first, const TrackedView& second,
     if (tracker.track(corner, track)) found.push_back(track);
   }
   tracker.drop_contradicting(found);
+  find_lost(corners.items(), params, tracker, found);
   report.camera_from_table = tracker.cameras();
-  report.tracks = found.size();
-  tracks = found.items();
-  return found.size() < std::size_t{kMinTracks} ? StatusCode::too_few_matches : StatusCode::ok;
+  tracks = found.items().first(report.tracks);
+  report.strays = found.items().subspan(report.tracks);
+  return report.tracks < std::size_t{kMinTracks} ? StatusCode::too_few_matches : StatusCode::ok;
 }
 
 }  // namespace traygauge

@@ -62,6 +62,13 @@ struct PointTrackingParams {
   double max_epipolar_px = 1.0;
   double pose_error_px = 0.1;
   double max_deviations = 4.0;
+
+  // An item of which hardly a corner is found may have moved by itself: so many of its corners are looked for
+  // at quarter size, 15 mm off at 3 px a mm.
+  int min_item_corners = 8;
+  int max_lost_corners = 16;
+  double min_followed_fraction = 0.25;
+  double lost_margin_px = 45.0;
 };
 
 // Where the corners went.
@@ -74,6 +81,8 @@ struct PointTrackingReport {
   std::size_t not_returned = 0;  // followed back, it ends elsewhere
   std::size_t off_line = 0;      // contradicts the motion that the others agree on
   std::size_t tracks = 0;
+  // Tracks that contradict it, wrong ones or of items that moved by themselves; in the workspace's memory.
+  std::span<const PointTrack> strays;
   TableCameras camera_from_table;  // as given, the second one corrected by the tracks
 };
 

@@ -167,8 +167,10 @@ double SyntheticScene::texture(const Vec3& point_mm) const {
   constexpr int kOctaves = 3;
   double value = 0.0;
   double cell = 0.5 * texture_mm;
+  Vec3 at_mm = point_mm;
+  if (point_mm.z() > 1e-6) at_mm.head<2>() -= solid_texture_shift_mm;
   for (std::uint32_t octave = 0; octave < kOctaves; ++octave, cell *= 0.5) {
-    value += value_noise(point_mm / cell, texture_seed + octave);
+    value += value_noise(at_mm / cell, texture_seed + octave);
   }
   return 255.0 * value / kOctaves;
 }

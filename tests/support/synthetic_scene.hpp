@@ -28,6 +28,7 @@ struct SyntheticScene {
   double dish_radius_mm = 130.0;
   double texture_mm = 8.0;  // longest wavelength of the texture; it has three octaves
   std::uint32_t texture_seed = 1;
+  Vec2 solid_texture_shift_mm = Vec2::Zero();  // of the solid alone, as where it was moved with its centre
 
   double volume_ml() const;
   double height(const Vec2& point_mm) const;   // of the upper surface above the dish

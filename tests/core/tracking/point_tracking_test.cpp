@@ -141,6 +141,28 @@ TEST_F(TrackedScene, WithoutLabelsAllIsTableAndTheBoxIsStillFound) {
   EXPECT_GT(static_cast<double>(good), 0.95 * static_cast<double>(tracks_.size()));
 }
 
+// A motion across the lines, further than corners are looked for at first.
+TEST_F(TrackedScene, CornersOfABoxThatMovedAreStrays) {
+  const Vec3 shift_mm(0.0, 12.0, 0.0);
+  SyntheticScene moved = scene_;
+  moved.centre_mm += shift_mm.head<2>();
+  moved.solid_texture_shift_mm = shift_mm.head<2>();
+  pictures_[1] = render(moved, cameras_[1], 2);
+  for (std::uint8_t& label : pictures_[1].labels) label = label == 2 ? 2 : 0;
+  views_[1].gray = build_pyramid(pictures_[1].gray_view(), *pyramids_[1]);
+  views_[1].labels = pictures_[1].label_view();
+  ASSERT_TRUE(run(truth_).ok());
+  std::size_t right = 0;
+  for (const PointTrack& track : report_.strays) {
+    Vec3 point;
+    ASSERT_TRUE(surface_point(scene_, cameras_[0], pixel(0, track.first), point));
+    if (track.label != 2) continue;
+    right += (cameras_[1].project(point + shift_mm) - pixel(1, track.second)).norm() < 0.3 ? 1U : 0U;
+  }
+  EXPECT_GE(right, 4U);
+  for (const PointTrack& track : tracks_) EXPECT_NE(track.label, 2);
+}
+
 SeenPoint seen_point(const Vec3& table_mm, const TableCameras& cameras) {
   const Vec3 first = cameras[0] * table_mm;
   const Vec3 second = cameras[1] * table_mm;

@@ -5,7 +5,8 @@
     tests/evaluation/perturb/slips.py build/traygauge slips --labels auto
 
 Measures every pair and prints, by what slipped and how far, how many were refused, left a dish or an item out,
-were warned of by name, gave the sum of all food within 10 %, or were wrong in silence.
+were warned of by name, gave the sum of all food within 10 %, were wrong with a warning that a volume may be far off,
+or were wrong in silence.
 """
 import argparse
 import collections
@@ -16,9 +17,10 @@ import sys
 
 CARD = 255
 FIRST_FOOD, LAST_FOOD = 2, 199
-NAMED = {"dish_moved", "scale_disagrees", "card_lifted"}
+NAMED = {"dish_moved", "item_moved", "scale_disagrees", "card_lifted"}
+UNSURE = {"item_hardly_matched", "item_uncertain"}
 FAR_OFF = 0.10  # of the sum
-OUTCOMES = ["refused", "left out", "warned", "right", "silent"]
+OUTCOMES = ["refused", "left out", "warned", "right", "unsure", "silent"]
 
 
 def kind_of(displaced):
@@ -36,10 +38,13 @@ def outcome_of(document, truth_ml):
         return "refused"
     if any(item["status"] != "ok" for item in document["items"]):
         return "left out"
-    if NAMED & {warning["code"] for warning in document["warnings"]}:
+    warnings = {warning["code"] for warning in document["warnings"]}
+    if NAMED & warnings:
         return "warned"
     measured_ml = sum(item["volume_ml"] for item in document["items"])
-    return "right" if abs(measured_ml / truth_ml - 1.0) <= FAR_OFF else "silent"
+    if abs(measured_ml / truth_ml - 1.0) <= FAR_OFF:
+        return "right"
+    return "unsure" if UNSURE & warnings else "silent"
 
 
 def measure(program, folder, pair, labels):
