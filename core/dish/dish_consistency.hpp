@@ -30,6 +30,15 @@ struct DishConsistency {
   double scale_sigma = 0.0;
   double height_mm = 0.0;  // of dish and table over where the card puts them
   double height_sigma_mm = 0.0;
+
+  // The one that leaves least unexplained. A slip has one degree of freedom more than the others.
+  DishFault best_fault() const {
+    const double by_slip = left[static_cast<std::size_t>(DishFault::slip)] + 1.0;
+    const double by_scale = left[static_cast<std::size_t>(DishFault::scale)];
+    const double by_height = left[static_cast<std::size_t>(DishFault::height)];
+    if (by_slip <= by_scale && by_slip <= by_height) return DishFault::slip;
+    return by_scale <= by_height ? DishFault::scale : DishFault::height;
+  }
 };
 
 // `size_mm`: mean of the dish's axes. The cameras differ from those of the sightings by little; `covariance`

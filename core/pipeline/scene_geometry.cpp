@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/base/median.hpp"
+#include "core/base/units.hpp"
 #include "core/card/card.hpp"
 #include "core/dish/dish_outline.hpp"
 
@@ -21,6 +22,30 @@ bool is_seen(const ViewPair& views, std::uint8_t label) {
   return views[0]->regions().pixels[label] > 0 || views[1]->regions().pixels[label] > 0;
 }
 
+// In the frame of the dishes.
+std::array<CardPrior, 2> card_priors(const ViewPair& views, const OwnMotion& motion) {
+  std::array<CardPrior, 2> cards;
+  for (std::size_t v = 0; v < 2; ++v)
+    cards[v] = {views[v]->card().camera_from_table, views[v]->card().information};
+  if (motion.is_known) cards[1] = card_in_frame_of(motion, cards[1]);
+  return cards;
+}
+
+BundleInput join(const ViewPair& views, const ReferenceCard& card, const SceneGeometry& geometry,
+                 std::span<const BundleDish> dishes) {
+  BundleInput input;
+  input.cards = card_priors(views, geometry.own_motion);
+  for (std::size_t v = 0; v < 2; ++v) {
+    input.focals_px[v] = views[v]->lens.pinhole.mean_focal_px();
+  }
+  input.card_middle_mm = print_point_mm({0.5 * card.width_mm, 0.5 * card.height_mm}, card.thickness_mm);
+  input.tracks = geometry.tracks;
+  input.dishes = dishes;
+  return input;
+}
+
+}  // namespace
+
 Status trace_outlines(const ViewPair& views, const Configuration& configuration,
                       SceneGeometryWorkspace& workspace, const SceneGeometry& geometry) {
   for (std::size_t d = 0; d < geometry.dish_count; ++d) {
@@ -36,21 +61,6 @@ Status trace_outlines(const ViewPair& views, const Configuration& configuration,
   }
   return StatusCode::ok;
 }
-
-BundleInput join(const ViewPair& views, const ReferenceCard& card, std::span<const PointTrack> tracks,
-                 std::span<const BundleDish> dishes) {
-  BundleInput input;
-  for (std::size_t v = 0; v < 2; ++v) {
-    input.cards[v] = {views[v]->card().camera_from_table, views[v]->card().information};
-    input.focals_px[v] = views[v]->lens.pinhole.mean_focal_px();
-  }
-  input.card_middle_mm = print_point_mm({0.5 * card.width_mm, 0.5 * card.height_mm}, card.thickness_mm);
-  input.tracks = tracks;
-  input.dishes = dishes;
-  return input;
-}
-
-}  // namespace
 
 Status list_dishes(const ViewPair& views, const Configuration& configuration,
                    SceneGeometryWorkspace& workspace, SceneGeometry& geometry) {
@@ -87,18 +97,22 @@ Status find_geometry(const ViewPair& views, const Configuration& configuration, 
   const TrackedView first{views[0]->gray, views[0]->labels, views[0]->lens};
   const TrackedView second{views[1]->gray, views[1]->labels, views[1]->lens};
   PointTrackingReport tracking;
-  Status status =
-      track_points(first, second, {views[0]->card().camera_from_table, views[1]->card().camera_from_table},
-                   configuration.card.thickness_mm, configuration.tracking, random, workspace.tracking,
-                   geometry.tracks, tracking);
+  PointTrackingParams params = configuration.tracking;
+  const std::array<CardPrior, 2> cards = card_priors(views, geometry.own_motion);
+  if (geometry.own_motion.is_known) {
+    params.follows_table = false;
+    params.correction.turn_sigma_deg =
+        std::max(params.correction.turn_sigma_deg, geometry.own_motion.turn_sigma_rad / kRadiansPerDegree);
+  }
+  Status status = track_points(first, second, {cards[0].camera_from_table, cards[1].camera_from_table},
+                               configuration.card.thickness_mm, params, random, workspace.tracking,
+                               geometry.tracks, tracking);
   report.corners = static_cast<int>(tracking.corners);
   report.matches = static_cast<int>(tracking.tracks);
   geometry.strays = tracking.strays;
   if (!status.ok()) return status;
 
   clock.enter(Stage::pose);
-  status = trace_outlines(views, configuration, workspace, geometry);
-  if (!status.ok()) return status;
   status = refine_geometry(views, configuration.card, configuration.bundle, workspace, geometry);
   report.inliers = geometry.bundle.lines.inliers;
   report.inlier_threshold_px = kOutlierSigmas * geometry.bundle.lines.rms;
@@ -114,8 +128,8 @@ Status refine_geometry(const ViewPair& views, const ReferenceCard& card, const B
     dishes[d] = {{workspace.outlines[d][0].items(), workspace.outlines[d][1].items()},
                  geometry.dishes[d].candidates};
   }
-  return adjust_bundle(join(views, card, geometry.tracks, std::span(dishes).first(geometry.dish_count)),
-                       params, workspace.bundle, geometry.bundle);
+  return adjust_bundle(join(views, card, geometry, std::span(dishes).first(geometry.dish_count)), params,
+                       workspace.bundle, geometry.bundle);
 }
 
 }  // namespace traygauge

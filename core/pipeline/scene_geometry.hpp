@@ -10,6 +10,7 @@
 #include "core/base/random.hpp"
 #include "core/base/status.hpp"
 #include "core/pipeline/measurement.hpp"
+#include "core/pipeline/own_motion.hpp"
 #include "core/pipeline/tray_view.hpp"
 
 namespace traygauge {
@@ -25,6 +26,7 @@ struct DishOnTray {
 struct SceneGeometry {
   std::array<DishOnTray, kMaxPlacedDishes> dishes;
   std::size_t dish_count = 0;
+  OwnMotion own_motion;  // from the first picture to the second; then the cameras are those in its frame
   BundleResult bundle;
   std::span<const PointTrack> tracks;
   std::span<const PointTrack> strays;  // that contradict the cameras' motion
@@ -58,7 +60,11 @@ struct SceneGeometryWorkspace {
 Status list_dishes(const ViewPair& views, const Configuration& configuration,
                    SceneGeometryWorkspace& workspace, SceneGeometry& geometry);
 
-// Fills the rest of `geometry` and the sparse part of the report.
+// Fills the workspace's outlines.
+Status trace_outlines(const ViewPair& views, const Configuration& configuration,
+                      SceneGeometryWorkspace& workspace, const SceneGeometry& geometry);
+
+// After its outlines were traced. Fills the rest of `geometry` and the sparse part of the report.
 Status find_geometry(const ViewPair& views, const Configuration& configuration, Random& random,
                      SceneGeometryWorkspace& workspace, StageClock& clock, MeasurementReport& report,
                      SceneGeometry& geometry);

@@ -5,7 +5,8 @@
 namespace traygauge {
 
 Status blame_card(const Segmentation& segmentation, Status status) {
-  return segmentation.is_card_doubtful && !is_measured(status) ? Status(StatusCode::card_hidden) : status;
+  const bool has_other_reason = is_measured(status) || status.code() == StatusCode::dish_moved;
+  return segmentation.is_card_doubtful && !has_other_reason ? Status(StatusCode::card_hidden) : status;
 }
 
 void warn_about_labels(const Segmentation& segmentation, WarningSet& warnings) {

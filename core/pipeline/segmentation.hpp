@@ -11,6 +11,7 @@
 #include "core/card/card_alignment.hpp"
 #include "core/dish/dish_search.hpp"
 #include "core/dish/dish_sighting.hpp"
+#include "core/pipeline/own_motion.hpp"
 #include "core/quality/warning.hpp"
 
 namespace traygauge {
@@ -36,6 +37,7 @@ struct Segmentation {
   int items = 0;             // labels from kFirstItemLabel on
   bool misses_hint = false;  // a number of items was asked for, and there are more or fewer
   double card_ms = 0.0;
+  OwnMotion own_motion;  // of all dishes, from the first picture to the second
   double dish_ms = 0.0;
   double food_ms = 0.0;
 

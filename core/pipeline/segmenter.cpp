@@ -81,6 +81,7 @@ void Segmenter::segment() {
   StageClock clock;
   clock.enter(Stage::surface);
   result_.status = find_dishes();
+  if (result_.status.ok()) follow_own_motion();
   if (result_.status.ok()) {
     clock.enter(Stage::volume);
     draw_dishes();

@@ -54,6 +54,7 @@ class Segmenter {
   Status check_view(const SegmentedView& view, const LensModel& lens) const;
   Status find_card(const SegmentedView& view, const LensModel& lens, std::size_t index);
   Status find_dishes();
+  void follow_own_motion();
   void draw_dishes() const;
   void look_at_dishes();
   void draw_items(const FoodOutlineParams& params);

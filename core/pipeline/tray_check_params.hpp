@@ -19,8 +19,14 @@ struct TrayCheckParams {
   // meals and trays, 34 captures), on which these two were chosen.
   double slip_warning_mm = 0.75;
   double max_slip_mm = 1.2;
-  // Points on a dish are sought within some 6 px of where the cards put them: beyond this nothing is found.
-  double hopeless_slip_mm = 4.0;
+  // Slips that are significant by the cards alone, between these, are measured in the dish's own frame: each
+  // view by itself seeks a rim within 10 mm.
+  double least_own_motion_mm = 0.5;
+  double most_own_motion_mm = 12.0;
+  double min_own_sigma_mm = 0.5;    // of such a motion, whose rims may be drawn alike wrong
+  double min_own_turn_rad = 0.02;   // the same of an oval dish's turn
+  double own_turn_lever_mm = 60.0;  // a round dish may turn by its slip over this
+  double same_motion_mm = 1.5;      // dishes whose slips differ by more did not move as one
   // Volumes go with the third power.
   double scale_warning = 0.01;
   double max_scale = 0.03;

@@ -18,38 +18,26 @@ Sightings found_sightings(const CheckedTray& tray, std::uint8_t label) {
   return sightings;
 }
 
-// From the outlines that were given.
+// From the outlines that were given, about where the dish stands.
 Sightings given_sightings(const CheckedTray& tray, const SceneGeometryWorkspace& workspace,
-                          const DishSightingParams& params, const SceneGeometry& geometry,
-                          std::size_t index) {
-  const BundleDishResult& dish = geometry.bundle.dishes[index];
-  const DishModel& model = geometry.dishes[index].candidates[static_cast<std::size_t>(dish.placed.candidate)];
-  DishPose about = dish.placed.place;
-  about.size_mm = model.outer_size_mm;
-  about.edge_height_mm = edge_height_mm(model);
+                          const DishSightingParams& params, const TableCameras& cameras,
+                          const std::array<DishPose, 2>& about, std::size_t index) {
   Sightings sightings;
   for (std::size_t v = 0; v < 2; ++v) {
-    sightings[v] = sight_dish(workspace.outlines[index][v].items(), geometry.bundle.camera_from_table[v],
-                              tray.views[v]->lens.pinhole.mean_focal_px(), about, params);
+    sightings[v] = sight_dish(workspace.outlines[index][v].items(), cameras[v],
+                              tray.views[v]->lens.pinhole.mean_focal_px(), about[v], params);
   }
   return sightings;
 }
 
+DishPose as_described(DishPose place, const DishModel& model) {
+  place.size_mm = model.outer_size_mm;
+  place.edge_height_mm = edge_height_mm(model);
+  return place;
+}
+
 bool are_known(const Sightings& sightings) {
   return sightings[0].is_known && sightings[1].is_known;
-}
-
-double mean_size_mm(const DishPose& place) {
-  return 0.5 * (place.size_mm[0] + place.size_mm[1]);
-}
-
-// The one that leaves least unexplained. A slip has one degree of freedom more than the others.
-DishFault best_fault(const DishConsistency& dish) {
-  const double slip = dish.left[static_cast<std::size_t>(DishFault::slip)] + 1.0;
-  const double scale = dish.left[static_cast<std::size_t>(DishFault::scale)];
-  const double height = dish.left[static_cast<std::size_t>(DishFault::height)];
-  if (slip <= scale && slip <= height) return DishFault::slip;
-  return scale <= height ? DishFault::scale : DishFault::height;
 }
 
 struct Finding {
@@ -61,7 +49,7 @@ Finding add_checks(const DishConsistency& dish, std::uint8_t label, const TrayCh
                    CheckList& checks) {
   Finding finding;
   const bool is_wrong = dish.squared_deviation > params.max_squared_deviation;
-  finding.fault = best_fault(dish);
+  finding.fault = dish.best_fault();
   const auto add = [&](DishFault fault, CheckKind kind, double value, double sigma, double warning,
                        double most) {
     Check check{kind, label, value, sigma, warning, Verdict::passed};
@@ -91,30 +79,41 @@ StatusCode status_of(DishFault fault) {
 
 }  // namespace
 
-Status check_standstill(const CheckedTray& tray, const Configuration& configuration, CheckList& checks) {
-  if (tray.found == nullptr) return StatusCode::ok;
-  const TrayCheckParams& params = configuration.checks;
+OwnMotion find_own_motion(const CheckedTray& tray, SceneGeometryWorkspace& workspace,
+                          const Configuration& configuration, const SceneGeometry& geometry) {
   TableCameras cameras;
-  CamerasMatrix covariance = CamerasMatrix::Zero();
+  FocalsPx focals_px{};
   for (std::size_t v = 0; v < 2; ++v) {
     cameras[v] = tray.views[v]->card().camera_from_table;
-    const auto at = static_cast<Eigen::Index>(6 * v);
-    covariance.block<6, 6>(at, at) = inverse_information<6>(tray.views[v]->card().information);
+    focals_px[v] = tray.views[v]->lens.pinhole.mean_focal_px();
   }
-  Status status;
-  for (const SegmentedDish& dish : tray.found->sought()) {
-    const Sightings sightings = found_sightings(tray, dish.label);
-    if (!dish.status.ok() || !are_known(sightings)) continue;
-    const DishConsistency consistency =
-        compare_sightings(sightings, cameras, covariance, mean_size_mm(dish.found.place), params.consistency);
-    CheckList of_dish;
-    const Finding finding = add_checks(consistency, dish.label, params, of_dish);
-    if (finding.fault != DishFault::slip || finding.verdict != Verdict::refused) continue;
-    if (consistency.slip_mm.norm() < params.hopeless_slip_mm) continue;
-    for (const Check& check : of_dish.items()) checks.add(check);
-    status = StatusCode::dish_moved;
+  const CamerasMatrix covariance =
+      covariance_of_cards(tray.views[0]->card().information, tray.views[1]->card().information);
+  std::array<SightedDish, kMaxPlacedDishes> sighted;
+  std::size_t count = 0;
+  for (std::size_t d = 0; d < geometry.dish_count; ++d) {
+    const DishOnTray& dish = geometry.dishes[d];
+    if (dish.candidates.size() != 1) continue;
+    std::array<DishPose, 2> about;
+    bool is_placed = true;
+    for (std::size_t v = 0; v < 2; ++v) {
+      DishOutlines outlines{};
+      outlines[v] = workspace.outlines[d][v].items();
+      PlacedDish placed;
+      is_placed =
+          is_placed && fit_dish_pose(outlines, cameras, focals_px, dish.candidates,
+                                     configuration.bundle.placement, workspace.bundle.placement, placed)
+                           .ok();
+      about[v] = as_described(placed.place, dish.candidates.front());
+    }
+    if (!is_placed) continue;
+    const Sightings sightings =
+        given_sightings(tray, workspace, configuration.checks.sighting, cameras, about, d);
+    if (!are_known(sightings)) continue;
+    sighted[count++] = {sightings, mean_size_mm(about[0]),
+                        is_round_dish(dish.candidates.front().outer_size_mm)};
   }
-  return status;
+  return find_own_motion(std::span(sighted).first(count), cameras, covariance, configuration.checks);
 }
 
 void check_dishes(const CheckedTray& tray, const SceneGeometryWorkspace& workspace,
@@ -126,9 +125,13 @@ void check_dishes(const CheckedTray& tray, const SceneGeometryWorkspace& workspa
   for (std::size_t d = 0; d < geometry.dish_count; ++d) {
     if (!bundle.dishes[d].status.ok()) continue;
     DishOnTray& dish = geometry.dishes[d];
-    const Sightings sightings = tray.found != nullptr
-                                    ? found_sightings(tray, dish.label)
-                                    : given_sightings(tray, workspace, params.sighting, geometry, d);
+    const PlacedDish& placed = bundle.dishes[d].placed;
+    const DishPose about =
+        as_described(placed.place, dish.candidates[static_cast<std::size_t>(placed.candidate)]);
+    const Sightings sightings =
+        tray.found != nullptr
+            ? found_sightings(tray, dish.label)
+            : given_sightings(tray, workspace, params.sighting, bundle.camera_from_table, {about, about}, d);
     if (!are_known(sightings)) continue;
     const DishConsistency consistency =
         compare_sightings(sightings, bundle.camera_from_table, covariance,

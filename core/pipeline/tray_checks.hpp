@@ -6,6 +6,7 @@
 
 #include "core/base/status.hpp"
 #include "core/dish/dish_consistency.hpp"
+#include "core/pipeline/own_motion.hpp"
 #include "core/pipeline/scene_geometry.hpp"
 #include "core/pipeline/segmentation.hpp"
 #include "core/quality/check.hpp"
@@ -20,9 +21,10 @@ struct CheckedTray {
   const Segmentation* found = nullptr;  // null: outlines were given
 };
 
-// Before anything is matched, by the card's place in each view alone: what moved so far that points would be
-// sought in vain. dish_moved or ok.
-Status check_standstill(const CheckedTray& tray, const Configuration& configuration, CheckList& checks);
+// Before anything is matched, with given outlines: how dishes moved against the card, by its place in each
+// view.
+OwnMotion find_own_motion(const CheckedTray& tray, SceneGeometryWorkspace& workspace,
+                          const Configuration& configuration, const SceneGeometry& geometry);
 
 // Once the cameras are known well. Adds the checks of each dish and raises warnings; a dish that fails one is
 // not measured: its verdict in `geometry` is dish_moved, scale_disagrees or card_lifted.

@@ -52,6 +52,17 @@ Status named(Status status, const SceneGeometry& geometry) {
   return status;
 }
 
+// Measured nevertheless, in the dishes' own frame.
+void report_own_motion(const SceneGeometry& geometry, Measurement& measurement) {
+  const OwnMotion& motion = geometry.own_motion;
+  if (!motion.is_known) return;
+  for (const DishOnTray& dish : std::span(geometry.dishes).first(geometry.dish_count)) {
+    measurement.checks.add({CheckKind::own_motion_mm, dish.label, motion.shift_mm.norm(),
+                            motion.shift_sigma_mm, 0.0, Verdict::warned});
+    measurement.warnings.raise(Warning::dish_moved, dish.label);
+  }
+}
+
 void warn_about_guessed_dishes(const SceneGeometry& geometry, WarningSet& warnings) {
   for (const DishOnTray& dish : std::span(geometry.dishes).first(geometry.dish_count))
     warnings.raise_if(dish.candidates.size() > 1, Warning::dish_guessed, dish.label);
@@ -75,8 +86,18 @@ void measure_tray(TrayMemory& memory, const Configuration& configuration, const 
   measurement.status = list_dishes(views, configuration, memory.geometry, geometry);
   if (!measurement.status.ok()) return;
   const CheckedTray checked{views, reversed, found};
-  measurement.status = check_standstill(checked, configuration, measurement.checks);
+  clock.enter(Stage::pose);
+  measurement.status = trace_outlines(views, configuration, memory.geometry, geometry);
   if (!measurement.status.ok()) return;
+  if (found == nullptr) {
+    geometry.own_motion = find_own_motion(checked, memory.geometry, configuration, geometry);
+  } else {
+    geometry.own_motion = reversed ? found->own_motion.reversed() : found->own_motion;
+  }
+  if (geometry.own_motion.is_too_far) {
+    measurement.status = StatusCode::dish_moved;
+    return;
+  }
   measurement.status =
       find_geometry(views, configuration, random, memory.geometry, clock, measurement.report, geometry);
   if (measurement.status.ok() || measurement.status.code() == StatusCode::pose_contradicts_card)
@@ -89,6 +110,7 @@ void measure_tray(TrayMemory& memory, const Configuration& configuration, const 
     observer->on_order(measurement.views.reference_view);
     observer->on_geometry(geometry.bundle, std::span(geometry.dishes).first(geometry.dish_count));
   }
+  report_own_motion(geometry, measurement);
   report_pose(geometry, reversed, measurement);
   warn_about_angles({measurement.relative_angle_deg, measurement.rotation_angle_deg, views[0]->arm_angle_deg,
                      views[1]->arm_angle_deg},

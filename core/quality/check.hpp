@@ -16,11 +16,12 @@ enum class CheckKind : std::uint8_t {
   dish_slip_mm,    // how far dish and card moved against each other between the pictures
   scale_percent,   // by how much the card's size would have to be wrong for the dish's to be right
   dish_height_mm,  // how far the dish's edge lies over where card and description put it
+  own_motion_mm,   // how far dishes slid over the table, which were measured all the same
   item_slip_mm,    // how far an item moved between the pictures, across the line between the cameras
   item_foot_mm,    // how high an item's edge came out over the dish; it does not lie below it
 };
 inline constexpr auto kCheckNames = std::to_array<const char*>(
-    {"dish_slip_mm", "scale_percent", "dish_height_mm", "item_slip_mm", "item_foot_mm"});
+    {"dish_slip_mm", "scale_percent", "dish_height_mm", "own_motion_mm", "item_slip_mm", "item_foot_mm"});
 inline const char* name(CheckKind kind) {
   return kCheckNames[static_cast<std::size_t>(kind)];
 }

@@ -43,7 +43,7 @@ namespace traygauge {
   CODE(dish_not_found, \
        "A dish was not found whole in both pictures, and its food is not measured; see traygauge " \
        "segment.") \
-  CODE(dish_moved, "Dish and reference card moved a little against each other between the pictures.") \
+  CODE(dish_moved, "Dish and reference card moved against each other between the pictures.") \
   CODE(scale_disagrees, \
        "Reference card and dish disagree about the scale; check the card's printed size, and the dish's " \
        "description.") \

@@ -63,6 +63,9 @@ struct PointTrackingParams {
   double pose_error_px = 0.1;
   double max_deviations = 4.0;
 
+  // False: what stands on the table moved over it, and the table's own corners tell of another motion.
+  bool follows_table = true;
+
   // An item of which hardly a corner is found may have moved by itself: so many of its corners are looked for
   // at quarter size, 15 mm off at 3 px a mm.
   int min_item_corners = 8;

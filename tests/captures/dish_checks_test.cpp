@@ -2,6 +2,7 @@
 // size or to lie higher. With outlines that are given and that are found.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -35,6 +36,7 @@ class DishChecks : public ::testing::TestWithParam<const char*> {
     write_text(folder / "capture.json", document.dump());
     return measure(folder);
   }
+  static json measure_with_moved_item(cv::Point offset_px);
   static std::set<std::string> codes(const json& document) {
     std::set<std::string> codes = {document.at("status").get<std::string>()};
     for (const json& warning : document.at("warnings")) codes.insert(warning.at("code").get<std::string>());
@@ -74,6 +76,17 @@ void slide_dish(test::FaultyView& view, cv::Point offset_px) {
   slide(view, offset_px, [](std::uint8_t label) { return label != kBackgroundLabel && label != kCardLabel; });
 }
 
+json DishChecks::measure_with_moved_item(cv::Point offset_px) {
+  test::FaultyCapture capture(kDemoCaptures / "fish_and_potatoes", {0, 1});
+  slide(capture.view(1), offset_px, [](std::uint8_t label) { return label == 2; });
+  return measure(capture.store());
+}
+
+std::ptrdiff_t count_moved(const json& document) {
+  return std::ranges::count_if(document.at("items"),
+                               [](const json& item) { return item.at("status") == "item_moved"; });
+}
+
 TEST_P(DishChecks, PassWhereNothingIsWrong) {
   for (const char* name : {"fish_and_potatoes", "mash_and_meatballs"}) {
     const json document = measure(kDemoCaptures / name);
@@ -92,33 +105,44 @@ TEST_P(DishChecks, PassWhereNothingIsWrong) {
   }
 }
 
-TEST_P(DishChecks, RefuseADishThatSlid) {
-  for (const cv::Point offset_px : {cv::Point(9, 3), cv::Point(-4, 12)}) {
-    SCOPED_TRACE(offset_px.x);
+// Pixels that are shifted alike are nearly a dish that slid. In its own frame it is measured; where that does
+// not work out, it is refused.
+TEST_P(DishChecks, MeasureOrRefuseADishThatSlid) {
+  constexpr double kTruthMl = 295.144;
+  int measured = 0;
+  for (const cv::Point offset_px : {cv::Point(9, 3), cv::Point(6, 0), cv::Point(-4, 12)}) {
+    SCOPED_TRACE(::testing::Message() << offset_px.x << " " << offset_px.y);
     test::FaultyCapture capture(kDemoCaptures / "fish_and_potatoes", {0, 1});
     slide_dish(capture.view(1), offset_px);
     const json document = measure(capture.store());
     // Outlines that were given contradict each other before the dish is looked at as a ruler.
-    const bool is_named = codes(document).contains("dish_moved");
     const std::set<std::string> others = {"pose_contradicts_card", "labels_inconsistent"};
-    EXPECT_TRUE(is_named || (GetParam() == std::string("given") && others.contains(document.at("status"))))
+    EXPECT_TRUE(codes(document).contains("dish_moved") ||
+                (GetParam() == std::string("given") && others.contains(document.at("status"))))
         << document;
-    for (const json& item : document.at("items")) EXPECT_TRUE(item.at("volume_ml").is_null()) << item;
+    if (document.at("status") != "ok") continue;
+    ++measured;
+    EXPECT_GT(value(document, "own_motion_mm"), 1.0);
+    double sum_ml = 0.0;
+    for (const json& item : document.at("items")) sum_ml += item.at("volume_ml").get<double>();
+    EXPECT_NEAR(sum_ml, kTruthMl, 0.1 * kTruthMl) << document;
   }
+  EXPECT_GE(measured, 1);
 }
 
-// By as little as hardly shows, and further than its points are sought at first.
+// By as little as hardly shows.
 TEST_P(DishChecks, LeaveOutAnItemThatMoved) {
-  for (const cv::Point offset_px : {cv::Point(3, 3), cv::Point(20, -12)}) {
-    SCOPED_TRACE(offset_px.x);
-    test::FaultyCapture capture(kDemoCaptures / "fish_and_potatoes", {0, 1});
-    slide(capture.view(1), offset_px, [](std::uint8_t label) { return label == 2; });
-    const json document = measure(capture.store());
-    EXPECT_EQ(document.at("status"), "partial") << document;
-    int moved = 0;
-    for (const json& item : document.at("items")) moved += item.at("status") == "item_moved" ? 1 : 0;
-    EXPECT_EQ(moved, 1) << document;
-  }
+  const json document = measure_with_moved_item({3, 3});
+  EXPECT_EQ(document.at("status"), "partial") << document;
+  EXPECT_EQ(count_moved(document), 1) << document;
+}
+
+// Further than its points are sought at first. Where outlines are found, it may look like one with what it
+// slid against.
+TEST_P(GivenDishChecks, LeaveOutAnItemThatMovedFar) {
+  const json document = measure_with_moved_item({20, -12});
+  EXPECT_EQ(document.at("status"), "partial") << document;
+  EXPECT_EQ(count_moved(document), 1) << document;
 }
 
 // Found outlines are sought where card and description put the rim: a scale that is off by some per cent
