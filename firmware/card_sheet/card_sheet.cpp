@@ -138,8 +138,8 @@ void write_steps(PagePen& pen, const SheetLayout& layout, double y_mm) {
 SheetLayout lay_out_sheet(const SheetPaper& paper) {
   constexpr double kMarginMm = 18.0;
   const double card_x_mm = 0.5 * (paper.width_mm - kCardWidthMm);
-  return {{0.5 * (paper.width_mm - kRulerMm), 45.0},
-          {0.5 * (paper.width_mm - kInchRulerMm), 58.0},
+  return {{0.5 * (paper.width_mm - kRulerMm), 43.0},
+          {0.5 * (paper.width_mm - kInchRulerMm), 55.0},
           {card_x_mm, 73.0},
           {card_x_mm, 146.0},
           kMarginMm,
