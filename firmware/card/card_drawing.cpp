@@ -52,8 +52,9 @@ CardShape draw_shape(Random& random, int reach) {
   return shape;
 }
 
-CardShape rectangle(int left, int top, int right, int bottom, bool is_ink) {
-  return {{{{left, top}, {right, top}, {right, bottom}, {left, bottom}}}, is_ink};
+CardShape rectangle(CardPoint corner, CardPoint size, bool is_ink) {
+  const CardPoint far{corner.x + size.x, corner.y + size.y};
+  return {{{corner, {far.x, corner.y}, far, {corner.x, far.y}}}, is_ink};
 }
 
 // What has been painted, 10 samples a millimetre.
@@ -115,10 +116,10 @@ constexpr int kDotUnits = 18;  // 2.5 mm high
 void write_id(const std::string& id, std::vector<CardShape>& shapes) {
   const int width = static_cast<int>(id.size()) * 6 * kDotUnits + kDotUnits;
   const int top = kCardHeightUnits - kFrameUnits - 9 * kDotUnits;
-  shapes.push_back(rectangle(kFrameUnits, top, kFrameUnits + width, kCardHeightUnits - kFrameUnits, false));
+  shapes.push_back(rectangle({kFrameUnits, top}, {width, 9 * kDotUnits}, false));
   for (std::size_t i = 0; i < id.size(); ++i) {
-    const auto glyph = std::find_if(kGlyphs.begin(), kGlyphs.end(),
-                                    [&](const Glyph& candidate) { return candidate.letter == id[i]; });
+    const auto* const glyph = std::find_if(kGlyphs.begin(), kGlyphs.end(),
+                                           [&](const Glyph& candidate) { return candidate.letter == id[i]; });
     const int left = kFrameUnits + kDotUnits + static_cast<int>(i) * 6 * kDotUnits;
     for (int row = 0; row < 7; ++row) {
       const unsigned bits = glyph->rows.at(static_cast<std::size_t>(row));
@@ -126,19 +127,19 @@ void write_id(const std::string& id, std::vector<CardShape>& shapes) {
       for (int column = 0; column < 5; ++column) {
         if ((bits >> static_cast<unsigned>(4 - column) & 1U) == 0) continue;
         const int x = left + column * kDotUnits;
-        shapes.push_back(rectangle(x, y, x + kDotUnits, y + kDotUnits, true));
+        shapes.push_back(rectangle({x, y}, {kDotUnits, kDotUnits}, true));
       }
     }
   }
 }
 
 void draw_frame(std::vector<CardShape>& shapes) {
-  constexpr int kWidth = kCardWidthUnits;
-  constexpr int kHeight = kCardHeightUnits;
-  shapes.push_back(rectangle(0, 0, kWidth, kFrameUnits, true));
-  shapes.push_back(rectangle(0, kHeight - kFrameUnits, kWidth, kHeight, true));
-  shapes.push_back(rectangle(0, 0, kFrameUnits, kHeight, true));
-  shapes.push_back(rectangle(kWidth - kFrameUnits, 0, kWidth, kHeight, true));
+  constexpr CardPoint kAcross{kCardWidthUnits, kFrameUnits};
+  constexpr CardPoint kDown{kFrameUnits, kCardHeightUnits};
+  shapes.push_back(rectangle({0, 0}, kAcross, true));
+  shapes.push_back(rectangle({0, kCardHeightUnits - kFrameUnits}, kAcross, true));
+  shapes.push_back(rectangle({0, 0}, kDown, true));
+  shapes.push_back(rectangle({kCardWidthUnits - kFrameUnits, 0}, kDown, true));
 }
 
 }  // namespace

@@ -25,7 +25,7 @@ std::vector<std::int32_t> card_sample_places(int samples, int extent_units) {
   std::vector<std::int32_t> places(static_cast<std::size_t>(samples));
   for (std::size_t i = 0; i < places.size(); ++i) {
     const std::int64_t doubled = (2 * static_cast<std::int64_t>(i) + 1) * extent_units * kPlacesPerUnit;
-    places[i] = static_cast<std::int32_t>(doubled / (2 * samples));
+    places[i] = static_cast<std::int32_t>(doubled / (2 * static_cast<std::int64_t>(samples)));
   }
   return places;
 }
@@ -49,7 +49,7 @@ void fill_card_row(const CardShape& shape, std::int32_t row_place, const std::ve
     const std::int64_t product = (row_place - kPlacesPerUnit * static_cast<std::int64_t>(a.y)) * (b.x - a.x);
     const std::int64_t height = b.y - a.y;
     const std::int64_t quotient = product / height - (product % height < 0 ? 1 : 0);  // rounded down
-    std::int64_t crossing = kPlacesPerUnit * a.x + quotient;
+    std::int64_t crossing = kPlacesPerUnit * static_cast<std::int64_t>(a.x) + quotient;
     for (std::size_t k = 0; k < count; ++k) {
       if (crossing < crossings[k]) std::swap(crossing, crossings[k]);
     }

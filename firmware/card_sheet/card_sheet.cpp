@@ -57,19 +57,29 @@ void draw_cut_marks(PagePen& pen, PagePoint corner) {
   }
 }
 
-// A tick for each `step_mm`; longer ones, with numbers, for each `steps_a_number` of them.
-void draw_ruler(PagePen& pen, PagePoint zero, int steps, double step_mm, int steps_a_number,
-                int units_a_number) {
-  pen.line(zero, moved(zero, steps * step_mm, 0.0), kTickMm);
-  for (int i = 0; i <= steps; ++i) {
-    const PagePoint at = moved(zero, i * step_mm, 0.0);
-    const bool has_number = i % steps_a_number == 0;
-    const double length_mm = has_number                                                              ? 4.0
-                             : 2.0 * i == i / steps_a_number * 2.0 * steps_a_number + steps_a_number ? 3.0
-                                                                                                     : 2.0;
-    pen.line(at, moved(at, 0.0, -length_mm), kTickMm);
-    if (has_number)
-      pen.write_centred(moved(at, 0.0, 3.2), std::to_string(i / steps_a_number * units_a_number), kSmall);
+struct RulerScale {
+  int ticks = 0;
+  double tick_mm = 0.0;
+  int ticks_a_number = 0;
+  int units_a_number = 0;
+};
+constexpr RulerScale kMillimetres{100, 1.0, 10, 10};
+constexpr RulerScale kInches{32, 25.4 / 8, 8, 1};
+
+// Long ticks have a number, middle ones stand half way between them.
+double tick_length_mm(int tick, const RulerScale& scale) {
+  if (tick % scale.ticks_a_number == 0) return 4.0;
+  return 2 * tick % scale.ticks_a_number == 0 ? 3.0 : 2.0;
+}
+
+void draw_ruler(PagePen& pen, PagePoint zero, const RulerScale& scale) {
+  pen.line(zero, moved(zero, scale.ticks * scale.tick_mm, 0.0), kTickMm);
+  for (int i = 0; i <= scale.ticks; ++i) {
+    const PagePoint at = moved(zero, i * scale.tick_mm, 0.0);
+    pen.line(at, moved(at, 0.0, -tick_length_mm(i, scale)), kTickMm);
+    if (i % scale.ticks_a_number != 0) continue;
+    const int number = i / scale.ticks_a_number * scale.units_a_number;
+    pen.write_centred(moved(at, 0.0, 3.2), std::to_string(number), kSmall);
   }
 }
 
@@ -150,10 +160,10 @@ void write_card_sheet(const std::filesystem::path& file, int pattern, const Shee
   const SheetLayout layout = lay_out_sheet(paper);
   PagePen pen(paper.width_mm, paper.height_mm, "Traygauge reference card " + card_id(pattern));
   write_headings(pen, layout, pattern);
-  draw_ruler(pen, layout.ruler, 100, 1.0, 10, 10);
+  draw_ruler(pen, layout.ruler, kMillimetres);
   pen.write(moved(layout.ruler, kRulerMm + 4.0, 0.0), "mm", kPlain, 20.0);
   if (paper.has_inches) {
-    draw_ruler(pen, layout.inch_ruler, 32, 25.4 / 8, 8, 1);
+    draw_ruler(pen, layout.inch_ruler, kInches);
     pen.write(moved(layout.inch_ruler, kInchRulerMm + 4.0, 0.0), "inches", kPlain, 20.0);
   }
   pen.write(moved(layout.front, 0.0, -8.0), "Front, for the upper side / Vorderseite, nach oben", kPlain,

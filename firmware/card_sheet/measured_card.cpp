@@ -37,8 +37,8 @@ struct PrintScale {
   }
 };
 
-PrintScale scale_of(double width_mm, double height_mm) {
-  return {width_mm / kCardWidthMm, height_mm / kCardHeightMm};
+PrintScale scale_of(const MeasuredCard& card) {
+  return {card.width_mm / kCardWidthMm, card.height_mm / kCardHeightMm};
 }
 
 std::string percent(double scale) {
@@ -67,15 +67,16 @@ std::vector<double> read_numbers(const std::string& text) {
 }
 
 // What explains a size that the card cannot have.
-std::string explain(double width_mm, double height_mm) {
+std::string explain(const MeasuredCard& card) {
   constexpr double kNear = 0.9;
-  const auto is_near = [&](double width, double height) {
-    return scale_of(width, height).lies_within(kNear, 1.0 / kNear);
+  const PrintScale scale = scale_of(card);
+  const PrintScale swapped{card.height_mm / kCardWidthMm, card.width_mm / kCardHeightMm};
+  const auto is_near = [&](const PrintScale& other, double unit_mm) {
+    return other.lies_within(kNear / unit_mm, 1.0 / (kNear * unit_mm));
   };
-  if (is_near(height_mm, width_mm)) return "the width comes first, along the longer side of the pattern";
-  if (is_near(10.0 * width_mm, 10.0 * height_mm)) return "these are centimetres; type millimetres";
-  if (is_near(25.4 * width_mm, 25.4 * height_mm)) return "these are inches; type millimetres";
-  const PrintScale scale = scale_of(width_mm, height_mm);
+  if (is_near(swapped, 1.0)) return "the width comes first, along the longer side of the pattern";
+  if (is_near(scale, 10.0)) return "these are centimetres; type millimetres";
+  if (is_near(scale, 25.4)) return "these are inches; type millimetres";
   if (!scale.lies_within(kLeastFit, kMostFit)) {
     return "expected about 85.60x53.98, the size of a credit card; " + std::string(kMeasureAgain);
   }
@@ -102,8 +103,7 @@ MeasuredCard read_measured_card(const std::string& text) {
     refuse(text, "expected WIDTHxHEIGHT or WIDTHxHEIGHTxTHICKNESS in mm, such as 85.4x53.9x1.0");
   }
   MeasuredCard card{numbers[0], numbers[1], {}};
-  if (!scale_of(card.width_mm, card.height_mm).lies_within(1.0 - kMaxScaleOff, 1.0 + kMaxScaleOff))
-    refuse(text, explain(card.width_mm, card.height_mm));
+  if (!scale_of(card).lies_within(1.0 - kMaxScaleOff, 1.0 + kMaxScaleOff)) refuse(text, explain(card));
   if (numbers.size() == 3) {
     if (numbers[2] < kThinnestMm || numbers[2] > kThickestMm) {
       refuse(text, "expected a thickness of 0.05 to 3 mm, about 1.0 for plastic with paper on both sides");
@@ -114,7 +114,7 @@ MeasuredCard read_measured_card(const std::string& text) {
 }
 
 std::string describe_print(const MeasuredCard& card) {
-  const PrintScale scale = scale_of(card.width_mm, card.height_mm);
+  const PrintScale scale = scale_of(card);
   std::string text = "The print is " + fixed(100.0 * scale.across, 1) + " % as wide and " +
                      fixed(100.0 * scale.down, 1) + " % as high as it was drawn";
   if (scale.stretch() > kMaxUnnoticedStretch) {

@@ -94,13 +94,12 @@ double PagePen::write(PagePoint at, const std::string& text, const PageText& sty
   std::istringstream words(text);
   std::string line;
   for (std::string word; words >> word;) {
-    const std::string longer = line.empty() ? word : line + " " + word;
-    if (!line.empty() && width_of(longer) > width_mm) {
-      show(line);
-      line = word;
-    } else {
-      line = longer;
-    }
+    const std::string before = line;
+    if (!line.empty()) line += ' ';
+    line += word;
+    if (before.empty() || width_of(line) <= width_mm) continue;
+    show(before);
+    line = word;
   }
   if (!line.empty()) show(line);
   return at.y_mm;

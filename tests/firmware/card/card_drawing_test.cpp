@@ -43,12 +43,17 @@ struct Place {
   std::int64_t y = 0;
 };
 
+Place place_of(const CardPoint& point) {
+  constexpr std::int64_t kPlaces = 16;
+  return {kPlaces * point.x, kPlaces * point.y};
+}
+
 // By the number of sides that a ray to the right crosses, exactly.
 bool is_inside(const CardShape& shape, const Place& place) {
   bool inside = false;
   for (std::size_t i = 0; i < 4; ++i) {
-    const Place a{16 * shape.corners[i].x, 16 * shape.corners[i].y};
-    const Place b{16 * shape.corners[(i + 1) % 4].x, 16 * shape.corners[(i + 1) % 4].y};
+    const Place a = place_of(shape.corners[i]);
+    const Place b = place_of(shape.corners[(i + 1) % 4]);
     if ((a.y > place.y) == (b.y > place.y)) continue;
     if (((place.x - a.x) * (b.y - a.y) < (place.y - a.y) * (b.x - a.x)) == (b.y > a.y)) inside = !inside;
   }
