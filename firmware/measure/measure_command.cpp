@@ -1,11 +1,8 @@
 #include "firmware/measure/measure_command.hpp"
 
-#include <array>
-#include <optional>
 #include <ostream>
 
 #include "firmware/base/exit_status.hpp"
-#include "firmware/card/known_cards.hpp"
 #include "firmware/command/program.hpp"
 #include "firmware/config/dish_choice.hpp"
 #include "firmware/config/profile.hpp"
@@ -13,22 +10,12 @@
 #include "firmware/measure/measure_choices.hpp"
 #include "firmware/measure/measure_report.hpp"
 #include "firmware/measure/mesh_file.hpp"
+#include "firmware/measure/missing_card.hpp"
 #include "firmware/measure/picture_sheet.hpp"
 #include "simulator/capture/png_writer.hpp"
 
 namespace traygauge {
 namespace {
-
-// Looks for another known card alone where the expected one was not found.
-std::string explain_missing_card(const CaptureSession& session) {
-  const PairSetup& setup = session.setup();
-  TraySetup tray;
-  describe_tray(setup, tray);
-  const std::array<CardSight, 2> sights{{{session.view(0).picture.frame(), session.lens(0)},
-                                         {session.view(1).picture.frame(), session.lens(1)}}};
-  const std::optional<int> other = find_other_card(sights, tray.card);
-  return other ? " " + tell_other_card(*other, tray.card, printable(setup.card.pattern.path.string())) : "";
-}
 
 MeasureReport compose_report(const MeasureOptions& options, const CaptureSession& session,
                              const std::array<int, 2>& pair, std::uint64_t seed,
@@ -38,9 +25,7 @@ MeasureReport compose_report(const MeasureOptions& options, const CaptureSession
   report.pair = pair;
   report.profile = name(choose_profile(options.profile));
   report.seed = seed;
-  report.message = compose_message(measurement);
-  if (measurement.status.code() == StatusCode::card_not_found)
-    report.message += explain_missing_card(session);
+  report.message = compose_message(measurement) + explain_missing_card(measurement.status.code(), session);
   report.measurement = &measurement;
   report.pictures = session.pictures();
   report.setup_ms = session.setup_ms();

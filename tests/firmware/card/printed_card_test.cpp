@@ -6,8 +6,10 @@
 #include <sstream>
 #include <string>
 
+#include "firmware/base/exit_status.hpp"
 #include "firmware/card/card_drawing.hpp"
 #include "firmware/measure/measure_command.hpp"
+#include "firmware/segment/segment_command.hpp"
 #include "simulator/capture/png_writer.hpp"
 #include "simulator/capture/truth.hpp"
 #include "simulator/scenes/capture_writer.hpp"
@@ -80,6 +82,11 @@ TEST_F(PrintedCard, MeasuresTraysAndNamesAnotherCard) {
           std::string::npos)
           << message;
     }
+    SegmentOptions options;
+    options.capture = capture.string();
+    std::ostringstream out;
+    EXPECT_EQ(run_segment(options, out), kExitNotMeasurable);
+    EXPECT_NE(out.str().find("Card " + card_id(number) + " lies there"), std::string::npos) << out.str();
   }
 }
 
