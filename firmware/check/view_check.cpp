@@ -1,10 +1,12 @@
 #include "firmware/check/view_check.hpp"
 
+#include <array>
 #include <cmath>
 #include <numbers>
 
 #include "firmware/base/text.hpp"
 #include "firmware/card/card_finder.hpp"
+#include "firmware/card/known_cards.hpp"
 
 namespace traygauge {
 namespace {
@@ -23,6 +25,9 @@ CheckResult check_card(const FrameView& picture, const LensModel& lens, const Re
             "The picture [card] pattern shows too little to recognise a card by; use another."};
   }
   if (!finder.find(picture, lens, found).ok()) {
+    const std::array<CardSight, 1> sights{{{picture, lens}}};
+    if (const auto other = find_other_card(sights, card))
+      return {"card", false, tell_other_card(*other, card, "[card] pattern")};
     return {
         "card", false,
         "The card is not in view, or not to be recognised; lay it flat beside the dish, printed side up, all "

@@ -1,6 +1,7 @@
 #include "firmware/command/command_line.hpp"
 
 #include <string>
+#include <vector>
 
 #include "firmware/check/check_command.hpp"
 #include "firmware/check/config_check.hpp"
@@ -44,6 +45,12 @@ void add_calibrate_command(Program& program) {
   command.take_nothing();
 }
 
+// The same.
+void add_card_command(Program& program) {
+  program.add_command("card", "Make the reference card to print, and read what a caliper says of it")
+      .take_nothing();
+}
+
 // The same: it holds no device, and nothing of the measurement.
 void add_hub_command(Program& program) {
   program.add_command("hub", "Store what stations measure").take_nothing();
@@ -62,6 +69,11 @@ int run_command(const Program& program, const Options& options, std::ostream& ou
   if (command == "config check") return run_config_check(options.config_check, out);
   if (command == "calibrate") {
     return run_sibling_program("traygauge-calibrate", program.remaining());
+  }
+  if (command == "card") {
+    std::vector<std::string> arguments = program.remaining();
+    arguments.insert(arguments.begin(), command);
+    return run_sibling_program("traygauge-card", arguments);
   }
   if (command == "hub") return run_sibling_program("traygauge-hub", {});
   if (command == "record") return run_record(options.record, stop_on_signals(), out, error);
@@ -91,6 +103,7 @@ int run_command_line(int argument_count, const char* const* arguments, std::ostr
   add_backup_command(program, options.backup);
   add_restore_command(program, options.restore);
   add_calibrate_command(program);
+  add_card_command(program);
   add_hub_command(program);
   const auto run = [&] { return run_command(program, options, out, error); };
   return program.run(argument_count, arguments, run, out, error);

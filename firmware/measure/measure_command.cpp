@@ -10,6 +10,7 @@
 #include "firmware/measure/measure_choices.hpp"
 #include "firmware/measure/measure_report.hpp"
 #include "firmware/measure/mesh_file.hpp"
+#include "firmware/measure/missing_card.hpp"
 #include "firmware/measure/picture_sheet.hpp"
 #include "simulator/capture/png_writer.hpp"
 
@@ -24,7 +25,7 @@ MeasureReport compose_report(const MeasureOptions& options, const CaptureSession
   report.pair = pair;
   report.profile = name(choose_profile(options.profile));
   report.seed = seed;
-  report.message = compose_message(measurement);
+  report.message = compose_message(measurement) + explain_missing_card(measurement.status.code(), session);
   report.measurement = &measurement;
   report.pictures = session.pictures();
   report.setup_ms = session.setup_ms();

@@ -11,6 +11,7 @@
 #include "firmware/measure/capture_session.hpp"
 #include "firmware/measure/drawing.hpp"
 #include "firmware/measure/measure_choices.hpp"
+#include "firmware/measure/missing_card.hpp"
 #include "firmware/measure/panels.hpp"
 #include "firmware/segment/segment_report.hpp"
 #include "simulator/capture/png_writer.hpp"
@@ -81,6 +82,8 @@ int run_segment(const SegmentOptions& options, std::ostream& out) {
   report.capture = options.capture;
   report.pair = pair;
   report.drawn = session.drawn();
+  const StatusCode status = report.drawn->segmentation.status.code();
+  report.message = sentence(status) + explain_missing_card(status, session);
   const auto& given = session.given_labels();
   if (!given[0].pixels.empty() && !given[1].pixels.empty()) {
     report.scores = {score_labels(report.drawn->labels[0], given[0]),

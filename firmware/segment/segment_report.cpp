@@ -62,7 +62,7 @@ std::string compose_segment_document(const SegmentReport& report) {
   document["capture"] = report.capture;
   document["pair"] = report.pair;
   document["status"] = name(segmentation.status.code());
-  document["message"] = sentence(segmentation.status.code());
+  document["message"] = report.message;
   document["cards"] = Json::array();
   for (const CardAlignment& card : segmentation.cards)
     document["cards"].push_back({{"correlation", number_or_null(card.correlation, card.correlation > 0.0)}});
@@ -91,8 +91,7 @@ std::string compose_segment_table(const SegmentReport& report) {
   };
   std::string text = line("capture", printable(report.capture) + ", views " + std::to_string(report.pair[0]) +
                                          " and " + std::to_string(report.pair[1]));
-  text += line("status",
-               std::string(name(segmentation.status.code())) + ": " + sentence(segmentation.status.code()));
+  text += line("status", std::string(name(segmentation.status.code())) + ": " + report.message);
   text += line("card", "print and pictures correlate by " + fixed(segmentation.cards[0].correlation, 3) +
                            " and " + fixed(segmentation.cards[1].correlation, 3) +
                            (segmentation.is_card_doubtful ? "; part of it is covered, or bent" : ""));

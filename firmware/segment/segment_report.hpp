@@ -13,6 +13,7 @@ namespace traygauge {
 struct SegmentReport {
   std::string capture;  // as named by the caller
   std::array<int, 2> pair{};
+  std::string message;
   const PairLabels* drawn = nullptr;  // outlives the report
   // Against the capture's own labels, where both views have them.
   std::optional<std::array<LabelScores, 2>> scores;

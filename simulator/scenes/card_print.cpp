@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "simulator/capture/picture_file.hpp"
 #include "simulator/scenes/colour.hpp"
 #include "simulator/scenes/draws.hpp"
 #include "simulator/scenes/noise.hpp"
@@ -148,8 +149,11 @@ void paint_text(cv::Mat& print, Draws& draws) {
 
 class CardMaterial : public Material {
  public:
-  CardMaterial(std::shared_ptr<const Picture> print, const Eigen::Isometry3d& card_from_world)
-      : print_(std::move(print)), card_from_world_(card_from_world.cast<float>()) {
+  CardMaterial(std::shared_ptr<const Picture> print, const Eigen::Vector2d& px_per_mm,
+               const Eigen::Isometry3d& card_from_world)
+      : print_(std::move(print)),
+        px_per_mm_(px_per_mm.cast<float>()),
+        card_from_world_(card_from_world.cast<float>()) {
     for (std::size_t i = 0; i < linear_.size(); ++i)
       linear_[i] = linear_colour(static_cast<std::uint32_t>(i) << 16U).x();
   }
@@ -165,9 +169,8 @@ class CardMaterial : public Material {
  private:
   // Bilinear between the centres of the print's pixels.
   Eigen::Vector3f printed(const Eigen::Vector3f& at) const {
-    constexpr auto kScale = static_cast<float>(kCardPrintPxPerMm);
-    const float u = kScale * at.x() - 0.5F;
-    const float v = kScale * at.y() - 0.5F;
+    const float u = px_per_mm_.x() * at.x() - 0.5F;
+    const float v = px_per_mm_.y() * at.y() - 0.5F;
     const float x = std::floor(u);
     const float y = std::floor(v);
     const int column = static_cast<int>(x);
@@ -184,6 +187,7 @@ class CardMaterial : public Material {
   }
 
   std::shared_ptr<const Picture> print_;
+  Eigen::Vector2f px_per_mm_;
   Eigen::Isometry3f card_from_world_;
   std::array<float, 256> linear_{};
 };
@@ -204,9 +208,25 @@ Picture print_card(double width_mm, double height_mm, std::uint64_t seed) {
   return picture;
 }
 
+Picture read_print(const std::filesystem::path& file) {
+  const Picture picture = read_picture({file, "card.print"});
+  cv::Mat stored(picture.size.height, picture.size.width,
+                 picture.format == PixelFormat::gray8 ? CV_8UC1 : CV_8UC3,
+                 const_cast<std::uint8_t*>(picture.pixels.data()));  // NOLINT: only read
+  Picture print(picture.size, PixelFormat::rgb8);
+  cv::Mat rgb(print.size.height, print.size.width, CV_8UC3, print.pixels.data());
+  if (picture.format == PixelFormat::rgb8) {
+    stored.copyTo(rgb);
+  } else {
+    cv::cvtColor(stored, rgb, picture.format == PixelFormat::gray8 ? cv::COLOR_GRAY2RGB : cv::COLOR_BGR2RGB);
+  }
+  return print;
+}
+
 std::shared_ptr<const Material> make_card_material(std::shared_ptr<const Picture> print,
+                                                   const Eigen::Vector2d& px_per_mm,
                                                    const Eigen::Isometry3d& card_from_world) {
-  return std::make_shared<CardMaterial>(std::move(print), card_from_world);
+  return std::make_shared<CardMaterial>(std::move(print), px_per_mm, card_from_world);
 }
 
 }  // namespace traygauge

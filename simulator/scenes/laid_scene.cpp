@@ -69,11 +69,16 @@ void LaidScene::add_dishes(int threads) {
 
 void LaidScene::add_card() {
   const LaidCard& card = description_.card;
-  print_ = std::make_shared<const Picture>(print_card(card.width_mm, card.height_mm, card.design));
+  print_ = std::make_shared<const Picture>(
+      card.print.empty() ? print_card(card.width_mm, card.height_mm, card.design) : read_print(card.print));
+  const Eigen::Vector2d px_per_mm =
+      card.print.empty()
+          ? Eigen::Vector2d::Constant(kCardPrintPxPerMm)
+          : Eigen::Vector2d(print_->size.width / card.width_mm, print_->size.height / card.height_mm);
   const Eigen::Isometry3d pose = world_from_card(card);
   SceneObject object{
       box_mesh({0.0, 0.0, 0.0}, {card.width_mm, card.height_mm, card.thickness_mm - kClearanceMm}),
-      make_card_material(print_, pose.inverse()), kSceneCardLabel};
+      make_card_material(print_, px_per_mm, pose.inverse()), kSceneCardLabel};
   transform(object.mesh, pose);
   scene_.objects.push_back(std::move(object));
 }

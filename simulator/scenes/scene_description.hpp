@@ -56,6 +56,7 @@ struct LaidCard {
   Eigen::Vector2d centre_mm = Eigen::Vector2d(170.0, 0.0);
   double rotation_deg = 0.0;  // of the print's width
   std::uint64_t design = 1;
+  std::filesystem::path print;  // a picture of the printed side, instead of a design; may be empty
 };
 
 struct Table {

@@ -5,6 +5,7 @@
 #include <type_traits>
 
 #include "simulator/capture/content_hash.hpp"
+#include "simulator/capture/picture_file.hpp"
 #include "simulator/scenes/mesh_reader.hpp"
 
 namespace traygauge {
@@ -87,8 +88,10 @@ class Digest {
     add(name, kind, dish, centre_mm, rotation_deg, size, seed, level_mm, scan);
   }
   void write(const LaidCard& card) {
-    const auto& [width_mm, height_mm, thickness_mm, centre_mm, rotation_deg, design] = card;
+    const auto& [width_mm, height_mm, thickness_mm, centre_mm, rotation_deg, design, print] = card;
     add(width_mm, height_mm, thickness_mm, centre_mm, rotation_deg, design);
+    // Captures whose card has a design keep the digest that they have.
+    if (!print.empty()) add(content_hash(to_gray(read_picture({print, ""})).pixels));
   }
   void write(const Table& table) {
     const auto& [kind, rotation_deg, seed] = table;

@@ -172,15 +172,16 @@ LaidFood read_food(const JsonNode& node, const SceneDescription& scene, const st
   return food;
 }
 
-void read_card(const JsonNode& node, LaidCard& card) {
-  const SceneTable table(node,
-                         {"width_mm", "height_mm", "thickness_mm", "centre_mm", "rotation_deg", "design"});
+void read_card(const JsonNode& node, const std::filesystem::path& folder, LaidCard& card) {
+  const SceneTable table(
+      node, {"width_mm", "height_mm", "thickness_mm", "centre_mm", "rotation_deg", "design", "print"});
   table.read("width_mm", card.width_mm, {20.0, 300.0});
   table.read("height_mm", card.height_mm, {20.0, 300.0});
   table.read("thickness_mm", card.thickness_mm, {0.05, 10.0});
   table.read("centre_mm", card.centre_mm, kPlaceMm);
   table.read("rotation_deg", card.rotation_deg, kAngleDeg);
   table.read("design", card.design);
+  if (const auto print = table.find("print")) card.print = folder / print->text();
 }
 
 Displacement read_displacement(const JsonNode& node) {
@@ -296,7 +297,7 @@ SceneDescription read_scene_file(const std::filesystem::path& file) {
     for (const JsonNode& food : foods->elements(0, kMaxFoods))
       scene.foods.push_back(read_food(food, scene, folder));
   }
-  if (const auto card = root.find("card")) read_card(*card, scene.card);
+  if (const auto card = root.find("card")) read_card(*card, folder, scene.card);
   read_surroundings(root, scene);
   for (const JsonNode& view : node.member("views").elements(1, kMaxViews))
     scene.views.push_back(read_view(view));

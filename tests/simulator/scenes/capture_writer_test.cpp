@@ -11,6 +11,7 @@
 
 #include "simulator/capture/capture.hpp"
 #include "simulator/capture/picture_file.hpp"
+#include "simulator/capture/png_writer.hpp"
 #include "simulator/capture/truth.hpp"
 #include "simulator/scenes/scene_parts.hpp"
 #include "simulator/scenes/scene_poses.hpp"
@@ -36,6 +37,42 @@ SceneDescription small_scene() {
   draw_lamps(scene, draws);
   draw_exposures(scene, draws);
   return scene;
+}
+
+// Mean grey value of the card in the first view.
+double card_brightness(const std::filesystem::path& capture) {
+  const LoadedView view = load_view(read_capture(capture).views[0]);
+  const Picture gray = to_gray(view.picture);
+  double sum = 0.0;
+  double count = 0.0;
+  for (std::size_t i = 0; i < gray.pixels.size(); ++i) {
+    if (view.labels.pixels[i] != kSceneCardLabel) continue;
+    sum += gray.pixels[i];
+    count += 1.0;
+  }
+  return sum / count;
+}
+
+TEST(CaptureWriter, CardShowsThePrintOfItsFile) {
+  const TemporaryFolder folder;
+  SceneDescription scene = small_scene();
+  scene.card.print = folder.path() / "print.png";
+  const auto print = [&](std::uint8_t gray) {
+    Picture picture({86, 54}, PixelFormat::gray8);
+    std::fill(picture.pixels.begin(), picture.pixels.end(), gray);
+    write_png(scene.card.print, picture.frame());
+    return picture;
+  };
+  const std::filesystem::path out = folder.path() / scene.name;
+  const Picture dark = print(40);
+  render_capture(scene, out, {}, [](double) {});
+  EXPECT_EQ(state_of_capture(out, scene, {}), CaptureState::complete);
+  EXPECT_EQ(load_pattern(read_capture(out).card).pixels, dark.pixels);
+  const double dark_brightness = card_brightness(out);
+  print(200);
+  EXPECT_EQ(state_of_capture(out, scene, {}), CaptureState::stale);
+  render_capture(scene, out, {}, [](double) {});
+  EXPECT_GT(card_brightness(out), 2.0 * dark_brightness);
 }
 
 TEST(CaptureWriter, WritesWhatTheReaderReads) {

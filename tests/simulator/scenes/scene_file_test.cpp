@@ -89,6 +89,11 @@ TEST_F(SceneFile, IsRead) {
   EXPECT_EQ(scene.views[1].motion_deg, Eigen::Vector3d(0.0, 0.2, 0.0));
 }
 
+TEST_F(SceneFile, PrintLiesBesideTheScene) {
+  EXPECT_TRUE(read(kScene).card.print.empty());
+  EXPECT_EQ(read(with("[card]", "[card]\nprint = \"card.png\"")).card.print, folder_.path() / "card.png");
+}
+
 TEST_F(SceneFile, NamesFileKeyAndWhatWasExpected) {
   struct Mistake {
     std::string text;
