@@ -86,6 +86,7 @@ void CaptureSession::check_inputs(const Capture& capture) {
                        "coefficients that hold up to the corners of the picture", "a lens that folds it over",
                        "calibrate the camera again, with corners near the edge of the picture");
     }
+    for (const InputWarning& warning : views_[i].warnings) warnings_.push_back({warning.code, warning.message});
     const std::string unknown = list_labels(views_[i].labels, is_meaningless);
     if (!unknown.empty()) {
       warnings_.push_back({"labels_without_meaning", printable(descriptions_[i]->labels->path.string()) +

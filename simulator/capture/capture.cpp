@@ -6,6 +6,7 @@
 
 #include "simulator/capture/json_file.hpp"
 #include "simulator/capture/json_node.hpp"
+#include "simulator/capture/label_specks.hpp"
 #include "simulator/capture/picture_file.hpp"
 
 namespace traygauge {
@@ -128,7 +129,10 @@ Capture read_capture(const std::filesystem::path& folder) {
 LoadedView load_view(const ViewDescription& view) {
   LoadedView loaded;
   loaded.picture = read_picture(view.image, view.camera.size);
-  if (view.labels) loaded.labels = read_label_picture(*view.labels, view.camera.size);
+  if (view.labels) {
+    loaded.labels = read_label_picture(*view.labels, view.camera.size);
+    ignore_specks(*view.labels, loaded.labels, loaded.warnings);
+  }
   return loaded;
 }
 

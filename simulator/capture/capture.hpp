@@ -10,6 +10,7 @@
 
 #include "simulator/capture/dish_description.hpp"
 #include "simulator/capture/input_error.hpp"
+#include "simulator/capture/input_warning.hpp"
 #include "simulator/capture/picture.hpp"
 
 namespace traygauge {
@@ -55,6 +56,7 @@ Capture read_capture(const std::filesystem::path& folder);
 struct LoadedView {
   Picture picture;
   Picture labels;
+  std::vector<InputWarning> warnings;
 };
 LoadedView load_view(const ViewDescription& view);
 

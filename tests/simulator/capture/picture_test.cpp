@@ -158,25 +158,6 @@ TEST(Picture, DamagedBytesNeverCrash) {
   EXPECT_GT(refused, 200) << "seed " << seed;
 }
 
-TEST(Labels, AreReadAsStored) {
-  const TemporaryCapture files;
-  const Picture labels = read_label_picture({files.file("labels_1.png"), ""}, kSize);
-  expect_equal(to_mat(labels), draw_labels(kSize.width, kSize.height), "labels");
-}
-
-TEST(Labels, OtherKindsAreRefused) {
-  const TemporaryCapture files;
-  const auto read = [&](const char* name) {
-    return [&, name] { read_label_picture({files.file(name), ""}, kSize); };
-  };
-  EXPECT_EQ(found_in(read("view_2.png")), "8-bit RGB");
-  EXPECT_EQ(found_in(read("view_0.jpg")), "bytes of another kind");
-  cv::imwrite(files.file("half.png").string(), draw_labels(160, 120));
-  EXPECT_EQ(found_in(read("half.png")), "160x120 pixels");
-  cv::imwrite(files.file("deep.png").string(), cv::Mat::zeros(240, 320, CV_16UC1));
-  EXPECT_EQ(found_in(read("deep.png")), "16-bit grey");
-}
-
 TEST(Depth, SixteenBitsEqualTheOracle) {
   const TemporaryFolder folder;
   const auto file = folder.path() / "depth.png";
