@@ -52,7 +52,7 @@ class CaptureSession {
   const std::vector<ReportedWarning>& warnings() const { return warnings_; }
 
  private:
-  void check_inputs(const Capture& capture);
+  void check_inputs();
   void build_estimators(const Capture& capture, const ProfileParameters& parameters, LabelSource labels);
   void find_labels();
   const Measurement& measure_found_labels(std::uint64_t seed);
