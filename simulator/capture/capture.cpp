@@ -207,7 +207,7 @@ LoadedView load_view(const ViewDescription& view) {
   loaded.warnings = view.warnings;
   const std::optional<PictureHeader> header = peek_header(view.image.path);
   require_camera_size(view, header);
-  loaded.picture = read_picture(view.image, view.camera.size);
+  loaded.picture = read_picture(view.image, view.camera.size, &loaded.warnings);
   if (view.labels) {
     require_label_size(view, header);
     loaded.labels = read_label_picture(*view.labels, view.camera.size);

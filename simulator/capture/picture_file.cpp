@@ -32,9 +32,10 @@ bool is_png(std::span<const std::uint8_t> bytes) {
   return starts_with(bytes, start);
 }
 
-Picture read_picture(const InputFile& file, std::optional<PictureSize> required) {
+Picture read_picture(const InputFile& file, std::optional<PictureSize> required,
+                     std::vector<InputWarning>* warnings) {
   const std::vector<std::uint8_t> bytes = read_bytes(file, kMaxPictureFileBytes, kPictures);
-  if (is_jpeg(bytes)) return decode_jpeg(file, bytes, required);
+  if (is_jpeg(bytes)) return decode_jpeg(file, bytes, required, warnings);
   if (is_png(bytes)) return decode_png(file, bytes, required);
   throw InputError(file, kPictures, bytes.empty() ? "an empty file" : "bytes of another kind",
                    "store the picture as .jpg or .png");

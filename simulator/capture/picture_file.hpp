@@ -5,14 +5,19 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "simulator/capture/input_error.hpp"
+#include "simulator/capture/input_warning.hpp"
 #include "simulator/capture/picture.hpp"
 
 namespace traygauge {
 
-// JPEG or PNG by its first bytes; grey or RGB. `required`: the camera's size, when it is known.
-Picture read_picture(const InputFile& file, std::optional<PictureSize> required = {});
+// JPEG or PNG by its first bytes; grey or RGB. `required`: the camera's size, when it is known. A JPEG that
+// misses its end marker alone, or has a few bytes too many before a marker, is read; `warnings`, where given,
+// get it.
+Picture read_picture(const InputFile& file, std::optional<PictureSize> required = {},
+                     std::vector<InputWarning>* warnings = nullptr);
 
 // PNG whose values are labels: grey, the indices of a palette, or colours of three equal channels; 16 bits
 // where no value is above 255. What is wholly transparent is background.
@@ -30,7 +35,7 @@ bool is_png(std::span<const std::uint8_t> bytes);
 
 // The decoders behind read_picture, for bytes that are in memory already.
 Picture decode_jpeg(const InputFile& file, std::span<const std::uint8_t> bytes,
-                    std::optional<PictureSize> required);
+                    std::optional<PictureSize> required, std::vector<InputWarning>* warnings = nullptr);
 Picture decode_png(const InputFile& file, std::span<const std::uint8_t> bytes,
                    std::optional<PictureSize> required);
 
