@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "firmware/measure/label_list.hpp"
+#include "firmware/measure/view_reduction.hpp"
 
 namespace traygauge {
 namespace {
@@ -34,12 +35,22 @@ CaptureSession::CaptureSession(const Capture& capture, std::array<int, 2> pair,
     : descriptions_{view_of(capture, pair[0]), view_of(capture, pair[1])},
       views_{load_view(*descriptions_[0]), load_view(*descriptions_[1])},
       setup_(set_up_pair(capture, pair, dishes)) {
+  reduce_large_views();
   check_inputs();
   if (labels == LabelSource::automatic) {
     for (std::size_t i = 0; i < 2; ++i) std::swap(given_labels_[i], views_[i].labels);
   }
   build_estimators(capture, parameters, labels);
   if (labels == LabelSource::automatic) find_labels();
+}
+
+void CaptureSession::reduce_large_views() {
+  for (std::size_t i = 0; i < 2; ++i) {
+    const int factor = reduction_of(views_[i].picture.size);
+    if (factor == 1) continue;
+    reduce_view(views_[i], factor);
+    setup_.lenses[i] = lens_of(reduced(descriptions_[i]->camera, factor));
+  }
 }
 
 void CaptureSession::build_estimators(const Capture& capture, const ProfileParameters& parameters,
