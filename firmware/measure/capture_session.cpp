@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <utility>
 
+#include "firmware/measure/card_outlines.hpp"
 #include "firmware/measure/label_list.hpp"
 #include "firmware/measure/view_reduction.hpp"
 
@@ -39,6 +40,8 @@ CaptureSession::CaptureSession(const Capture& capture, std::array<int, 2> pair,
   check_inputs();
   if (labels == LabelSource::automatic) {
     for (std::size_t i = 0; i < 2; ++i) std::swap(given_labels_[i], views_[i].labels);
+  } else {
+    outline_missing_cards(setup_, descriptions_, views_, warnings_);
   }
   build_estimators(capture, parameters, labels);
   if (labels == LabelSource::automatic) find_labels();
