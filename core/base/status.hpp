@@ -28,6 +28,9 @@ namespace traygauge {
        "The picture is almost black; check the light, the lens cap and the exposure.") \
   CODE(frame_too_bright, "The picture is burnt out; lower the exposure or remove the glare.") \
   CODE(no_dish_label, "No pixel is labelled as dish; outline the dish in both views.") \
+  CODE(no_card_label, \
+       "No pixel is labelled as reference card (255); outline the card in both views, or leave the labels " \
+       "out.") \
   CODE(no_food_label, "No food item is labelled in both views; outline at least one item.") \
   CODE(too_many_dishes, "More than eight dishes are labelled; measure the tray in parts.") \
   CODE(dish_cut_off, "The dish is cut off by the edge of the picture; move it into the middle.") \

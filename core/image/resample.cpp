@@ -26,17 +26,18 @@ Vec2 frame_position(const LensModel& lens, const PinholeCamera& camera, const Ve
 // As frame_position, for kLensRun pixels in single precision, written to vectorise.
 void compute_positions(const LensModel& lens, const PinholeCamera& camera, int left, int row,
                        PositionBlock& block) {
-  const LensLanes lanes(lens);
   const Vec2 first = camera.ray({static_cast<double>(left), static_cast<double>(row)});
   const auto first_x = static_cast<float>(first.x());
   const auto step_x = static_cast<float>(1.0 / camera.fx_px);
   const auto y = static_cast<float>(first.y());
-  for (int i = 0; i < kLensRun; ++i) {
-    const auto index = static_cast<std::size_t>(i);
-    const LensLanes::Pixel pixel = lanes.pixel(first_x + step_x * static_cast<float>(i), y);
-    block.x[index] = pixel.x;
-    block.y[index] = pixel.y;
-  }
+  with_lens_lanes(lens, [&](const auto& lanes) {
+    for (int i = 0; i < kLensRun; ++i) {
+      const auto index = static_cast<std::size_t>(i);
+      const LensLanes::Pixel pixel = lanes.pixel(first_x + step_x * static_cast<float>(i), y);
+      block.x[index] = pixel.x;
+      block.y[index] = pixel.y;
+    }
+  });
 }
 
 // Offsets of the samples of a target pixel, in the frame.

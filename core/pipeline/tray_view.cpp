@@ -48,6 +48,7 @@ Status prepare_labelled_view(const GivenPicture& picture, const Configuration& c
     view.card_storage.front() = *picture.card;
     return StatusCode::ok;
   }
+  if (view.regions().card.empty()) return StatusCode::no_card_label;
   const Result<CardAlignment> aligned = align_card(gray, view.labels, view.regions().card, view.lens, pattern,
                                                    configuration.card_alignment, workspace.card);
   if (aligned.ok()) view.card_storage.front() = *aligned;

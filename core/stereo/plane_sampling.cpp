@@ -34,18 +34,19 @@ CameraRow row_in_camera(const PlaneRow& row, const Pose& camera_from_table, doub
 
 // In single precision, written to vectorise.
 void compute_positions(const LensModel& lens, const CameraRow& row, int left, Positions& positions) {
-  const LensLanes lanes(lens);
   const Eigen::Vector3f first = (row.origin + left * row.step).cast<float>();
   const Eigen::Vector3f step = row.step.cast<float>();
-  for (int i = 0; i < kLensRun; ++i) {
-    const auto at = static_cast<std::size_t>(i);
-    const auto offset = static_cast<float>(i);
-    const float inverse = 1.0F / (first.z() + offset * step.z());
-    const LensLanes::Pixel pixel =
-        lanes.pixel((first.x() + offset * step.x()) * inverse, (first.y() + offset * step.y()) * inverse);
-    positions.x[at] = pixel.x;
-    positions.y[at] = pixel.y;
-  }
+  with_lens_lanes(lens, [&](const auto& lanes) {
+    for (int i = 0; i < kLensRun; ++i) {
+      const auto at = static_cast<std::size_t>(i);
+      const auto offset = static_cast<float>(i);
+      const float inverse = 1.0F / (first.z() + offset * step.z());
+      const LensLanes::Pixel pixel =
+          lanes.pixel((first.x() + offset * step.x()) * inverse, (first.y() + offset * step.y()) * inverse);
+      positions.x[at] = pixel.x;
+      positions.y[at] = pixel.y;
+    }
+  });
 }
 
 // Offsets of the picture samples that are averaged for one of the grid.

@@ -24,7 +24,12 @@ FrameConverter::FrameConverter(const RawFormat& format, int width, int height, s
 bool FrameConverter::is_whole(std::span<const std::uint8_t> bytes) {
   problem_ = {};
   if (format_.encoding == RawEncoding::mjpeg) {
-    if (jpeg_length(bytes) == 0) problem_ = "a JPEG picture without its beginning or end";
+    const JpegExtent extent = find_jpeg(bytes);
+    if (extent.length == 0) {
+      problem_ = "a JPEG picture without its beginning";
+    } else if (!extent.has_end && !jpeg_->mean_grey(bytes.first(extent.length))) {
+      problem_ = "a JPEG picture without its end";
+    }
   } else if (bytes.size() < frame_bytes(format_, width_, height_, stride_bytes_)) {
     problem_ = "a picture with rows missing";
   }
@@ -44,7 +49,7 @@ bool FrameConverter::convert(std::span<const std::uint8_t> bytes, std::uint8_t* 
       convert_bayer(format_, frame, scratch_, out);
       break;
     case RawEncoding::mjpeg:
-      if (jpeg_->decode(bytes.first(jpeg_length(bytes)), width_, height_, out)) break;
+      if (jpeg_->decode(bytes.first(find_jpeg(bytes).length), width_, height_, out)) break;
       problem_ = jpeg_->problem();
       return false;
     case RawEncoding::grey:
@@ -74,7 +79,7 @@ FrameConverter::Samples FrameConverter::samples_at(std::span<const std::uint8_t>
 }
 
 std::optional<double> FrameConverter::brightness(std::span<const std::uint8_t> bytes) {
-  if (jpeg_) return jpeg_->mean_grey(bytes.first(jpeg_length(bytes)));
+  if (jpeg_) return jpeg_->mean_grey(bytes.first(find_jpeg(bytes).length));
   const std::size_t step = format_.encoding == RawEncoding::yuyv ? 2 : 1;
   double sum = 0.0;
   double count = 0.0;
@@ -91,7 +96,7 @@ std::optional<double> FrameConverter::brightness(std::span<const std::uint8_t> b
 
 // Differences between neighbours of one colour, squared.
 double FrameConverter::sharpness(std::span<const std::uint8_t> bytes) {
-  if (format_.encoding == RawEncoding::mjpeg) return static_cast<double>(jpeg_length(bytes));
+  if (format_.encoding == RawEncoding::mjpeg) return static_cast<double>(find_jpeg(bytes).length);
   double sum = 0.0;
   for (int y = 0; y < height_; y += kRowStep) {
     const auto [first, count, step] = samples_at(bytes, y);

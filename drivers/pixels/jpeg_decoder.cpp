@@ -5,11 +5,12 @@
 #include <cstdio>  // jpeglib.h needs FILE
 // jpeglib.h relies on the two above.
 #include <jpeglib.h>
-// and this on the one before.
-#include <jerror.h>
 
 #include <algorithm>
 #include <array>
+#include <cstring>
+
+#include "drivers/pixels/jpeg_warning.hpp"
 
 namespace traygauge {
 namespace {
@@ -20,14 +21,35 @@ constexpr std::uint8_t kEnd = 0xD9;
 constexpr std::size_t kMaxSide = 65'536;
 constexpr int kRowsAtOnce = 16;  // what the library decodes at once when colours have half the resolution
 
+// Codes that no length follows: a 0xFF among the pixels' data, and what stands between these.
+bool stands_alone(std::uint8_t code) {
+  constexpr std::uint8_t first_restart = 0xD0;
+  return code == 0 || code == 1 || (code >= first_restart && code <= kStart);
+}
+
 }  // namespace
 
-std::size_t jpeg_length(std::span<const std::uint8_t> bytes) {
-  if (bytes.size() < 4 || bytes[0] != kMarker || bytes[1] != kStart) return 0;
+JpegExtent find_jpeg(std::span<const std::uint8_t> bytes) {
+  if (bytes.size() < 4 || bytes[0] != kMarker || bytes[1] != kStart) return {};
+  std::size_t at = 2;
+  while (at + 1 < bytes.size()) {
+    const void* const found = std::memchr(&bytes[at], kMarker, bytes.size() - at - 1);
+    if (found == nullptr) break;
+    at = static_cast<std::size_t>(static_cast<const std::uint8_t*>(found) - bytes.data());
+    const std::uint8_t code = bytes[at + 1];
+    if (code == kEnd) return {at + 2, true};
+    if (code == kMarker) {  // padding before a marker
+      ++at;
+    } else if (stands_alone(code) || at + 3 >= bytes.size()) {
+      at += 2;
+    } else {
+      at += 2 + std::size_t{bytes[at + 2]} * 256 + bytes[at + 3];  // a thumbnail in it has an end of its own
+    }
+  }
   // Cameras pad with zeros up to a transfer's size, some with 0xFF.
   std::size_t length = bytes.size();
   while (length > 2 && (bytes[length - 1] == 0 || bytes[length - 1] == kMarker)) --length;
-  return bytes[length - 2] == kMarker && bytes[length - 1] == kEnd ? length : 0;
+  return {length, false};
 }
 
 // libjpeg reports by leaving through longjmp, so no object with a destructor is born below setjmp.
@@ -45,7 +67,7 @@ struct JpegDecoder::State {
     errors.error_exit = [](j_common_ptr common) { of(common).leave(); };
     errors.emit_message = [](j_common_ptr common, int level) {
       // Damaged data is a warning to the library, which invents the rest.
-      if (level < 0 && !is_harmless(*common->err)) of(common).leave();
+      if (level < 0 && judge_jpeg_warning(*common->err) == JpegWarning::damage) of(common).leave();
     };
     errors.output_message = [](j_common_ptr) {};
     jpeg_create_decompress(&library);
@@ -53,13 +75,6 @@ struct JpegDecoder::State {
   State(const State&) = delete;
   State& operator=(const State&) = delete;
   ~State() { jpeg_destroy_decompress(&library); }
-
-  // Several cameras send a few bytes too many before a marker, in every picture; many are left over where
-  // others are missing.
-  static bool is_harmless(const jpeg_error_mgr& warning) {
-    constexpr int kMostBytes = 16;
-    return warning.msg_code == JWRN_EXTRANEOUS_DATA && warning.msg_parm.i[0] <= kMostBytes;
-  }
 
   [[noreturn]] void leave() {
     errors.format_message(reinterpret_cast<j_common_ptr>(&library), message.data());

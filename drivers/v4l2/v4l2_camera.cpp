@@ -69,6 +69,14 @@ void V4l2Camera::set_rate() {
 
 DeviceStatus V4l2Camera::start_stream() {
   const DeviceStatus status = stream_.start(kBuffers);
+  if (status.error_number() == ENOSPC) {
+    return fail(
+        DeviceCode::unsupported,
+        "the USB bus has too little room left for pictures of " + describe_wish(params_.mode) + " from " +
+            node_ +
+            "; plug the camera into a port of another USB controller than other cameras, no hub between, "
+            "or set format = \"MJPEG\", smaller pictures or fewer frames_per_s");
+  }
   if (status.error_number() != EPIPE) return status;
   return fail({DeviceCode::unsupported, EPIPE},
               "the parts behind " + node_ +

@@ -19,6 +19,7 @@ v4l2_buffer describe(std::uint32_t index) {
 }  // namespace
 
 DeviceStatus VideoStream::start(int count) {
+  last_stamp_.reset();
   DeviceStatus status = map_buffers(count);
   for (std::uint32_t i = 0; status.ok() && i < buffers_.size(); ++i) status = queue(i);
   if (status.ok()) {
@@ -72,6 +73,13 @@ DeviceStatus VideoStream::give_back(const FilledBuffer& buffer) {
   return queue(buffer.index);
 }
 
+std::optional<Instant> VideoStream::believe(Instant stamp) {
+  const bool moves = stamp != Instant() && (!last_stamp_ || stamp > *last_stamp_);
+  if (!moves) return std::nullopt;
+  last_stamp_ = stamp;
+  return stamp;
+}
+
 DeviceStatus VideoStream::take(Nanoseconds timeout, FilledBuffer& filled) {
   bool has_news = false;
   if (const int error = device_.wait(timeout, has_news); error != 0) return status_of_errno(error);
@@ -87,8 +95,8 @@ DeviceStatus VideoStream::take(Nanoseconds timeout, FilledBuffer& filled) {
   filled.sequence = buffer.sequence;
   filled.stamped_at.reset();
   if ((buffer.flags & V4L2_BUF_FLAG_TIMESTAMP_MASK) == V4L2_BUF_FLAG_TIMESTAMP_MONOTONIC) {
-    filled.stamped_at = Instant(std::chrono::seconds(buffer.timestamp.tv_sec) +
-                                std::chrono::microseconds(buffer.timestamp.tv_usec));
+    filled.stamped_at = believe(Instant(std::chrono::seconds(buffer.timestamp.tv_sec) +
+                                        std::chrono::microseconds(buffer.timestamp.tv_usec)));
   }
   filled.is_stamped_at_start = (buffer.flags & V4L2_BUF_FLAG_TSTAMP_SRC_MASK) == V4L2_BUF_FLAG_TSTAMP_SRC_SOE;
   filled.is_damaged = (buffer.flags & V4L2_BUF_FLAG_ERROR) != 0;

@@ -36,16 +36,20 @@ class VideoStream {
   int buffer_count() const { return static_cast<int>(buffers_.size()); }
 
   // A filled buffer, waiting at most `timeout`: timed_out when there was none, which may be earlier.
-  DeviceStatus take(Nanoseconds timeout, FilledBuffer& buffer);
+  DeviceStatus take(Nanoseconds timeout, FilledBuffer& filled);
   DeviceStatus give_back(const FilledBuffer& buffer);
 
  private:
   DeviceStatus map_buffers(int count);
   DeviceStatus queue(std::uint32_t index);
+  // Nothing for a stamp of zero, or one that does not move: some drivers say that they stamp frames, and do
+  // not.
+  std::optional<Instant> believe(Instant stamp);
 
   VideoDevice& device_;
   std::vector<std::span<std::uint8_t>> buffers_;
   bool is_streaming_ = false;
+  std::optional<Instant> last_stamp_;  // believed, since the start
 };
 
 }  // namespace traygauge

@@ -43,6 +43,7 @@ Status CardFinder::find(const FrameView& frame, const LensModel& lens, CardAlign
   convert_to_gray(frame, gray);
   const Result<CardAlignment> found = locate_card(gray, labels, lens, params_, memory_.card);
   if (found.ok()) card = *found;
+  outline_ = labels;
   return found.status();
 }
 

@@ -25,6 +25,9 @@ class CardFinder {
   // frame_size_mismatch with the lens or the memory; card_not_found.
   Status find(const FrameView& frame, const LensModel& lens, CardAlignment& card);
 
+  // Where the last card that was found lies in its picture: kCardLabel, on background. Until the next find().
+  ImageView<const std::uint8_t> outline() const { return outline_; }
+
   // Of the print, in the table's frame.
   Vec3 card_centre_mm() const {
     const CardModelSize& size = memory_.card.pattern.size;
@@ -42,6 +45,7 @@ class CardFinder {
   };
   CardLocationParams params_;
   Memory memory_;
+  ImageView<const std::uint8_t> outline_;
   std::optional<AlignedBlock> block_;  // where nothing is lent
 };
 

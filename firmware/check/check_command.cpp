@@ -7,8 +7,10 @@
 #include "firmware/check/device_check.hpp"
 #include "firmware/check/view_check.hpp"
 #include "firmware/command/program.hpp"
+#include "firmware/config/dish_choice.hpp"
 #include "firmware/measure/pair_setup.hpp"
 #include "firmware/station/hardware.hpp"
+#include "firmware/station/site_scene.hpp"
 #include "simulator/capture/picture_file.hpp"
 
 namespace traygauge {
@@ -93,6 +95,20 @@ CheckResult try_geometry(const StationFile& station, Picture& pattern) {
   return result;
 }
 
+// What the station reads beside: dishes, and labels where there are any.
+CheckResult try_trays(const StationFile& station, bool knows_geometry) {
+  CheckResult result{"trays", true, "dishes"};
+  try {
+    const std::vector<DishDescription> library = read_station_dishes(station.file);
+    for (const DishDescription& dish : choose_tray_dishes(station, library)) result.text += " " + dish.style;
+    if (knows_geometry) const SiteScene scene(station, library);
+  } catch (const InputError& error) {
+    result.is_good = false;
+    result.text = error.what();
+  }
+  return result;
+}
+
 class StationCheck {
  public:
   StationCheck(const CheckOptions& options, std::ostream& out)
@@ -100,6 +116,7 @@ class StationCheck {
 
   bool run() {
     knows_geometry_ = tell(try_geometry(station_, pattern_));
+    tell(try_trays(station_, knows_geometry_));
     const bool arm_works = !station_.arm || tell(try_homing(*hardware_.arm(), longest_move(*station_.arm)));
     const auto first = look(hardware_.camera(), station_.camera, station_.lens, "lens");
     if (station_.second_camera) {

@@ -1,14 +1,21 @@
 #include "firmware/command/program.hpp"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <exception>
 #include <new>
 #include <ostream>
 
 #include "firmware/base/exit_status.hpp"
+#include "firmware/command/similar_word.hpp"
 #include "simulator/capture/input_error.hpp"
 
 namespace traygauge {
+namespace {
+
+constexpr const char* kNotWritten = "the result could not be written to standard output";
+
+}  // namespace
 
 CommandOption& CommandOption::required() {
   option_->required();
@@ -128,15 +135,46 @@ int Program::run(int argument_count, const char* const* arguments, const std::fu
     app_->parse(argument_count, arguments);
     const int status = action();
     out.flush();
-    return out ? status : fail("the result could not be written to standard output");
+    return out ? status : fail(kNotWritten);
   } catch (const CLI::ParseError& problem) {
-    if (problem.get_exit_code() == 0) return app_->exit(problem, out, error);  // --help, --version
+    if (problem.get_exit_code() == 0) {  // --help, --version
+      const int status = app_->exit(problem, out, error);
+      out.flush();
+      return out ? status : fail(kNotWritten);
+    }
+    if (const std::string unknown = name_unknown_command(argument_count, arguments); !unknown.empty())
+      return fail(unknown);
     return fail(std::string(problem.what()) + "; see " + app_->get_name() + " --help");
   } catch (const std::bad_alloc&) {
     return fail("too little memory for pictures of this size; see traygauge memory");
   } catch (const std::exception& problem) {  // UsageError, InputError, OutputError
     return fail(problem.what());
   }
+}
+
+// A word where a command is due, and what may have been meant; empty where every such word is one.
+std::string Program::name_unknown_command(int argument_count, const char* const* arguments) const {
+  const auto commands_of = [](const CLI::App* app) {
+    return app->get_subcommands([](const CLI::App*) { return true; });
+  };
+  std::vector<const CLI::App*> commands = commands_of(app_.get());
+  int at = 1;
+  for (; at < argument_count; ++at) {
+    const auto typed = std::find_if(commands.begin(), commands.end(), [&](const CLI::App* command) {
+      return command->get_name() == arguments[at];
+    });
+    if (typed == commands.end()) break;
+    commands = commands_of(*typed);
+  }
+  if (commands.empty() || at == argument_count || arguments[at][0] == '-') return {};
+  std::vector<std::string> names;
+  for (const CLI::App* const command : commands) names.push_back(command->get_name());
+  const std::string word = arguments[at];
+  if (const std::string meant = find_similar(word, names); !meant.empty())
+    return "Unknown command " + word + ": did you mean " + meant + "?";
+  std::string list;
+  for (const std::string& name : names) list += (list.empty() ? "" : ", ") + name;
+  return "Unknown command " + word + ": expected one of " + list;
 }
 
 std::string Program::chosen() const {

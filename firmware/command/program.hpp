@@ -90,6 +90,8 @@ class Program {
   std::vector<std::string> remaining() const;
 
  private:
+  std::string name_unknown_command(int argument_count, const char* const* arguments) const;
+
   std::unique_ptr<CLI::App> app_;
 };
 

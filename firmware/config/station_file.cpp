@@ -9,6 +9,7 @@
 #include "drivers/v4l2/device_finder.hpp"
 #include "drivers/v4l2/video_modes.hpp"
 #include "firmware/base/text.hpp"
+#include "firmware/config/lens_table.hpp"
 #include "simulator/capture/json_node.hpp"
 #include "simulator/capture/toml_file.hpp"
 
@@ -20,7 +21,6 @@ namespace fs = std::filesystem;
 constexpr std::size_t kMaxFileBytes = std::size_t{1} << 16U;
 constexpr std::size_t kMaxLamps = 32;
 constexpr int kMaxControl = 10'000'000;
-constexpr double kMaxFocalPx = 1e6;
 constexpr double kLeastTurnDeg = 1.0;  // less is no second view
 
 template <std::size_t N>
@@ -74,16 +74,6 @@ ControlWish read_control(const JsonNode& node) {
   if (text == "hold") return {ControlWish::Kind::hold, 0};
   if (text == "leave") return {ControlWish::Kind::leave, 0};
   node.fail(R"(a whole number, "hold" or "leave")", "correct the value");
-}
-
-// A day, as TOML's dates are written, but in quotes.
-std::string read_day(const JsonNode& node) {
-  std::string day = node.text();
-  bool is_day = day.size() == 10 && day[4] == '-' && day[7] == '-';
-  for (std::size_t i = 0; is_day && i < day.size(); ++i)
-    is_day = i == 4 || i == 7 || (day[i] >= '0' && day[i] <= '9');
-  if (!is_day) node.fail("a day such as \"2025-01-31\"", "correct the value");
-  return day;
 }
 
 V4l2CameraParams read_camera(const JsonNode& table) {
@@ -237,27 +227,6 @@ ArmConfig read_arm(const JsonNode& table) {
   return arm;
 }
 
-// `camera`: the table of the camera that has the lens.
-LensConfig read_lens(const JsonNode& table, const JsonNode& camera_table, const V4l2CameraParams& camera) {
-  expect(table,
-         {"width", "height", "fx", "fy", "cx", "cy", "distortion", "focus", "camera", "calibrated_on"});
-  LensConfig lens;
-  lens.camera.size = {camera.mode.width, camera.mode.height};
-  take(table, "width", kMinPictureSide, kMaxPictureSide, lens.camera.size.width);
-  take(table, "height", kMinPictureSide, kMaxPictureSide, lens.camera.size.height);
-  lens.camera.fx_px = table.member("fx").positive_number(kMaxFocalPx);
-  lens.camera.fy_px = table.member("fy").positive_number(kMaxFocalPx);
-  lens.camera.cx_px = table.member("cx").number({0.0, lens.camera.size.width - 1.0});
-  lens.camera.cy_px = table.member("cy").number({0.0, lens.camera.size.height - 1.0});
-  const auto distortion = table.member("distortion").numbers(5, {-1e3, 1e3});
-  std::copy(distortion.begin(), distortion.end(), lens.camera.distortion.begin());
-  if (const auto focus = table.find("focus")) lens.focus = focus->integer(-kMaxControl, kMaxControl);
-  if (const auto name = table.find("camera")) lens.calibrated_camera = name->text();
-  if (const auto day = table.find("calibrated_on")) lens.calibrated_on = read_day(*day);
-  if (const auto day = camera_table.find("lens_changed_on")) lens.changed_on = read_day(*day);
-  return lens;
-}
-
 ArmGeometry read_arm_geometry(const JsonNode& table) {
   expect(table, {"commanded_deg", "turn_deg", "shift_mm"});
   ArmGeometry geometry;
@@ -324,7 +293,7 @@ StationFile read_station_file(const fs::path& file, const fs::path& content) {
   if (const auto arm = root.find("arm")) station.arm = read_arm(*arm);
   if (const auto geometry = root.find("arm_geometry")) station.arm_geometry = read_arm_geometry(*geometry);
   if (const auto lens = root.find("lens"))
-    station.lens = read_lens(*lens, root.member("camera"), station.camera);
+    station.lens = read_lens_table(*lens, root.member("camera"), station.camera, folder);
   if (const auto second = root.find("second_camera")) {
     station.second_camera = read_camera(*second);
     if (station.arm) second->fail("either an arm or a second camera", "remove one of the two");
@@ -332,7 +301,7 @@ StationFile read_station_file(const fs::path& file, const fs::path& content) {
       second->member("device").fail("another camera than the first", "correct one of the two");
     }
     if (const auto lens = root.find("second_lens"))
-      station.second_lens = read_lens(*lens, *second, *station.second_camera);
+      station.second_lens = read_lens_table(*lens, *second, *station.second_camera, folder);
   }
   if (const auto card = root.find("card")) station.card = read_card(*card, folder);
   if (const auto trays = root.find("trays")) read_trays(*trays, folder, station);

@@ -55,7 +55,7 @@ std::string compose_lens_table(const std::string& name, const LensConfig& lens, 
        << comment(note) << "width = " << camera.size.width << "\nheight = " << camera.size.height
        << "\nfx = " << toml_number(camera.fx_px) << "\nfy = " << toml_number(camera.fy_px)
        << "\ncx = " << toml_number(camera.cx_px) << "\ncy = " << toml_number(camera.cy_px)
-       << "\ndistortion = " << list(camera.distortion) << "\n";
+       << "\ndistortion = " << list(camera.coefficients()) << "\n";
   if (lens.focus) text << "focus = " << *lens.focus << "\n";
   if (!lens.calibrated_camera.empty()) text << "camera = " << toml_text(lens.calibrated_camera) << "\n";
   if (!lens.calibrated_on.empty()) text << "calibrated_on = " << toml_text(lens.calibrated_on) << "\n";

@@ -5,6 +5,7 @@
 #include <exception>
 #include <mutex>
 #include <optional>
+#include <set>
 #include <thread>
 
 #include "simulator/capture/capture.hpp"
@@ -21,16 +22,36 @@ std::string name_below(const std::filesystem::path& set, const std::filesystem::
   return (path.has_filename() ? path : path.parent_path()).filename().string();
 }
 
-// Folders with capture.json at or below `set`, sorted.
+// The folders in `folder`: those that lie there, and those that links lead to.
+std::error_code list_folders(const std::filesystem::path& folder, std::vector<std::filesystem::path>& own,
+                             std::vector<std::filesystem::path>& linked) {
+  std::error_code problem;
+  for (std::filesystem::directory_iterator entry(folder, problem), end; !problem && entry != end;
+       entry.increment(problem)) {
+    std::error_code ignored;  // a link that leads nowhere
+    if (entry->is_directory(ignored)) (entry->is_symlink(ignored) ? linked : own).push_back(entry->path());
+  }
+  std::sort(linked.rbegin(), linked.rend());  // taken from the end: of two links the same one counts always
+  return problem;
+}
+
+// Folders with capture.json at or below `set`, sorted. Links are followed, each folder counts once: under its
+// own name where it has one in the set.
 std::vector<std::filesystem::path> find_captures(const std::filesystem::path& set) {
   std::vector<std::filesystem::path> folders;
+  std::set<std::filesystem::path> seen;
+  std::vector<std::filesystem::path> own = {set};
+  std::vector<std::filesystem::path> linked;
   std::error_code problem;
-  if (std::filesystem::exists(set / "capture.json", problem)) folders.push_back(set);
-  for (std::filesystem::recursive_directory_iterator entry(set, problem), end; !problem && entry != end;
-       entry.increment(problem)) {
-    if (entry->is_directory() && std::filesystem::exists(entry->path() / "capture.json")) {
-      folders.push_back(entry->path());
-    }
+  while (!problem && !(own.empty() && linked.empty())) {
+    std::vector<std::filesystem::path>& next = own.empty() ? linked : own;
+    const std::filesystem::path folder = next.back();
+    next.pop_back();
+    const std::filesystem::path place = std::filesystem::canonical(folder, problem);
+    if (problem || !seen.insert(place).second) continue;
+    std::error_code ignored;
+    if (std::filesystem::exists(folder / "capture.json", ignored)) folders.push_back(folder);
+    problem = list_folders(folder, own, linked);
   }
   if (problem || folders.empty()) {
     throw InputError({set, ""}, "a folder with captures below it", problem ? problem.message() : "none",

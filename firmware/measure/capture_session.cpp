@@ -5,7 +5,9 @@
 #include <cstddef>
 #include <utility>
 
+#include "firmware/measure/card_outlines.hpp"
 #include "firmware/measure/label_list.hpp"
+#include "firmware/measure/view_reduction.hpp"
 
 namespace traygauge {
 namespace {
@@ -21,11 +23,9 @@ bool is_meaningless(std::size_t label) {
   return label == 200 || (label >= 250 && label <= 254);
 }
 
-bool same_lens(const LensModel& a, const LensModel& b) {
-  return a.width == b.width && a.height == b.height && a.pinhole.fx_px == b.pinhole.fx_px &&
-         a.pinhole.fy_px == b.pinhole.fy_px && a.pinhole.cx_px == b.pinhole.cx_px &&
-         a.pinhole.cy_px == b.pinhole.cy_px && a.k1 == b.k1 && a.k2 == b.k2 && a.p1 == b.p1 && a.p2 == b.p2 &&
-         a.k3 == b.k3;
+bool holds(const std::vector<ReportedWarning>& warnings, const InputWarning& wanted) {
+  return std::any_of(warnings.begin(), warnings.end(),
+                     [&](const ReportedWarning& warning) { return warning.message == wanted.message; });
 }
 
 }  // namespace
@@ -36,12 +36,24 @@ CaptureSession::CaptureSession(const Capture& capture, std::array<int, 2> pair,
     : descriptions_{view_of(capture, pair[0]), view_of(capture, pair[1])},
       views_{load_view(*descriptions_[0]), load_view(*descriptions_[1])},
       setup_(set_up_pair(capture, pair, dishes)) {
-  check_inputs(capture);
+  reduce_large_views();
+  check_inputs();
   if (labels == LabelSource::automatic) {
     for (std::size_t i = 0; i < 2; ++i) std::swap(given_labels_[i], views_[i].labels);
+  } else {
+    outline_missing_cards(setup_, descriptions_, views_, warnings_);
   }
   build_estimators(capture, parameters, labels);
   if (labels == LabelSource::automatic) find_labels();
+}
+
+void CaptureSession::reduce_large_views() {
+  for (std::size_t i = 0; i < 2; ++i) {
+    const int factor = reduction_of(views_[i].picture.size);
+    if (factor == 1) continue;
+    reduce_view(views_[i], factor);
+    setup_.lenses[i] = lens_of(reduced(descriptions_[i]->camera, factor));
+  }
 }
 
 void CaptureSession::build_estimators(const Capture& capture, const ProfileParameters& parameters,
@@ -79,12 +91,16 @@ void CaptureSession::find_labels() {
   }
 }
 
-void CaptureSession::check_inputs(const Capture& capture) {
+void CaptureSession::check_inputs() {
   for (std::size_t i = 0; i < 2; ++i) {
     if (!validate(setup_.lenses[i]).ok()) {
-      throw InputError({capture.file, descriptions_[i]->camera_key + ".distortion"},
+      const InputFile& place = descriptions_[i]->camera_place;
+      throw InputError({place.path, place.key.empty() ? "distortion" : place.key + ".distortion"},
                        "coefficients that hold up to the corners of the picture", "a lens that folds it over",
                        "calibrate the camera again, with corners near the edge of the picture");
+    }
+    for (const InputWarning& warning : views_[i].warnings) {
+      if (!holds(warnings_, warning)) warnings_.push_back({warning.code, warning.message});
     }
     const std::string unknown = list_labels(views_[i].labels, is_meaningless);
     if (!unknown.empty()) {
@@ -108,7 +124,7 @@ ViewInput CaptureSession::input(std::size_t i) const {
   ViewInput input;
   input.frame = views_[i].picture.frame();
   input.labels = views_[i].labels.gray();
-  if (!same_lens(setup_.lenses[i], setup_.lenses[0])) input.lens = setup_.lenses[i];
+  if (setup_.lenses[i] != setup_.lenses[0]) input.lens = setup_.lenses[i];
   input.arm_angle_deg = descriptions_[i]->arm_angle_deg;
   return input;
 }

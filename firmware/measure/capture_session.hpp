@@ -42,6 +42,7 @@ class CaptureSession {
   // As the capture has it, without labels where these are to be found.
   ViewInput input(std::size_t i) const;
   const PairSetup& setup() const { return setup_; }
+  // Reduced where it is larger than what is measured (view_reduction.hpp), as is lens().
   const LoadedView& view(int i) const { return views_[static_cast<std::size_t>(i)]; }
   const LensModel& lens(int i) const { return setup_.lenses[static_cast<std::size_t>(i)]; }
   // What was found, where labels were to be found; else null.
@@ -52,7 +53,8 @@ class CaptureSession {
   const std::vector<ReportedWarning>& warnings() const { return warnings_; }
 
  private:
-  void check_inputs(const Capture& capture);
+  void reduce_large_views();
+  void check_inputs();
   void build_estimators(const Capture& capture, const ProfileParameters& parameters, LabelSource labels);
   void find_labels();
   const Measurement& measure_found_labels(std::uint64_t seed);

@@ -10,14 +10,18 @@ static_assert(kMaxProfilePoints <= kMaxDishProfilePoints, "what is read must fit
 
 LensModel lens_of(const CameraDescription& camera) {
   const auto& [k1, k2, p1, p2, k3] = camera.distortion;
-  return {camera.size.width,
-          camera.size.height,
-          {camera.fx_px, camera.fy_px, camera.cx_px, camera.cy_px},
-          k1,
-          k2,
-          p1,
-          p2,
-          k3};
+  LensModel lens{camera.size.width,
+                 camera.size.height,
+                 {camera.fx_px, camera.fy_px, camera.cx_px, camera.cy_px},
+                 k1,
+                 k2,
+                 p1,
+                 p2,
+                 k3};
+  const auto& [k4, k5, k6, s1, s2, s3, s4, tau_x, tau_y] = camera.further_distortion;
+  if (camera.has_further_distortion())
+    lens.further = {true, k4, k5, k6, s1, s2, s3, s4, sensor_tilt(tau_x, tau_y)};
+  return lens;
 }
 
 DishModel dish_of(const DishDescription& dish) {

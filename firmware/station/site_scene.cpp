@@ -4,9 +4,20 @@
 #include <utility>
 
 #include "firmware/config/dish_choice.hpp"
+#include "simulator/capture/label_specks.hpp"
 #include "simulator/capture/picture_file.hpp"
 
 namespace traygauge {
+namespace {
+
+// A few specks are painted over in silence: nobody is there to read of them at every start.
+void read_labels(const InputFile& file, PictureSize size, Picture& labels) {
+  labels = read_label_picture(file, size);
+  std::vector<InputWarning> warnings;
+  ignore_specks(file, labels, warnings);
+}
+
+}  // namespace
 
 SiteScene::SiteScene(const StationFile& station, std::vector<DishDescription> library)
     : library_(std::move(library)) {
@@ -14,7 +25,7 @@ SiteScene::SiteScene(const StationFile& station, std::vector<DishDescription> li
   const std::array<const LensConfig*, 2> lenses = {
       &*station.lens, station.second_lens ? &*station.second_lens : &*station.lens};
   for (std::size_t i = 0; i < 2; ++i) {
-    if (station.labels) labels_[i] = read_label_picture((*station.labels)[i], lenses[i]->camera.size);
+    if (station.labels) read_labels((*station.labels)[i], lenses[i]->camera.size, labels_[i]);
     setup_.lenses[i] = lens_of(lenses[i]->camera);
   }
   setup_.card = *station.card;

@@ -21,7 +21,7 @@ constexpr std::string_view kBlanks = " \t\r";
 
 // Keys whose texts hold no secret, a space around each. A text of any other key is not shown.
 constexpr std::string_view kShownKeys =
-    " on_bad_config device format exposure_us gain white_balance_k focus lens_changed_on line bias "
+    " on_bad_config file device format exposure_us gain white_balance_k focus lens_changed_on line bias "
     "lines ready hold_still busy done try_again fault move_on far_enough too_far kind step direction "
     "enable home home_bias inverted camera calibrated_on pattern labels dishes name socket folder "
     "store listen view_tokens kiosk_tokens manage_tokens host_names pictures trusted_proxies "

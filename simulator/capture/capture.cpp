@@ -4,16 +4,19 @@
 #include <cstddef>
 #include <system_error>
 
+#include "simulator/capture/calibration_file.hpp"
 #include "simulator/capture/json_file.hpp"
 #include "simulator/capture/json_node.hpp"
+#include "simulator/capture/label_specks.hpp"
 #include "simulator/capture/picture_file.hpp"
+#include "simulator/capture/picture_header.hpp"
 
 namespace traygauge {
 namespace {
 
 constexpr int kVersion = 1;
 constexpr double kMaxFocalPx = 1e6;
-constexpr NumberRange kDistortion{-1e3, 1e3};
+constexpr NumberRange kCentrePx{-1e5, 1e5};  // within the picture, once its size is sure
 constexpr NumberRange kCardSizeMm{10.0, 500.0};
 constexpr NumberRange kCardThicknessMm{0.0, 10.0};
 constexpr NumberRange kArmAngleDeg{-360.0, 360.0};
@@ -30,17 +33,41 @@ InputFile read_file_name(const JsonNode& node, const std::filesystem::path& fold
   return {folder / name, node.key()};
 }
 
-CameraDescription read_camera(const JsonNode& node) {
+// A camera as it is given, and where.
+struct GivenCamera {
   CameraDescription camera;
-  camera.size.width = node.member("width").integer(kMinPictureSide, kMaxPictureSide);
-  camera.size.height = node.member("height").integer(kMinPictureSide, kMaxPictureSide);
-  camera.fx_px = node.member("fx").positive_number(kMaxFocalPx);
-  camera.fy_px = node.member("fy").positive_number(kMaxFocalPx);
-  camera.cx_px = node.member("cx").number({0.0, camera.size.width - 1.0});
-  camera.cy_px = node.member("cy").number({0.0, camera.size.height - 1.0});
-  const std::vector<double> distortion = node.member("distortion").numbers(5, kDistortion);
-  std::copy(distortion.begin(), distortion.end(), camera.distortion.begin());
-  return camera;
+  InputFile place;
+  std::string note;  // what was mended; mostly empty
+};
+
+PictureSize read_size(const JsonNode& node) {
+  return {node.member("width").integer(kMinPictureSide, kMaxPictureSide),
+          node.member("height").integer(kMinPictureSide, kMaxPictureSide)};
+}
+
+// "camera": a calibration file, or an object with "file", or one with the values.
+GivenCamera read_camera(const JsonNode& node, const std::filesystem::path& folder) {
+  GivenCamera given;
+  given.place = {node.file(), node.key()};
+  const auto file = node.is_object() ? node.find("file") : std::nullopt;
+  if (node.is_text() || file) {
+    given.place = read_file_name(file ? *file : node, folder);
+    const bool has_size = node.is_object() && (node.find("width") || node.find("height"));
+    given.camera =
+        read_calibration_file(given.place, has_size ? std::optional(read_size(node)) : std::nullopt);
+    given.place.key = "";
+  } else {
+    CameraDescription& camera = given.camera;
+    camera.size = read_size(node);
+    camera.fx_px = node.member("fx").positive_number(kMaxFocalPx);
+    camera.fy_px = node.member("fy").positive_number(kMaxFocalPx);
+    camera.cx_px = node.member("cx").number(kCentrePx);
+    camera.cy_px = node.member("cy").number(kCentrePx);
+    read_distortion(node.member("distortion"), camera);
+  }
+  mend_camera_scale(given.place, given.camera, given.note);
+  check_camera(given.place, given.camera);
+  return given;
 }
 
 CardDescription read_card(const JsonNode& node, const std::filesystem::path& folder) {
@@ -76,6 +103,54 @@ std::vector<DishDescription> read_dishes(const JsonNode& root) {
   return dishes;
 }
 
+// Pictures of another size that show the same are measured with the values scaled. Those of another aspect
+// are refused when they are loaded.
+void fit_camera(ViewDescription& view) {
+  const std::optional<PictureHeader> header = peek_header(view.image.path);
+  const PictureSize size = view.camera.size;
+  if (!header || header->size == size || header->size.width < kMinPictureSide ||
+      header->size.height < kMinPictureSide || !has_same_aspect(header->size, size)) {
+    return;
+  }
+  view.warnings.push_back(
+      {"camera_scaled", printable(view.camera_place.path.string()) + ": " +
+                            (view.camera_place.key.empty() ? "" : view.camera_place.key + ": ") +
+                            "the camera's values are for pictures of " + size_text(size) + ", " +
+                            view.image.path.filename().string() + " has " + size_text(header->size) +
+                            ": they are scaled; a camera that shows another part of the scene at that size " +
+                            "needs a calibration of its own."});
+  view.camera = scaled(view.camera, header->size);
+}
+
+// Names the camera first: pictures are seldom cut, calibrations often mixed up.
+void require_camera_size(const ViewDescription& view, const std::optional<PictureHeader>& header) {
+  if (!header || header->size == view.camera.size) return;
+  const PictureSize turned{header->size.height, header->size.width};
+  const std::string key = view.camera_place.key.empty() ? "width" : view.camera_place.key + ".width";
+  const std::string name = printable(view.image.path.filename().string());
+  const bool is_turned = header->is_shown_turned() && has_same_aspect(turned, view.camera.size);
+  throw InputError({view.camera_place.path, key},
+                   "a camera for pictures of " + size_text(header->size) + ", as " + name + " is stored",
+                   size_text(view.camera.size),
+                   is_turned ? "EXIF orientation " + std::to_string(header->orientation) +
+                                   " has the picture shown turned: calibrate with pictures as they are stored"
+                             : "calibrate the camera with pictures of this kind");
+}
+
+// Names the picture as well: either may be the one of a wrong size.
+void require_label_size(const ViewDescription& view, const std::optional<PictureHeader>& header) {
+  const std::optional<PictureHeader> labels = peek_header(view.labels->path);
+  if (!header || !labels || labels->size == header->size) return;
+  const std::string name = printable(view.image.path.filename().string());
+  const bool is_turned =
+      header->is_shown_turned() && labels->size == PictureSize{header->size.height, header->size.width};
+  const std::string turn = ", as EXIF orientation " + std::to_string(header->orientation) + " has it shown";
+  throw InputError(*view.labels, size_text(header->size) + " pixels, as " + name + " is stored",
+                   size_text(labels->size) + " pixels" + (is_turned ? turn : ""),
+                   is_turned ? "turn the labels back, or store the picture turned and without that tag"
+                             : "outline the picture at the size that it has");
+}
+
 std::vector<ViewDescription> read_views(const JsonNode& root, const std::filesystem::path& folder) {
   std::vector<ViewDescription> views;
   for (const JsonNode& node : root.member("views").elements(1, kMaxViews)) {
@@ -84,9 +159,11 @@ std::vector<ViewDescription> read_views(const JsonNode& root, const std::filesys
     if (const auto labels = node.find("labels")) view.labels = read_file_name(*labels, folder);
     if (const auto angle = node.find("arm_angle_deg")) view.arm_angle_deg = angle->number(kArmAngleDeg);
     const auto own = node.find("camera");
-    const JsonNode camera = own ? *own : root.member("camera");
-    view.camera = read_camera(camera);
-    view.camera_key = camera.key();
+    const GivenCamera camera = read_camera(own ? *own : root.member("camera"), folder);
+    view.camera = camera.camera;
+    view.camera_place = camera.place;
+    if (!camera.note.empty()) view.warnings.push_back({"camera_scaled", camera.note});
+    fit_camera(view);
     views.push_back(std::move(view));
   }
   return views;
@@ -117,7 +194,7 @@ Capture read_capture(const std::filesystem::path& folder) {
   const JsonDocument document = read_json(capture.file);
   const JsonNode root = document.root();
   root.member("version").integer(kVersion, kVersion);
-  if (const auto camera = root.find("camera")) read_camera(*camera);
+  if (const auto camera = root.find("camera")) read_camera(*camera, folder);
   capture.card = read_card(root.member("card"), folder);
   capture.dishes = read_dishes(root);
   capture.views = read_views(root, folder);
@@ -127,8 +204,15 @@ Capture read_capture(const std::filesystem::path& folder) {
 
 LoadedView load_view(const ViewDescription& view) {
   LoadedView loaded;
-  loaded.picture = read_picture(view.image, view.camera.size);
-  if (view.labels) loaded.labels = read_label_picture(*view.labels, view.camera.size);
+  loaded.warnings = view.warnings;
+  const std::optional<PictureHeader> header = peek_header(view.image.path);
+  require_camera_size(view, header);
+  loaded.picture = read_picture(view.image, view.camera.size, &loaded.warnings);
+  if (view.labels) {
+    require_label_size(view, header);
+    loaded.labels = read_label_picture(*view.labels, view.camera.size);
+    ignore_specks(*view.labels, loaded.labels, loaded.warnings);
+  }
   return loaded;
 }
 

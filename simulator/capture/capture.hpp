@@ -8,21 +8,13 @@
 #include <utility>
 #include <vector>
 
+#include "simulator/capture/camera_description.hpp"
 #include "simulator/capture/dish_description.hpp"
 #include "simulator/capture/input_error.hpp"
+#include "simulator/capture/input_warning.hpp"
 #include "simulator/capture/picture.hpp"
 
 namespace traygauge {
-
-// OpenCV's camera model: pinhole and k1, k2, p1, p2, k3.
-struct CameraDescription {
-  PictureSize size;
-  double fx_px = 0.0;
-  double fy_px = 0.0;
-  double cx_px = 0.0;
-  double cy_px = 0.0;
-  std::array<double, 5> distortion{};
-};
 
 // The reference card; its print lies `thickness_mm` above the table.
 struct CardDescription {
@@ -36,8 +28,10 @@ struct ViewDescription {
   InputFile image;
   std::optional<InputFile> labels;
   std::optional<double> arm_angle_deg;
-  CameraDescription camera;  // its own, or the capture's
-  std::string camera_key;    // where that stands in capture.json
+  CameraDescription
+      camera;              // its own, or the capture's; for pictures of the image's size where it can be read
+  InputFile camera_place;  // where that is given: in capture.json, or in a file of its own
+  std::vector<InputWarning> warnings;  // about the camera
 };
 
 struct Capture {
@@ -55,6 +49,7 @@ Capture read_capture(const std::filesystem::path& folder);
 struct LoadedView {
   Picture picture;
   Picture labels;
+  std::vector<InputWarning> warnings;
 };
 LoadedView load_view(const ViewDescription& view);
 

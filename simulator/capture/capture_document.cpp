@@ -11,7 +11,7 @@ nlohmann::ordered_json compose_camera(const CameraDescription& camera) {
           {"fy", camera.fy_px},
           {"cx", camera.cx_px},
           {"cy", camera.cy_px},
-          {"distortion", camera.distortion}};
+          {"distortion", camera.coefficients()}};
 }
 
 }  // namespace traygauge

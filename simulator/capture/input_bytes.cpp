@@ -4,6 +4,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <string>
 #include <system_error>
@@ -30,6 +31,20 @@ std::string describe_errno(int number) {
   return std::generic_category().message(number);
 }
 
+// False where the device fails; a file that shrank gives less.
+bool fill(int descriptor, std::vector<std::uint8_t>& bytes) {
+  std::size_t done = 0;
+  while (done < bytes.size()) {
+    const ssize_t got = ::read(descriptor, bytes.data() + done, bytes.size() - done);
+    if (got < 0 && errno == EINTR) continue;
+    if (got < 0) return false;
+    if (got == 0) break;
+    done += static_cast<std::size_t>(got);
+  }
+  bytes.resize(done);
+  return true;
+}
+
 }  // namespace
 
 std::vector<std::uint8_t> read_bytes(const InputFile& file, std::size_t max_bytes, const char* expected) {
@@ -51,15 +66,17 @@ std::vector<std::uint8_t> read_bytes(const InputFile& file, std::size_t max_byte
          "a file of this kind has at most " + std::to_string(max_bytes) + " bytes");
   }
   std::vector<std::uint8_t> bytes(size);
-  std::size_t done = 0;
-  while (done < size) {
-    const ssize_t got = ::read(descriptor.number(), bytes.data() + done, size - done);
-    if (got < 0 && errno == EINTR) continue;
-    if (got < 0) fail(describe_errno(errno), "check the disk");
-    if (got == 0) break;  // the file shrank meanwhile; its decoder will tell
-    done += static_cast<std::size_t>(got);
-  }
-  bytes.resize(done);
+  if (!fill(descriptor.number(), bytes)) fail(describe_errno(errno), "check the disk");
+  return bytes;
+}
+
+std::vector<std::uint8_t> read_first_bytes(const std::filesystem::path& file, std::size_t max_bytes) {
+  const Descriptor descriptor(file.c_str());
+  struct stat information {};
+  if (descriptor.number() < 0 || ::fstat(descriptor.number(), &information) != 0) return {};
+  if (!S_ISREG(information.st_mode)) return {};
+  std::vector<std::uint8_t> bytes(std::min(max_bytes, static_cast<std::size_t>(information.st_size)));
+  if (!fill(descriptor.number(), bytes)) return {};
   return bytes;
 }
 

@@ -7,6 +7,8 @@
 #include <array>
 #include <string>
 
+#include "drivers/pixels/jpeg_decoder.hpp"
+#include "drivers/pixels/jpeg_warning.hpp"
 #include "simulator/capture/picture_file.hpp"
 
 namespace traygauge {
@@ -16,22 +18,21 @@ constexpr int kMaxScans = 100;  // a progressive picture has about 10; more is a
 
 // libjpeg reports by leaving through longjmp, so between setjmp and a call into the library no object with a
 // destructor may be born.
-class JpegDecoder {
+class JpegFileDecoder {
  public:
-  explicit JpegDecoder(std::span<const std::uint8_t> bytes) : bytes_(bytes) {
+  explicit JpegFileDecoder(std::span<const std::uint8_t> bytes) : bytes_(bytes) {
     decoder_.err = jpeg_std_error(&errors_);
     decoder_.client_data = this;
     errors_.error_exit = [](j_common_ptr common) { of(common)->leave(); };
     errors_.emit_message = [](j_common_ptr common, int level) {
-      // The library calls a picture that ends early or has damaged data a warning, and invents the rest.
-      if (level < 0) of(common)->leave();
+      if (level < 0) of(common)->take_warning();
     };
     errors_.output_message = [](j_common_ptr) {};
     progress_.progress_monitor = [](j_common_ptr common) { of(common)->watch_scans(); };
   }
-  JpegDecoder(const JpegDecoder&) = delete;
-  JpegDecoder& operator=(const JpegDecoder&) = delete;
-  ~JpegDecoder() { jpeg_destroy_decompress(&decoder_); }
+  JpegFileDecoder(const JpegFileDecoder&) = delete;
+  JpegFileDecoder& operator=(const JpegFileDecoder&) = delete;
+  ~JpegFileDecoder() { jpeg_destroy_decompress(&decoder_); }
 
   bool read_header() {
     if (setjmp(escape_) != 0) return false;
@@ -53,6 +54,7 @@ class JpegDecoder {
       JSAMPROW row = pixels + decoder_.output_scanline * stride;
       jpeg_read_scanlines(&decoder_, &row, 1);
     }
+    if (end_is_missing_ && !has_every_scan()) leave("the end is missing, and scans with it");
     jpeg_finish_decompress(&decoder_);
     return true;
   }
@@ -61,9 +63,13 @@ class JpegDecoder {
   unsigned height() const { return decoder_.image_height; }
   int channels() const { return decoder_.num_components; }
   std::string message() const { return message_.data(); }
+  bool end_is_missing() const { return end_is_missing_; }
+  bool has_bytes_too_many() const { return has_bytes_too_many_; }
 
  private:
-  static JpegDecoder* of(j_common_ptr common) { return static_cast<JpegDecoder*>(common->client_data); }
+  static JpegFileDecoder* of(j_common_ptr common) {
+    return static_cast<JpegFileDecoder*>(common->client_data);
+  }
 
   [[noreturn]] void leave() {
     if (message_[0] == '\0')
@@ -71,10 +77,33 @@ class JpegDecoder {
     std::longjmp(escape_, 1);
   }
 
-  void watch_scans() {
-    if (decoder_.input_scan_number <= kMaxScans) return;
-    std::snprintf(message_.data(), message_.size(), "more than %d scans", kMaxScans);
+  [[noreturn]] void leave(const char* message) {
+    std::snprintf(message_.data(), message_.size(), "%s", message);
     leave();
+  }
+
+  void take_warning() {
+    const JpegWarning warning = judge_jpeg_warning(errors_);
+    if (warning == JpegWarning::damage) leave();
+    end_is_missing_ = end_is_missing_ || warning == JpegWarning::end_missing;
+    has_bytes_too_many_ = has_bytes_too_many_ || warning == JpegWarning::few_bytes_too_many;
+  }
+
+  // A picture of one scan misses none that another warning does not tell of. One of several does, unless all
+  // bits of all coefficients came.
+  bool has_every_scan() {
+    if (jpeg_has_multiple_scans(&decoder_) == FALSE) return true;
+    if (decoder_.coef_bits == nullptr) return false;
+    for (int component = 0; component < decoder_.num_components; ++component) {
+      for (const int missing_bits : decoder_.coef_bits[component]) {
+        if (missing_bits != 0) return false;
+      }
+    }
+    return true;
+  }
+
+  void watch_scans() {
+    if (decoder_.input_scan_number > kMaxScans) leave("more than 100 scans");
   }
 
   std::span<const std::uint8_t> bytes_;
@@ -83,15 +112,21 @@ class JpegDecoder {
   jpeg_progress_mgr progress_{};
   std::jmp_buf escape_{};
   std::array<char, JMSG_LENGTH_MAX> message_{};
+  bool end_is_missing_ = false;
+  bool has_bytes_too_many_ = false;
 };
+
+void warn(const InputFile& file, const char* code, const char* what, std::vector<InputWarning>* warnings) {
+  if (warnings != nullptr) warnings->push_back({code, printable(file.path.string()) + " " + what});
+}
 
 }  // namespace
 
 Picture decode_jpeg(const InputFile& file, std::span<const std::uint8_t> bytes,
-                    std::optional<PictureSize> required) {
+                    std::optional<PictureSize> required, std::vector<InputWarning>* warnings) {
   constexpr const char* expected = "a whole, undamaged JPEG picture";
   constexpr const char* hint = "copy or take the picture again";
-  JpegDecoder decoder(bytes);
+  JpegFileDecoder decoder(bytes.first(find_jpeg(bytes).length));
   if (!decoder.read_header()) throw InputError(file, expected, decoder.message(), hint);
   check_picture_size(file, decoder.width(), decoder.height(), required);
   if (decoder.channels() != 1 && decoder.channels() != 3) {
@@ -101,6 +136,14 @@ Picture decode_jpeg(const InputFile& file, std::span<const std::uint8_t> bytes,
   const PixelFormat format = decoder.channels() == 1 ? PixelFormat::gray8 : PixelFormat::rgb8;
   Picture picture({static_cast<int>(decoder.width()), static_cast<int>(decoder.height())}, format);
   if (!decoder.read_pixels(picture.pixels.data())) throw InputError(file, expected, decoder.message(), hint);
+  if (decoder.end_is_missing()) {
+    warn(file, "picture_end_missing", "ends without its end marker, though every row is there.", warnings);
+  }
+  if (decoder.has_bytes_too_many()) {
+    warn(file, "picture_bytes_too_many",
+         "holds a few bytes too many before a marker; look whether part of the picture is damaged.",
+         warnings);
+  }
   return picture;
 }
 

@@ -4,10 +4,13 @@
 #include <cstdint>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "simulator/capture/input_bytes.hpp"
 #include "simulator/capture/input_error.hpp"
+#include "simulator/capture/json_flaw.hpp"
 
 namespace traygauge {
 namespace {
@@ -25,14 +28,22 @@ JsonDocument read_json(const std::filesystem::path& file) {
     if (depth > kMaxDepth) throw InputError(input, kJson, "more than 32 levels of nesting", "store it flat");
     return true;
   };
+  const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  const auto refuse = [&](const JsonFlaw& flaw) {
+    throw InputError(InputProblem{
+        file, "", kJson,
+        flaw.found + " in line " + std::to_string(flaw.line) + ", column " + std::to_string(flaw.column),
+        flaw.hint, flaw.line});
+  };
+  nlohmann::json value;
   try {
-    return {{file, {}}, nlohmann::json::parse(bytes.begin(), bytes.end(), limit_depth)};
+    value = nlohmann::json::parse(bytes.begin(), bytes.end(), limit_depth);
   } catch (const nlohmann::json::parse_error& error) {
-    throw InputError(input, kJson, "an error at byte " + std::to_string(error.byte),
-                     bytes.empty() ? "the file is empty" : "check commas, quotes and brackets there");
+    refuse(describe_json_flaw(text, error.byte));
   } catch (const nlohmann::json::out_of_range&) {
-    throw InputError(input, kJson, "a number that is too large", "numbers must be finite");
+    refuse(describe_number_overflow(text));
   }
+  return {{file, {}}, std::move(value)};
 }
 
 }  // namespace traygauge

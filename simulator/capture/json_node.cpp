@@ -123,6 +123,18 @@ bool JsonNode::is_text() const {
   return value_->is_string();
 }
 
+bool JsonNode::is_object() const {
+  return value_->is_object();
+}
+
+bool JsonNode::is_list() const {
+  return value_->is_array();
+}
+
+bool JsonNode::is_empty() const {
+  return value_->empty();
+}
+
 bool JsonNode::truth() const {
   if (!value_->is_boolean()) fail("true or false", "correct the value");
   return value_->get<bool>();

@@ -41,7 +41,10 @@ class JsonNode {
   int integer(int min, int max) const;
   std::string text() const;  // not empty
   bool is_text() const;
-  bool truth() const;  // true or false
+  bool is_object() const;
+  bool is_list() const;
+  bool is_empty() const;  // of a list
+  bool truth() const;     // true or false
   std::vector<double> numbers(std::size_t count, NumberRange range) const;
 
   const std::filesystem::path& file() const { return origin_->file; }

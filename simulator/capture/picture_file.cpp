@@ -22,12 +22,21 @@ bool starts_with(std::span<const std::uint8_t> bytes, std::span<const std::uint8
 
 }  // namespace
 
-Picture read_picture(const InputFile& file, std::optional<PictureSize> required) {
-  constexpr std::array<std::uint8_t, 3> jpeg = {0xFF, 0xD8, 0xFF};
-  constexpr std::array<std::uint8_t, 8> png = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1A, '\n'};
+bool is_jpeg(std::span<const std::uint8_t> bytes) {
+  constexpr std::array<std::uint8_t, 3> start = {0xFF, 0xD8, 0xFF};
+  return starts_with(bytes, start);
+}
+
+bool is_png(std::span<const std::uint8_t> bytes) {
+  constexpr std::array<std::uint8_t, 8> start = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1A, '\n'};
+  return starts_with(bytes, start);
+}
+
+Picture read_picture(const InputFile& file, std::optional<PictureSize> required,
+                     std::vector<InputWarning>* warnings) {
   const std::vector<std::uint8_t> bytes = read_bytes(file, kMaxPictureFileBytes, kPictures);
-  if (starts_with(bytes, jpeg)) return decode_jpeg(file, bytes, required);
-  if (starts_with(bytes, png)) return decode_png(file, bytes, required);
+  if (is_jpeg(bytes)) return decode_jpeg(file, bytes, required, warnings);
+  if (is_png(bytes)) return decode_png(file, bytes, required);
   throw InputError(file, kPictures, bytes.empty() ? "an empty file" : "bytes of another kind",
                    "store the picture as .jpg or .png");
 }

@@ -127,8 +127,8 @@ class Digest {
     add(width, height);
   }
   void write(const CameraDescription& camera) {
-    const auto& [size, fx_px, fy_px, cx_px, cy_px, distortion] = camera;
-    add(size, fx_px, fy_px, cx_px, cy_px, distortion);
+    const auto& [size, fx_px, fy_px, cx_px, cy_px, distortion, further_distortion] = camera;
+    add(size, fx_px, fy_px, cx_px, cy_px, distortion);  // the renderer draws no further one
   }
   void write(const PhotographySettings& settings) {
     const auto& [camera, aperture_mm, corner_loss, full_well_electrons, read_noise_electrons, jpeg_quality] =

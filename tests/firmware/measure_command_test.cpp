@@ -4,10 +4,13 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <fstream>
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
+#include <sstream>
 
+#include "firmware/command/command_line.hpp"
 #include "firmware/config/dish_choice.hpp"
 #include "firmware/measure/pair_setup.hpp"
 #include "tests/firmware/command_runner.hpp"
@@ -144,6 +147,34 @@ TEST_F(MeasureCommand, WrongCommandsAreNamed) {
   }
   EXPECT_EQ(run({"--help"}).status, 0);
   EXPECT_NE(run({"measure", "--help"}).out.find("--pair"), std::string::npos);
+}
+
+TEST_F(MeasureCommand, MistypedCommandsAreNamedWithWhatMayHaveBeenMeant) {
+  for (const auto& [typed, meant] :
+       std::vector<std::pair<std::string, std::string>>{{"mesure", "measure"},
+                                                        {"evalute", "evaluate"},
+                                                        {"segmetn", "segment"},
+                                                        {"calib", "calibrate"},
+                                                        {"Station", "station"},
+                                                        {"enroldish", "enrol-dish"}}) {
+    const CommandResult result = run({typed, files_.folder().string()});
+    EXPECT_EQ(result.status, 2);
+    EXPECT_EQ(result.error, "traygauge: Unknown command " + typed + ": did you mean " + meant + "?\n");
+  }
+  EXPECT_EQ(run({"config", "chek"}).error, "traygauge: Unknown command chek: did you mean check?\n");
+  EXPECT_NE(run({"weigh"}).error.find("Unknown command weigh: expected one of measure, evaluate"),
+            std::string::npos);
+}
+
+TEST_F(MeasureCommand, HelpThatCannotBeWrittenIsAnError) {
+  for (const char* option : {"--help", "--version"}) {
+    std::ofstream full("/dev/full");
+    if (!full) GTEST_SKIP() << "no /dev/full";
+    std::ostringstream error;
+    const std::array<const char*, 2> arguments = {"traygauge", option};
+    EXPECT_EQ(run_command_line(2, arguments.data(), full, error), 2) << option;
+    EXPECT_NE(error.str().find("could not be written"), std::string::npos) << error.str();
+  }
 }
 
 TEST_F(MeasureCommand, UnusableCapturesAreNamed) {

@@ -64,17 +64,77 @@ TEST_F(Jpeg, DecodesPicturesWithoutHuffmanTables) {
 }
 
 TEST_F(Jpeg, KnowsWhereAPictureEnds) {
-  auto bytes = encode(2);
-  const std::size_t length = bytes.size();
-  EXPECT_EQ(jpeg_length(bytes), length);
-  bytes.insert(bytes.end(), 300, 0);
-  EXPECT_EQ(jpeg_length(bytes), length);
-  EXPECT_EQ(jpeg_length(std::span(bytes).first(length - 1)), 0U);
-  EXPECT_EQ(jpeg_length(std::span(bytes).first(length / 2)), 0U);
-  EXPECT_EQ(jpeg_length(std::span(bytes).subspan(1)), 0U);
-  EXPECT_EQ(jpeg_length({}), 0U);
+  const auto whole = encode(2);
+  const std::size_t length = whole.size();
+  std::mt19937 random(7);
+  for (const std::size_t behind : {0U, 1U, 2U, 300U, 700U}) {
+    for (const bool is_noise : {false, true}) {
+      auto bytes = whole;
+      for (std::size_t i = 0; i < behind; ++i) bytes.push_back(is_noise ? random() % 256 : 0);
+      EXPECT_EQ(find_jpeg(bytes).length, length) << behind;
+      EXPECT_TRUE(find_jpeg(bytes).has_end) << behind;
+    }
+  }
+  for (const std::size_t missing : {1U, 2U}) {
+    const JpegExtent extent = find_jpeg(std::span(whole).first(length - missing));
+    EXPECT_EQ(extent.length, length - 2);
+    EXPECT_FALSE(extent.has_end);
+  }
+  EXPECT_FALSE(find_jpeg(std::span(whole).first(length / 2)).has_end);
+  EXPECT_EQ(find_jpeg(std::span(whole).subspan(1)).length, 0U);
+  EXPECT_EQ(find_jpeg({}).length, 0U);
   const std::vector<std::uint8_t> zeros(100, 0);
-  EXPECT_EQ(jpeg_length(zeros), 0U);
+  EXPECT_EQ(find_jpeg(zeros).length, 0U);
+}
+
+// The end of a thumbnail, which stands in a segment, is not the picture's.
+TEST_F(Jpeg, AThumbnailHasAnEndOfItsOwn) {
+  const auto thumbnail = encode(1, 10);
+  auto bytes = encode(2);
+  const std::size_t length = 2 + thumbnail.size();
+  ASSERT_LT(length, 65'536U);
+  std::vector<std::uint8_t> segment = {0xFF, 0xE1, static_cast<std::uint8_t>(length / 256),
+                                       static_cast<std::uint8_t>(length % 256)};
+  segment.insert(segment.end(), thumbnail.begin(), thumbnail.end());
+  bytes.insert(bytes.begin() + 2, segment.begin(), segment.end());
+  EXPECT_EQ(find_jpeg(bytes).length, bytes.size());
+  EXPECT_TRUE(decode(bytes)) << decoder_.problem();
+}
+
+TEST_F(Jpeg, AMissingEndMarkerIsNoDamageAndAMissingRowIs) {
+  for (int seed = 0; seed < 20; ++seed) {
+    const auto bytes = encode(seed);
+    ASSERT_TRUE(decode(bytes));
+    const auto plain = rgb_;
+    for (const std::size_t missing : {1U, 2U}) {
+      rgb_.assign(rgb_.size(), 0);
+      ASSERT_TRUE(decode(std::span(bytes).first(bytes.size() - missing))) << decoder_.problem();
+      EXPECT_EQ(rgb_, plain);
+    }
+    for (const std::size_t missing : {12U, 100U, 1000U}) {
+      EXPECT_FALSE(decode(std::span(bytes).first(bytes.size() - missing))) << missing;
+    }
+  }
+}
+
+TEST_F(Jpeg, ACamerasFrameNeedsAllItsRowsAndNoMore) {
+  RawFormat format;
+  format.encoding = RawEncoding::mjpeg;
+  FrameConverter converter(format, kWidth, kHeight, 0, {});
+  const auto bytes = encode(3);
+  ASSERT_TRUE(decode(bytes));
+  const auto plain = rgb_;
+  auto behind = bytes;
+  behind.insert(behind.end(), 700, 0x5A);
+  const std::span without_end = std::span(bytes).first(bytes.size() - 2);
+  for (const std::span<const std::uint8_t> frame : {std::span<const std::uint8_t>(behind), without_end}) {
+    EXPECT_TRUE(converter.is_whole(frame)) << converter.problem();
+    rgb_.assign(rgb_.size(), 0);
+    EXPECT_TRUE(converter.convert(frame, rgb_.data())) << converter.problem();
+    EXPECT_EQ(rgb_, plain);
+  }
+  EXPECT_FALSE(converter.is_whole(std::span(bytes).first(bytes.size() / 2)));
+  EXPECT_EQ(converter.problem(), "a JPEG picture without its end");
 }
 
 TEST_F(Jpeg, RefusesAnotherSizeAndNamesIt) {
@@ -92,7 +152,7 @@ TEST_F(Jpeg, RefusesAPictureWithAHole) {
     auto holed = bytes;
     const auto from = holed.begin() + static_cast<std::ptrdiff_t>(holed.size() * share / 8);
     holed.erase(from, from + static_cast<std::ptrdiff_t>(holed.size() / 10));
-    if (jpeg_length(holed) == 0 || !decode(holed)) ++refused;
+    if (find_jpeg(holed).length == 0 || !decode(holed)) ++refused;
   }
   EXPECT_EQ(refused, 7);
 }
@@ -135,7 +195,7 @@ TEST_F(Jpeg, AHoleHardlyEverPassesForBytesTooMany) {
     const auto from =
         holed.begin() + 700 + static_cast<std::ptrdiff_t>(random() % (holed.size() - 700 - length));
     holed.erase(from, from + static_cast<std::ptrdiff_t>(length));
-    if (jpeg_length(holed) > 0 && decode(holed)) ++passed;
+    if (find_jpeg(holed).length > 0 && decode(holed)) ++passed;
   }
   EXPECT_LE(passed, 40) << "more than those that leave no trace at all";
 }
@@ -161,7 +221,7 @@ TEST_F(Jpeg, ConverterSaysWhatIsWrong) {
   EXPECT_TRUE(converter.convert(bytes, rgb_.data()));
   EXPECT_GT(converter.sharpness(encode(6, 95)), converter.sharpness(encode(6, 60)));
   EXPECT_FALSE(converter.is_whole(std::span(bytes).first(bytes.size() / 2)));
-  EXPECT_EQ(converter.problem(), "a JPEG picture without its beginning or end");
+  EXPECT_EQ(converter.problem(), "a JPEG picture without its end");
   std::fill(bytes.begin() + 700, bytes.end() - 2, std::uint8_t{0});
   ASSERT_TRUE(converter.is_whole(bytes));
   EXPECT_FALSE(converter.convert(bytes, rgb_.data()));

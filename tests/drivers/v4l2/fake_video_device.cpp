@@ -273,7 +273,7 @@ int FakeVideoDevice::dequeue(v4l2_buffer& buffer) {
   buffer.bytesused = static_cast<std::uint32_t>(filled.length);
   buffer.sequence = filled.sequence;
   buffer.flags = filled.flags;
-  const auto since = filled.stamped_at.time_since_epoch();
+  const auto since = camera_.fixed_stamp.value_or(filled.stamped_at.time_since_epoch());
   const auto seconds = std::chrono::floor<std::chrono::seconds>(since);
   buffer.timestamp.tv_sec = seconds.count();
   buffer.timestamp.tv_usec = std::chrono::floor<std::chrono::microseconds>(since - seconds).count();

@@ -6,6 +6,7 @@
 
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -56,8 +57,9 @@ struct FakeCamera {
   std::map<int, FakeFrame> frames;                    // those with something special
   std::map<int, std::vector<std::uint8_t>> pictures;  // from this frame on, instead of noise
   std::uint32_t stamp_flags = V4L2_BUF_FLAG_TIMESTAMP_MONOTONIC | V4L2_BUF_FLAG_TSTAMP_SRC_SOE;
-  Nanoseconds stamp_offset{0};      // of the kernel's times; vivid rounds them up
-  std::map<IoctlCode, int> errors;  // of the next such request, once
+  std::optional<Nanoseconds> fixed_stamp;  // of every frame, since the clock's start
+  Nanoseconds stamp_offset{0};             // of the kernel's times; vivid rounds them up
+  std::map<IoctlCode, int> errors;         // of the next such request, once
   std::uint32_t capabilities = V4L2_CAP_VIDEO_CAPTURE | V4L2_CAP_STREAMING;
   bool is_gone = false;
   bool is_silent = false;

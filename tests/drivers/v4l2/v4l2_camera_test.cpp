@@ -79,6 +79,14 @@ TEST_F(V4l2, SaysThatTheLinksBehindANodeHaveToBeSet) {
   EXPECT_TRUE(detail_has("media-ctl")) << camera().detail();
 }
 
+TEST_F(V4l2, SaysThatTheBusIsFull) {
+  kernel_.errors[VIDIOC_STREAMON] = ENOSPC;
+  EXPECT_EQ(start(), DeviceCode::unsupported);
+  EXPECT_TRUE(detail_has("the USB bus has too little room left")) << camera().detail();
+  EXPECT_TRUE(detail_has("another USB controller")) << camera().detail();
+  EXPECT_EQ(start(), DeviceCode::ok);
+}
+
 TEST_F(V4l2, EveryRequestMayFailOnceAndNothingStaysBehind) {
   for (const IoctlCode code : {VIDIOC_QUERYCAP, VIDIOC_ENUM_FMT, VIDIOC_S_FMT, VIDIOC_REQBUFS,
                                VIDIOC_QUERYBUF, VIDIOC_QBUF, VIDIOC_STREAMON, VIDIOC_DQBUF}) {
@@ -114,6 +122,26 @@ TEST_F(V4l2, DeliversOnlyWhatWasExposedAfterTheRequest) {
       ASSERT_EQ(capture(), DeviceCode::ok);
       EXPECT_GE(frame_.exposed_at, asked_at);
       EXPECT_LE(frame_.delivered_at, clock_.now());
+      clock_.sleep_for(i * 17ms);
+    }
+    camera().stop();
+  }
+}
+
+// A driver that says it stamps frames, and does not, or always alike: the time of arrival counts.
+TEST_F(V4l2, StampsThatStandStillAreNotBelieved) {
+  for (const Nanoseconds stamp : {Nanoseconds(0), Nanoseconds(5s)}) {
+    kernel_.fixed_stamp = stamp;
+    camera_.reset();
+    kernel_.begun_at.clear();
+    kernel_.frame_count = 0;
+    ASSERT_EQ(start(), DeviceCode::ok) << camera().detail();
+    clock_.sleep_for(10s);  // the buffers fill with what is old by then
+    for (int i = 0; i < 20; ++i) {
+      const Instant asked_at = clock_.now();
+      ASSERT_EQ(capture(), DeviceCode::ok) << camera().detail();
+      EXPECT_GE(frame_.exposed_at, asked_at);
+      EXPECT_GE(kernel_.begun_at.at(frame_.sequence - 1), asked_at);
       clock_.sleep_for(i * 17ms);
     }
     camera().stop();

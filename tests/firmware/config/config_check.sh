@@ -82,6 +82,9 @@ write ''
 echo '[trays]' >>"$file"
 echo 'dishes = ["bowl"]' >>"$file"
 check 2 'trays.dishes\[0\]: expected one of dinner, oval, soup, found bowl'
+expect 1 'FAIL  trays: .*trays.dishes\[0\]: expected one of dinner, oval, soup, found bowl' "$program" check "$file"
+sed -i 's/"bowl"/"soup"/' "$file"
+expect 1 'ok    trays: dishes soup' "$program" check "$file"
 write '= 3'
 check 2 'station.toml:24: '
 rm "$file"

@@ -61,6 +61,23 @@ TEST_F(PairTasks, ACaptureIsASetOfItself) {
   }
 }
 
+TEST_F(PairTasks, LinksAreFollowedAndNoFolderCountsTwice) {
+  TemporaryFolder elsewhere;
+  const std::filesystem::path lunch = add("lunch");
+  std::filesystem::create_directories(elsewhere.path() / "more");
+  std::filesystem::copy(lunch, elsewhere.path() / "more/dinner");
+  std::filesystem::create_directory_symlink(elsewhere.path() / "more", set_.path() / "far");
+  std::filesystem::create_directory_symlink(lunch, set_.path() / "again");
+  std::filesystem::create_directory_symlink(set_.path(), elsewhere.path() / "more/loop");
+  std::filesystem::create_symlink("nowhere", set_.path() / "broken");
+  const std::vector<PairTask> tasks = plan();
+  ASSERT_EQ(tasks.size(), 4U);
+  EXPECT_EQ(tasks[0].capture, "far/dinner");
+  EXPECT_EQ(tasks[2].capture, "lunch");
+  const auto linked = plan_tasks(set_.path() / "again", abilities_of(Profile::best), skipped_);
+  EXPECT_EQ(linked.size(), 2U);
+}
+
 TEST_F(PairTasks, WithoutPairsTheFirstTwoViewsAreOne) {
   capture_.document.erase("pairs");
   capture_.store();

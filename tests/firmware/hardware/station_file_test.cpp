@@ -9,6 +9,7 @@
 
 #include "firmware/config/dish_choice.hpp"
 #include "firmware/config/dish_library.hpp"
+#include "firmware/config/station_writing.hpp"
 #include "simulator/capture/input_error.hpp"
 #include "tests/simulator/capture/temporary_capture.hpp"
 
@@ -51,6 +52,29 @@ TEST_F(StationFileTest, TheOneThatIsShippedIsReadable) {
   EXPECT_EQ(station.lamp.lines.size(), 3U);
   EXPECT_FALSE(station.arm);
   for (const ControlWish& wish : station.camera.controls) EXPECT_EQ(wish.kind, ControlWish::Kind::hold);
+}
+
+TEST_F(StationFileTest, ALensMayHaveMoreCoefficientsOrAFileOfItsOwn) {
+  const std::string values = "[lens]\nfx = 1400\nfy = 1401\ncx = 800\ncy = 600\ndistortion = ";
+  const std::string camera = "width = 1600\nheight = 1200\n";
+  const std::string head = "[camera]\ndevice = \"serial:A1\"\n" + camera + "[button]\nline = \"TRIGGER\"\n";
+  const StationFile rational = read(head + values + "[[0.1, 0.2, 0, 0, 0.3, 0.4, 0.5, 0.6]]\n");
+  EXPECT_EQ(rational.lens->camera.further_distortion[2], 0.6);
+  const std::string written = compose_lens_table("lens", *rational.lens, "");
+  EXPECT_EQ(read(head + written).lens->camera.coefficients(), rational.lens->camera.coefficients());
+  write_text(folder_.path() / "camera.yml",
+             "image_width: 1600\nimage_height: 1200\nK: [1400, 0, 800, 0, 1401, 600, 0, 0, 1]\n"
+             "D: [0.1, 0.2, 0, 0]\n");
+  const StationFile named = read(head + "[lens]\nfile = \"camera.yml\"\nfocus = 30\n");
+  EXPECT_EQ(named.lens->camera.fy_px, 1401.0);
+  EXPECT_EQ(named.lens->camera.distortion[1], 0.2);
+  EXPECT_EQ(named.lens->focus, 30);
+  EXPECT_NE(problem(head + "[lens]\nfile = \"camera.yml\"\nfx = 3\n").find("no value beside file"),
+            std::string::npos);
+  EXPECT_THROW(read(head + "[lens]\nfile = \"absent.yml\"\n"), InputError);
+  EXPECT_NE(problem(head + "[lens]\nfx = 4.2\nfy = 4.2\ncx = 800\ncy = 600\ndistortion = [0, 0, 0, 0]\n")
+                .find("lens.fx: expected a focal length in pixels"),
+            std::string::npos);
 }
 
 TEST_F(StationFileTest, TheOneThatIsShippedExplainsEveryKey) {

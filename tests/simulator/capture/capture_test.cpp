@@ -121,7 +121,7 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"/camera/fx", -300.0, "camera.fx"}, Mistake{"/camera/fy", "NaN", "camera.fy"},
         Mistake{"/camera/fy", nullptr, "camera.fy"}, Mistake{"/camera/fy", true, "camera.fy"},
         Mistake{"/camera/cx", 320, "camera.cx"}, Mistake{"/camera/cy", -1, "camera.cy"},
-        Mistake{"/camera/distortion", Json::array({0, 0, 0, 0}), "camera.distortion"},
+        Mistake{"/camera/distortion", Json::array({0, 0, 0}), "camera.distortion"},
         Mistake{"/camera/distortion/2", "0", "camera.distortion[2]"}, Mistake{"/card", Json::array(), "card"},
         Mistake{"/card/pattern", "", "card.pattern"}, Mistake{"/card/pattern", 5, "card.pattern"},
         Mistake{"/card/pattern", "/etc/passwd", "card.pattern"},

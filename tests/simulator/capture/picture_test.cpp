@@ -125,15 +125,80 @@ TEST(Picture, NoTruncationIsTakenForAPicture) {
       write_text(files.file("cut"), whole.substr(0, size));
       EXPECT_THROW(read_picture({files.file("cut"), ""}, kSize), InputError) << name << " cut to " << size;
     }
-    for (std::size_t size = whole.size() - 4; size < whole.size(); ++size) {
-      write_text(files.file("cut"), whole.substr(0, size));
-      EXPECT_THROW(read_picture({files.file("cut"), ""}, kSize), InputError) << name << " cut to " << size;
+    // A JPEG without its end marker alone, the last two bytes, is whole.
+    const std::size_t marker = std::string(name).ends_with(".jpg") ? 2 : 0;
+    for (std::size_t missing = marker + 3; missing > marker; --missing) {
+      write_text(files.file("cut"), whole.substr(0, whole.size() - missing));
+      EXPECT_THROW(read_picture({files.file("cut"), ""}, kSize), InputError)
+          << name << " without " << missing;
     }
     std::string blank = whole;  // the file system kept the length, not the data
     std::fill(blank.begin() + static_cast<std::ptrdiff_t>(blank.size() / 2), blank.end(), '\0');
     write_text(files.file("cut"), blank);
     EXPECT_THROW(read_picture({files.file("cut"), ""}, kSize), InputError) << name;
   }
+}
+
+TEST(Picture, AJpegWithoutItsEndMarkerIsWhole) {
+  const TemporaryCapture files;
+  const std::string progressive = files.file("progressive.jpg").string();
+  cv::imwrite(progressive, draw_noise(kSize.width, kSize.height, CV_8UC3, 4),
+              {cv::IMWRITE_JPEG_PROGRESSIVE, 1});
+  for (const char* name : {"view_0.jpg", "progressive.jpg"}) {
+    const cv::Mat oracle = oracle_of(files.file(name));
+    const std::string whole = read_text(files.file(name));
+    for (const std::size_t missing : {1U, 2U}) {
+      write_text(files.file("cut.jpg"), whole.substr(0, whole.size() - missing));
+      std::vector<InputWarning> warnings;
+      expect_equal(to_mat(read_picture({files.file("cut.jpg"), ""}, kSize, &warnings)), oracle, name);
+      ASSERT_EQ(warnings.size(), 1U) << name;
+      EXPECT_EQ(warnings[0].code, "picture_end_missing");
+      EXPECT_NE(warnings[0].message.find("cut.jpg"), std::string::npos);
+    }
+  }
+}
+
+// Cut between two scans, no row is missing, and all are coarser than they were.
+TEST(Picture, AJpegWithoutItsLastScansIsRefused) {
+  const TemporaryCapture files;
+  cv::imwrite(files.file("whole.jpg").string(), draw_noise(kSize.width, kSize.height, CV_8UC3, 4),
+              {cv::IMWRITE_JPEG_PROGRESSIVE, 1});
+  const std::string whole = read_text(files.file("whole.jpg"));
+  int scans = 0;
+  const std::string scan("\xFF\xDA", 2);
+  for (std::size_t at = whole.find(scan); at != std::string::npos; at = whole.find(scan, at + 2), ++scans) {
+    // Tables may stand before a scan.
+    std::size_t end = at;
+    const std::size_t tables = whole.rfind(std::string("\xFF\xC4", 2), at);
+    if (tables != std::string::npos && tables + 300 > at) end = tables;
+    write_text(files.file("cut.jpg"), whole.substr(0, end));
+    EXPECT_THROW(read_picture({files.file("cut.jpg"), ""}, kSize), InputError) << end;
+  }
+  EXPECT_GT(scans, 3);
+}
+
+TEST(Picture, BytesBehindTheEndAndAFewBeforeAMarkerAreAccepted) {
+  const TemporaryCapture files;
+  const cv::Mat oracle = oracle_of(files.file("view_0.jpg"));
+  const std::string whole = read_text(files.file("view_0.jpg"));
+  const auto read = [&](const std::string& bytes, std::vector<InputWarning>& warnings) {
+    write_text(files.file("odd.jpg"), bytes);
+    return to_mat(read_picture({files.file("odd.jpg"), ""}, kSize, &warnings));
+  };
+  for (const std::size_t behind : {1U, 700U}) {
+    std::vector<InputWarning> warnings;
+    expect_equal(read(whole + std::string(behind, 'Z'), warnings), oracle, "behind");
+    EXPECT_TRUE(warnings.empty());
+  }
+  std::vector<InputWarning> warnings;
+  const std::string body = whole.substr(0, whole.size() - 2);
+  const std::string end = whole.substr(whole.size() - 2);
+  expect_equal(read(body + "\x11\x22" + end, warnings), oracle, "the decoder does not notice so few");
+  warnings.clear();
+  expect_equal(read(body + std::string(14, '\x11') + end, warnings), oracle, "before");
+  ASSERT_EQ(warnings.size(), 1U);
+  EXPECT_EQ(warnings[0].code, "picture_bytes_too_many");
+  EXPECT_THROW(read(body + std::string(200, '\x11') + end, warnings), InputError);
 }
 
 TEST(Picture, DamagedBytesNeverCrash) {
@@ -156,25 +221,6 @@ TEST(Picture, DamagedBytesNeverCrash) {
     }
   }
   EXPECT_GT(refused, 200) << "seed " << seed;
-}
-
-TEST(Labels, AreReadAsStored) {
-  const TemporaryCapture files;
-  const Picture labels = read_label_picture({files.file("labels_1.png"), ""}, kSize);
-  expect_equal(to_mat(labels), draw_labels(kSize.width, kSize.height), "labels");
-}
-
-TEST(Labels, OtherKindsAreRefused) {
-  const TemporaryCapture files;
-  const auto read = [&](const char* name) {
-    return [&, name] { read_label_picture({files.file(name), ""}, kSize); };
-  };
-  EXPECT_EQ(found_in(read("view_2.png")), "8-bit RGB");
-  EXPECT_EQ(found_in(read("view_0.jpg")), "bytes of another kind");
-  cv::imwrite(files.file("half.png").string(), draw_labels(160, 120));
-  EXPECT_EQ(found_in(read("half.png")), "160x120 pixels");
-  cv::imwrite(files.file("deep.png").string(), cv::Mat::zeros(240, 320, CV_16UC1));
-  EXPECT_EQ(found_in(read("deep.png")), "16-bit grey");
 }
 
 TEST(Depth, SixteenBitsEqualTheOracle) {
