@@ -21,7 +21,7 @@ using namespace test;
 
 constexpr const char* kStation =
     "# our kitchen\n[camera]\ndevice = \"serial:A1\"\nwidth = 640\nheight = 480\nfocus = 30\n\n"
-    "[lens]  # old\nfx = 1\nfy = 1\ncx = 1\ncy = 1\ndistortion = [0, 0, 0, 0, 0]\n\n# the "
+    "[lens]  # old\nfx = 500\nfy = 500\ncx = 320\ncy = 240\ndistortion = [0, 0, 0, 0, 0]\n\n# the "
     "button\n[button]\nline = "
     "\"TRIGGER\"\n";
 
