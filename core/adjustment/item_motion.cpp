@@ -14,7 +14,7 @@ namespace {
 constexpr std::size_t kMaxItemTracks = 128;  // more tell little more
 
 // Where a track has the item's motion, and what it says of it.
-struct Sighting {
+struct TrackSighting {
   double along_mm = 0.0;  // of the point, in the planes through both cameras
   double across_mm = 0.0;
   Vec6 by_pair = Vec6::Zero();  // derivative of the latter
@@ -30,7 +30,7 @@ class MotionFit {
         sightings_(storage_) {}
 
   void add(const PointTrack& track) {
-    Sighting sighting;
+    TrackSighting sighting;
     double residual_px = 0.0;
     Vec3 point_mm;
     if (sightings_.full() || !locate(track, point_mm)) return;
@@ -54,7 +54,7 @@ class MotionFit {
     double squares = 0.0;
     Vec6 by_pair = Vec6::Zero();
     std::size_t agreeing = 0;
-    for (const Sighting& sighting : sightings_) {
+    for (const TrackSighting& sighting : sightings_) {
       const double off_mm = std::abs(sighting.across_mm - at(sighting));
       if (off_mm > 2.0 * params.scales_mm.back()) continue;
       squares += at(sighting) * at(sighting);
@@ -79,7 +79,7 @@ class MotionFit {
   }
 
  private:
-  double at(const Sighting& sighting) const {
+  double at(const TrackSighting& sighting) const {
     return shift_mm_ + turn_rad_ * (sighting.along_mm - middle_mm_);
   }
 
@@ -119,7 +119,7 @@ class MotionFit {
     double squared_levers = scale_mm * scale_mm / (kTurnSigma * kTurnSigma);
     double shifts = 0.0;
     double moments = 0.0;
-    for (const Sighting& sighting : sightings_) {
+    for (const TrackSighting& sighting : sightings_) {
       const double ratio = (sighting.across_mm - at(sighting)) / scale_mm;
       const double root = 1.0 / (1.0 + ratio * ratio);
       const double weight = root * root;
@@ -140,9 +140,9 @@ class MotionFit {
   double focal_px_;
   Pose second_from_first_;
   TrackResiduals residuals_;
-  std::array<Sighting, kMaxItemTracks> storage_;
+  std::array<TrackSighting, kMaxItemTracks> storage_;
   std::array<double, kMaxItemTracks> magnitudes_{};
-  BoundedList<Sighting> sightings_;
+  BoundedList<TrackSighting> sightings_;
   double middle_mm_ = 0.0;
   double shift_mm_ = 0.0;
   double turn_rad_ = 0.0;

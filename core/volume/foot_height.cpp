@@ -6,23 +6,24 @@
 namespace traygauge {
 namespace {
 
-constexpr int kReach = 3;  // samples; those nearest to the edge show either side
-constexpr std::uint32_t kMinSamples = 30;
-constexpr double kLowestMm = -20.0;
-constexpr double kBinMm = 0.25;
-constexpr std::size_t kBins = 160;
-constexpr double kQuantile = 0.25;
+constexpr int kFootReach = 3;  // samples; those nearest to the edge show either side
+constexpr std::uint32_t kMinFootSamples = 30;
+constexpr double kLowestFootMm = -20.0;
+constexpr double kFootBinMm = 0.25;
+constexpr std::size_t kFootBins = 160;
+constexpr double kFootQuantile = 0.25;
 
 bool is_beside(const ImageView<const std::uint8_t>& labels, int x, int y, std::uint8_t dish) {
   const auto is_dish = [&](int column, int row) {
     return labels.contains(column, row) && labels.at(column, row) == dish;
   };
-  return is_dish(x - kReach, y) || is_dish(x + kReach, y) || is_dish(x, y - kReach) || is_dish(x, y + kReach);
+  return is_dish(x - kFootReach, y) || is_dish(x + kFootReach, y) || is_dish(x, y - kFootReach) ||
+         is_dish(x, y + kFootReach);
 }
 
 std::optional<double> foot_in_view(const SurfaceGrid& view, const InnerSurface& inner, std::uint8_t item,
                                    std::uint8_t dish) {
-  std::array<std::uint32_t, kBins> histogram{};
+  std::array<std::uint32_t, kFootBins> histogram{};
   std::uint32_t count = 0;
   for (int y = 0; y < view.labels.height; ++y) {
     for (int x = 0; x < view.labels.width; ++x) {
@@ -30,16 +31,17 @@ std::optional<double> foot_in_view(const SurfaceGrid& view, const InnerSurface& 
       if (!is_beside(view.labels, x, y, dish)) continue;
       const SurfacePoint& point = view.points.at(x, y);
       const double height_mm = point.z_mm - inner.height_mm(Vec2(point.x_mm, point.y_mm));
-      const double bin = std::clamp((height_mm - kLowestMm) / kBinMm, 0.0, static_cast<double>(kBins - 1));
+      const double bin =
+          std::clamp((height_mm - kLowestFootMm) / kFootBinMm, 0.0, static_cast<double>(kFootBins - 1));
       ++histogram[static_cast<std::size_t>(bin)];
       ++count;
     }
   }
-  if (count < kMinSamples) return std::nullopt;
+  if (count < kMinFootSamples) return std::nullopt;
   std::uint32_t below = 0;
   std::size_t bin = 0;
-  while (bin + 1 < kBins && below + histogram[bin] <= kQuantile * count) below += histogram[bin++];
-  return kLowestMm + (static_cast<double>(bin) + 0.5) * kBinMm;
+  while (bin + 1 < kFootBins && below + histogram[bin] <= kFootQuantile * count) below += histogram[bin++];
+  return kLowestFootMm + (static_cast<double>(bin) + 0.5) * kFootBinMm;
 }
 
 }  // namespace

@@ -11,7 +11,7 @@ namespace traygauge {
 namespace {
 
 constexpr std::uint8_t kFootItem = 2;
-constexpr double kSamples = 40'000.0;  // of the dish in each view
+constexpr double kFootSamples = 40'000.0;  // of the dish in each view
 
 class FootHeights : public ::testing::Test {
  protected:
@@ -20,8 +20,8 @@ class FootHeights : public ::testing::Test {
     test::SolidScene scene;
     scene.dish = dish_;
     scene.solids = {item};
-    std::array<test::TrueGrid, 2> grids = {test::cast_grid(scene, {480.0, 10.0, 0.0}, {}, kSamples),
-                                           test::cast_grid(scene, {480.0, 20.0, 120.0}, {}, kSamples)};
+    std::array<test::TrueGrid, 2> grids = {test::cast_grid(scene, {480.0, 10.0, 0.0}, {}, kFootSamples),
+                                           test::cast_grid(scene, {480.0, 20.0, 120.0}, {}, kFootSamples)};
     for (test::TrueGrid& grid : grids) {
       for (std::size_t i = 0; i < grid.count(); ++i) {
         grid.evidence[i] = SurfaceEvidence::both;
