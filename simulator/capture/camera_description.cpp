@@ -58,7 +58,8 @@ void check_focal_length(const InputFile& place, const char* key, double focal_px
   throw InputError({place.path, key_below(place, key)},
                    "a focal length in pixels, " + number_text(kShortestFocal * side) + " to " +
                        number_text(kLongestFocal * side) + " in pictures of " + size_text(size),
-                   number_text(focal_px), "correct it, or remove it and calibrate with pictures of this size");
+                   number_text(focal_px),
+                   "correct it, or remove it and calibrate with pictures of this size");
 }
 
 void collect(const JsonNode& node, int depth, std::vector<double>& numbers) {
