@@ -79,43 +79,6 @@ StatusCode status_of(DishFault fault) {
 
 }  // namespace
 
-OwnMotion find_own_motion(const CheckedTray& tray, SceneGeometryWorkspace& workspace,
-                          const Configuration& configuration, const SceneGeometry& geometry) {
-  TableCameras cameras;
-  FocalsPx focals_px{};
-  for (std::size_t v = 0; v < 2; ++v) {
-    cameras[v] = tray.views[v]->card().camera_from_table;
-    focals_px[v] = tray.views[v]->lens.pinhole.mean_focal_px();
-  }
-  const CamerasMatrix covariance =
-      covariance_of_cards(tray.views[0]->card().information, tray.views[1]->card().information);
-  std::array<SightedDish, kMaxPlacedDishes> sighted;
-  std::size_t count = 0;
-  for (std::size_t d = 0; d < geometry.dish_count; ++d) {
-    const DishOnTray& dish = geometry.dishes[d];
-    if (dish.candidates.size() != 1) continue;
-    std::array<DishPose, 2> about;
-    bool is_placed = true;
-    for (std::size_t v = 0; v < 2; ++v) {
-      DishOutlines outlines{};
-      outlines[v] = workspace.outlines[d][v].items();
-      PlacedDish placed;
-      is_placed =
-          is_placed && fit_dish_pose(outlines, cameras, focals_px, dish.candidates,
-                                     configuration.bundle.placement, workspace.bundle.placement, placed)
-                           .ok();
-      about[v] = as_described(placed.place, dish.candidates.front());
-    }
-    if (!is_placed) continue;
-    const Sightings sightings =
-        given_sightings(tray, workspace, configuration.checks.sighting, cameras, about, d);
-    if (!are_known(sightings)) continue;
-    sighted[count++] = {sightings, mean_size_mm(about[0]),
-                        is_round_dish(dish.candidates.front().outer_size_mm)};
-  }
-  return find_own_motion(std::span(sighted).first(count), cameras, covariance, configuration.checks);
-}
-
 void check_dishes(const CheckedTray& tray, const SceneGeometryWorkspace& workspace,
                   const Configuration& configuration, SceneGeometry& geometry, CheckList& checks,
                   WarningSet& warnings) {

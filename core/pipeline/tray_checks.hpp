@@ -21,11 +21,6 @@ struct CheckedTray {
   const Segmentation* found = nullptr;  // null: outlines were given
 };
 
-// Before anything is matched, with given outlines: how dishes moved against the card, by its place in each
-// view.
-OwnMotion find_own_motion(const CheckedTray& tray, SceneGeometryWorkspace& workspace,
-                          const Configuration& configuration, const SceneGeometry& geometry);
-
 // Once the cameras are known well. Adds the checks of each dish and raises warnings; a dish that fails one is
 // not measured: its verdict in `geometry` is dish_moved, scale_disagrees or card_lifted.
 void check_dishes(const CheckedTray& tray, const SceneGeometryWorkspace& workspace,

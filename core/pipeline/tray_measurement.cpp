@@ -89,11 +89,8 @@ void measure_tray(TrayMemory& memory, const Configuration& configuration, const 
   clock.enter(Stage::pose);
   measurement.status = trace_outlines(views, configuration, memory.geometry, geometry);
   if (!measurement.status.ok()) return;
-  if (found == nullptr) {
-    geometry.own_motion = find_own_motion(checked, memory.geometry, configuration, geometry);
-  } else {
-    geometry.own_motion = reversed ? found->own_motion.reversed() : found->own_motion;
-  }
+  // Outlines by hand may belong to another picture, which looks like a motion.
+  if (found != nullptr) geometry.own_motion = reversed ? found->own_motion.reversed() : found->own_motion;
   if (geometry.own_motion.is_too_far) {
     measurement.status = StatusCode::dish_moved;
     return;

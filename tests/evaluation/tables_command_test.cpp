@@ -247,7 +247,7 @@ TEST_F(TablesCommand, RefusesWrongUse) {
     const char* named;  // in the message
   };
   for (const Case& own : std::vector<Case>{{{}, "subcommand"},
-                                           {{"table-8", "--meals", meals}, "subcommand"},
+                                           {{"table-8", "--meals", meals}, "table-8"},
                                            {{"table-4"}, "meals-45"},
                                            {{"table-4", "--meals", "/absent"}, "--meals /absent"},
                                            {{"table-4", "--sets", "/absent"}, "--sets /absent"},
