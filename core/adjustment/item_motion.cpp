@@ -6,12 +6,11 @@
 #include "core/adjustment/track_residuals.hpp"
 #include "core/base/bounded_list.hpp"
 #include "core/base/median.hpp"
-#include "core/geometry/triangulation.hpp"
 
 namespace traygauge {
 namespace {
 
-constexpr std::size_t kMaxItemTracks = 128;  // more tell little more
+constexpr std::size_t kMaxItemTracks = 128;  // these tell a shift to 0.01 mm
 
 // Where a track has the item's motion, and what it says of it.
 struct TrackSighting {
@@ -26,6 +25,7 @@ class MotionFit {
       : cameras_(camera_from_table),
         focal_px_(focal_px),
         second_from_first_(second_from_first(camera_from_table)),
+        essential_(essential_matrix(second_from_first_)),
         residuals_(camera_from_table, focal_px),
         sightings_(storage_) {}
 
@@ -33,7 +33,7 @@ class MotionFit {
     TrackSighting sighting;
     double residual_px = 0.0;
     Vec3 point_mm;
-    if (sightings_.full() || !locate(track, point_mm)) return;
+    if (sightings_.full() || !triangulate_track(track, cameras_[0], second_from_first_, point_mm)) return;
     if (!residuals_.off_line(track, residual_px, sighting.by_pair)) return;
     const Vec2 by_shift = by_shift_px(track, point_mm);
     const double px_per_mm = by_shift.norm();
@@ -83,19 +83,9 @@ class MotionFit {
     return shift_mm_ + turn_rad_ * (sighting.along_mm - middle_mm_);
   }
 
-  bool locate(const PointTrack& track, Vec3& point_mm) const {
-    const Vec3 ray = track.first.homogeneous();
-    double depth_mm = 0.0;
-    if (!triangulate_depth(second_from_first_.rotation * ray, track.second.homogeneous(),
-                           second_from_first_.translation, depth_mm))
-      return false;
-    point_mm = cameras_[0].inverse() * (depth_mm * ray);
-    return true;
-  }
-
   // What a millimetre over the table along each axis moves the point off its line in the second picture.
   Vec2 by_shift_px(const PointTrack& track, const Vec3& point_mm) const {
-    const Vec3 line = essential_matrix(second_from_first_) * track.first.homogeneous();
+    const Vec3 line = essential_ * track.first.homogeneous();
     const Vec3 seen = cameras_[1] * point_mm;
     const Vec2 place = seen.hnormalized();
     const Vec3 by_point = Vec3(line.x(), line.y(), -line.head<2>().dot(place)) / seen.z();
@@ -113,7 +103,8 @@ class MotionFit {
 
   // Weighted least squares with Geman and McClure's weights.
   void improve(double scale_mm) {
-    constexpr double kTurnSigma = 0.2;  // rad
+    // rad; keeps near none what tracks in one spot would take for a turn.
+    constexpr double kTurnSigma = 0.2;
     double weights = 0.0;
     double levers = 0.0;
     double squared_levers = scale_mm * scale_mm / (kTurnSigma * kTurnSigma);
@@ -139,6 +130,7 @@ class MotionFit {
   const TableCameras& cameras_;
   double focal_px_;
   Pose second_from_first_;
+  Mat3 essential_;
   TrackResiduals residuals_;
   std::array<TrackSighting, kMaxItemTracks> storage_;
   std::array<double, kMaxItemTracks> magnitudes_{};

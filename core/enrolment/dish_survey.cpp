@@ -124,9 +124,7 @@ Status DishSurveyor::find_edge(const ViewPair& views, std::uint64_t seed) {
   Random random(seed);
   StageClock clock;
   MeasurementReport report;
-  Status status = trace_outlines(views, configuration_, workspace, geometry);
-  if (!status.ok()) return status;
-  status = find_geometry(views, configuration_, random, workspace, clock, report, geometry);
+  Status status = find_geometry(views, configuration_, random, workspace, clock, report, geometry);
   if (!status.ok()) return status;
   const FocalsPx focals_px = {views[0]->lens.pinhole.mean_focal_px(), views[1]->lens.pinhole.mean_focal_px()};
   BundleParams params = configuration_.bundle;

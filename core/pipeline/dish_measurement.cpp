@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/geometry/triangulation.hpp"
 #include "core/pipeline/dish_observation.hpp"
 #include "core/pipeline/food_agreement.hpp"
 #include "core/pipeline/item_checks.hpp"
@@ -21,11 +20,9 @@ double tallest_track_mm(const SceneGeometry& geometry, const LabelSet& labels, d
   double tallest_mm = bottom_height_mm;
   for (const PointTrack& track : geometry.tracks) {
     if (!labels.contains(track.label)) continue;
-    const Vec3 ray = track.first.homogeneous();
-    double depth_mm = 0.0;
-    if (!triangulate_depth(motion.rotation * ray, track.second.homogeneous(), motion.translation, depth_mm))
-      continue;
-    tallest_mm = std::max(tallest_mm, (cameras[0].inverse() * (depth_mm * ray)).z());
+    Vec3 point_mm;
+    if (triangulate_track(track, cameras[0], motion, point_mm))
+      tallest_mm = std::max(tallest_mm, point_mm.z());
   }
   return tallest_mm;
 }

@@ -22,13 +22,6 @@ OwnMotion OwnMotion::reversed() const {
   return back;
 }
 
-CamerasMatrix covariance_of_cards(const Mat6& first_information, const Mat6& second_information) {
-  CamerasMatrix covariance = CamerasMatrix::Zero();
-  covariance.topLeftCorner<6, 6>() = inverse_information<6>(first_information);
-  covariance.bottomRightCorner<6, 6>() = inverse_information<6>(second_information);
-  return covariance;
-}
-
 OwnMotion find_own_motion(std::span<const SightedDish> dishes, const TableCameras& cameras,
                           const CamerasMatrix& covariance, const TrayCheckParams& params) {
   OwnMotion motion;
@@ -41,13 +34,12 @@ OwnMotion find_own_motion(std::span<const SightedDish> dishes, const TableCamera
       return {};
     if (slip_mm > params.most_own_motion_mm) return {.is_too_far = true};
     if (!motion.is_known) {
-      motion = {true,
-                false,
-                dish.sightings[0].place_from(cameras[0]).head<2>(),
-                consistency.slip_mm,
-                dish.is_round ? 0.0 : consistency.turn_rad,
-                std::max(params.min_own_sigma_mm, consistency.slip_sigma_mm),
-                dish.is_round ? slip_mm / params.own_turn_lever_mm : params.min_own_turn_rad};
+      motion.is_known = true;
+      motion.centre_mm = dish.sightings[0].place_from(cameras[0]).head<2>();
+      motion.shift_mm = consistency.slip_mm;
+      motion.turn_rad = dish.is_round ? 0.0 : consistency.turn_rad;
+      motion.shift_sigma_mm = std::max(params.min_own_sigma_mm, consistency.slip_sigma_mm);
+      motion.turn_sigma_rad = dish.is_round ? slip_mm / params.own_turn_lever_mm : params.min_own_turn_rad;
     } else if ((consistency.slip_mm - motion.shift_mm).norm() > params.same_motion_mm) {
       return {};
     }

@@ -29,9 +29,6 @@ struct OwnMotion {
   OwnMotion reversed() const;
 };
 
-// Of a step of both cameras, from the information of each card's alignment.
-CamerasMatrix covariance_of_cards(const Mat6& first_information, const Mat6& second_information);
-
 inline double mean_size_mm(const DishPose& place) {
   return 0.5 * (place.size_mm[0] + place.size_mm[1]);
 }

@@ -44,8 +44,7 @@ BundleInput join(const ViewPair& views, const ReferenceCard& card, const SceneGe
   return input;
 }
 
-}  // namespace
-
+// Into the workspace's outlines.
 Status trace_outlines(const ViewPair& views, const Configuration& configuration,
                       SceneGeometryWorkspace& workspace, const SceneGeometry& geometry) {
   for (std::size_t d = 0; d < geometry.dish_count; ++d) {
@@ -61,6 +60,8 @@ Status trace_outlines(const ViewPair& views, const Configuration& configuration,
   }
   return StatusCode::ok;
 }
+
+}  // namespace
 
 Status list_dishes(const ViewPair& views, const Configuration& configuration,
                    SceneGeometryWorkspace& workspace, SceneGeometry& geometry) {
@@ -93,6 +94,9 @@ Status list_dishes(const ViewPair& views, const Configuration& configuration,
 Status find_geometry(const ViewPair& views, const Configuration& configuration, Random& random,
                      SceneGeometryWorkspace& workspace, StageClock& clock, MeasurementReport& report,
                      SceneGeometry& geometry) {
+  clock.enter(Stage::pose);
+  Status status = trace_outlines(views, configuration, workspace, geometry);
+  if (!status.ok()) return status;
   clock.enter(Stage::matching);
   const TrackedView first{views[0]->gray, views[0]->labels, views[0]->lens};
   const TrackedView second{views[1]->gray, views[1]->labels, views[1]->lens};
@@ -104,9 +108,9 @@ Status find_geometry(const ViewPair& views, const Configuration& configuration, 
     params.correction.turn_sigma_deg =
         std::max(params.correction.turn_sigma_deg, geometry.own_motion.turn_sigma_rad / kRadiansPerDegree);
   }
-  Status status = track_points(first, second, {cards[0].camera_from_table, cards[1].camera_from_table},
-                               configuration.card.thickness_mm, params, random, workspace.tracking,
-                               geometry.tracks, tracking);
+  status = track_points(first, second, {cards[0].camera_from_table, cards[1].camera_from_table},
+                        configuration.card.thickness_mm, params, random, workspace.tracking, geometry.tracks,
+                        tracking);
   report.corners = static_cast<int>(tracking.corners);
   report.matches = static_cast<int>(tracking.tracks);
   geometry.strays = tracking.strays;

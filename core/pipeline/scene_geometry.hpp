@@ -60,11 +60,7 @@ struct SceneGeometryWorkspace {
 Status list_dishes(const ViewPair& views, const Configuration& configuration,
                    SceneGeometryWorkspace& workspace, SceneGeometry& geometry);
 
-// Fills the workspace's outlines.
-Status trace_outlines(const ViewPair& views, const Configuration& configuration,
-                      SceneGeometryWorkspace& workspace, const SceneGeometry& geometry);
-
-// After its outlines were traced. Fills the rest of `geometry` and the sparse part of the report.
+// Fills the rest of `geometry` and the sparse part of the report.
 Status find_geometry(const ViewPair& views, const Configuration& configuration, Random& random,
                      SceneGeometryWorkspace& workspace, StageClock& clock, MeasurementReport& report,
                      SceneGeometry& geometry);

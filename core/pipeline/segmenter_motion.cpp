@@ -1,3 +1,4 @@
+#include "core/geometry/levenberg_marquardt.hpp"
 #include "core/pipeline/segmenter.hpp"
 
 namespace traygauge {
@@ -12,8 +13,9 @@ void Segmenter::follow_own_motion() {
                         is_round_dish(dish.model.outer_size_mm)};
   }
   const TableCameras cameras = {cameras_[0].camera_from_table, cameras_[1].camera_from_table};
-  const CamerasMatrix covariance =
-      covariance_of_cards(result_.cards[0].information, result_.cards[1].information);
+  CamerasMatrix covariance = CamerasMatrix::Zero();
+  covariance.topLeftCorner<6, 6>() = inverse_information<6>(result_.cards[0].information);
+  covariance.bottomRightCorner<6, 6>() = inverse_information<6>(result_.cards[1].information);
   result_.own_motion =
       find_own_motion(std::span(sighted).first(count), cameras, covariance, configuration_.checks);
   if (!result_.own_motion.is_known) return;

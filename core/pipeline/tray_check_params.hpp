@@ -20,7 +20,8 @@ struct TrayCheckParams {
   double slip_warning_mm = 0.75;
   double max_slip_mm = 1.2;
   // Slips that are significant by the cards alone, between these, are measured in the dish's own frame: each
-  // view by itself seeks a rim within 10 mm.
+  // view by itself seeks a rim within 10 mm. The lower limit was chosen on slips-10 of seed 71, the others
+  // are by reason.
   double least_own_motion_mm = 0.5;
   double most_own_motion_mm = 12.0;
   double min_own_sigma_mm = 0.5;    // of such a motion, whose rims may be drawn alike wrong

@@ -21,11 +21,11 @@ Sightings found_sightings(const CheckedTray& tray, std::uint8_t label) {
 // From the outlines that were given, about where the dish stands.
 Sightings given_sightings(const CheckedTray& tray, const SceneGeometryWorkspace& workspace,
                           const DishSightingParams& params, const TableCameras& cameras,
-                          const std::array<DishPose, 2>& about, std::size_t index) {
+                          const DishPose& about, std::size_t index) {
   Sightings sightings;
   for (std::size_t v = 0; v < 2; ++v) {
     sightings[v] = sight_dish(workspace.outlines[index][v].items(), cameras[v],
-                              tray.views[v]->lens.pinhole.mean_focal_px(), about[v], params);
+                              tray.views[v]->lens.pinhole.mean_focal_px(), about, params);
   }
   return sightings;
 }
@@ -91,10 +91,9 @@ void check_dishes(const CheckedTray& tray, const SceneGeometryWorkspace& workspa
     const PlacedDish& placed = bundle.dishes[d].placed;
     const DishPose about =
         as_described(placed.place, dish.candidates[static_cast<std::size_t>(placed.candidate)]);
-    const Sightings sightings =
-        tray.found != nullptr
-            ? found_sightings(tray, dish.label)
-            : given_sightings(tray, workspace, params.sighting, bundle.camera_from_table, {about, about}, d);
+    const Sightings sightings = tray.found != nullptr ? found_sightings(tray, dish.label)
+                                                      : given_sightings(tray, workspace, params.sighting,
+                                                                        bundle.camera_from_table, about, d);
     if (!are_known(sightings)) continue;
     const DishConsistency consistency =
         compare_sightings(sightings, bundle.camera_from_table, covariance,

@@ -6,7 +6,6 @@
 
 #include "core/base/status.hpp"
 #include "core/dish/dish_consistency.hpp"
-#include "core/pipeline/own_motion.hpp"
 #include "core/pipeline/scene_geometry.hpp"
 #include "core/pipeline/segmentation.hpp"
 #include "core/quality/check.hpp"

@@ -86,9 +86,6 @@ void measure_tray(TrayMemory& memory, const Configuration& configuration, const 
   measurement.status = list_dishes(views, configuration, memory.geometry, geometry);
   if (!measurement.status.ok()) return;
   const CheckedTray checked{views, reversed, found};
-  clock.enter(Stage::pose);
-  measurement.status = trace_outlines(views, configuration, memory.geometry, geometry);
-  if (!measurement.status.ok()) return;
   // Outlines by hand may belong to another picture, which looks like a motion.
   if (found != nullptr) geometry.own_motion = reversed ? found->own_motion.reversed() : found->own_motion;
   if (geometry.own_motion.is_too_far) {

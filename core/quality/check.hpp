@@ -50,7 +50,7 @@ constexpr Verdict judge(double value, double warning, double most) {
 
 class CheckList {
  public:
-  static constexpr std::size_t kCapacity = 64;  // eight dishes and twenty items
+  static constexpr std::size_t kCapacity = 64;  // eight dishes and sixteen items
 
   // What does not fit is left out.
   void add(const Check& check) {

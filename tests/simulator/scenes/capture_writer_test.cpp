@@ -46,7 +46,7 @@ double card_brightness(const std::filesystem::path& capture) {
   double sum = 0.0;
   double count = 0.0;
   for (std::size_t i = 0; i < gray.pixels.size(); ++i) {
-    if (view.labels.pixels[i] != kSceneCardLabel) continue;
+    if (view.labels.pixels[i] != kCardLabel) continue;
     sum += gray.pixels[i];
     count += 1.0;
   }
