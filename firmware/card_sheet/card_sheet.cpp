@@ -13,7 +13,6 @@ constexpr double kTickMm = 0.2;
 constexpr double kEdgeMm = 0.4;  // as of the pattern's own line
 constexpr PageText kPlain{3.2, false};
 constexpr PageText kSmall{2.8, false};
-constexpr PageText kGerman{2.8, false};
 constexpr PageText kHeading{5.6, true};
 
 struct Step {
@@ -139,7 +138,7 @@ void write_headings(PagePen& pen, const SheetLayout& layout, int pattern) {
 void write_steps(PagePen& pen, const SheetLayout& layout, double y_mm) {
   for (const Step& step : kSteps) {
     y_mm = pen.write({layout.left_mm, y_mm}, step.english, kPlain, layout.text_width_mm);
-    y_mm = pen.write({layout.left_mm + 4.0, y_mm}, step.german, kGerman, layout.text_width_mm - 4.0) + 1.4;
+    y_mm = pen.write({layout.left_mm + 4.0, y_mm}, step.german, kSmall, layout.text_width_mm - 4.0) + 1.4;
   }
 }
 

@@ -12,7 +12,6 @@ namespace traygauge {
 namespace {
 
 constexpr int kMaxFocus = 10'000'000;
-constexpr double kMaxFocalPx = 1e6;
 constexpr std::array<std::string_view, 11> kLensKeys = {
     "file", "width", "height", "fx", "fy", "cx", "cy", "distortion", "focus", "camera", "calibrated_on"};
 
@@ -46,11 +45,7 @@ CameraDescription read_lens_values(const JsonNode& table, PictureSize mode,
     check_camera({place.path, ""}, camera);
     return camera;
   }
-  camera.fx_px = table.member("fx").positive_number(kMaxFocalPx);
-  camera.fy_px = table.member("fy").positive_number(kMaxFocalPx);
-  camera.cx_px = table.member("cx").number({0.0, camera.size.width - 1.0});
-  camera.cy_px = table.member("cy").number({0.0, camera.size.height - 1.0});
-  read_distortion(table.member("distortion"), camera);
+  read_camera_values(table, {0.0, camera.size.width - 1.0}, {0.0, camera.size.height - 1.0}, camera);
   check_camera({table.file(), table.key()}, camera);
   return camera;
 }

@@ -12,12 +12,11 @@ double ArmGeometry::angle_deg() const {
 std::string find_lens_change(const LensConfig& lens, const V4l2CameraParams& camera,
                              std::optional<int> focus) {
   const PictureSize& size = lens.camera.size;
+  const PictureSize taken{camera.mode.width, camera.mode.height};
   const std::string again = "; calibrate the lens again (traygauge calibrate lens).";
-  if (size != PictureSize{camera.mode.width, camera.mode.height}) {
-    return "The lens was calibrated with pictures of " + std::to_string(size.width) + "x" +
-           std::to_string(size.height) + ", the camera takes " + std::to_string(camera.mode.width) + "x" +
-           std::to_string(camera.mode.height) +
-           "; set camera.width and height to the former, or calibrate again.";
+  if (size != taken) {
+    return "The lens was calibrated with pictures of " + size_text(size) + ", the camera takes " +
+           size_text(taken) + "; set camera.width and height to the former, or calibrate again.";
   }
   if (!lens.calibrated_camera.empty() && lens.calibrated_camera != camera.device) {
     return "The lens was calibrated on camera " + lens.calibrated_camera + ", this is " + camera.device +
@@ -42,11 +41,10 @@ void require_geometry(const StationFile& station) {
                        "run traygauge calibrate lens, or write them there");
     }
     const PictureSize& size = lens->camera.size;
-    if (size == PictureSize{camera.mode.width, camera.mode.height}) return;
+    const PictureSize taken{camera.mode.width, camera.mode.height};
+    if (size == taken) return;
     throw InputError({station.file, std::string(key) + ".width"},
-                     "the camera's pictures, " + std::to_string(camera.mode.width) + "x" +
-                         std::to_string(camera.mode.height),
-                     std::to_string(size.width) + "x" + std::to_string(size.height),
+                     "the camera's pictures, " + size_text(taken), size_text(size),
                      "take pictures of that size, or calibrate the lens again");
   };
   require(station.lens, station.camera, "lens");

@@ -80,13 +80,10 @@ void reduce_view(LoadedView& view, int factor) {
 }
 
 CameraDescription reduced(const CameraDescription& camera, int factor) {
-  CameraDescription result = camera;
-  result.size = reduced_size(camera.size, factor);
-  result.fx_px /= factor;
-  result.fy_px /= factor;
-  result.cx_px = (camera.cx_px + 0.5) / factor - 0.5;
-  result.cy_px = (camera.cy_px + 0.5) / factor - 0.5;
-  return result;
+  CameraDescription cut = camera;  // by what does not fill a block
+  const PictureSize size = reduced_size(camera.size, factor);
+  cut.size = {size.width * factor, size.height * factor};
+  return scaled(cut, size);
 }
 
 }  // namespace traygauge

@@ -22,6 +22,7 @@ constexpr std::size_t kMaxCalibrationBytes = std::size_t{1} << 20U;
 constexpr const char* kCalibration = "a calibration file of OpenCV (YAML, XML or JSON)";
 constexpr std::string_view kBlanks = " \t\r\n";
 constexpr std::size_t kMaxNumbers = 64;  // of one entry
+constexpr NumberRange kAnyNumber{-1e9, 1e9};
 
 // Names that programs give to the same, in lower case and without underscores.
 constexpr std::array<std::string_view, 2> kWidthNames = {"imagewidth", "width"};
@@ -110,16 +111,6 @@ CalibrationEntries split_xml(std::string_view text) {
   return entries;
 }
 
-void collect_numbers(const JsonNode& node, int depth, std::vector<double>& numbers) {
-  for (const JsonNode& element : node.elements(0, kMaxNumbers)) {
-    if (depth > 0 && element.is_list()) {
-      collect_numbers(element, depth - 1, numbers);
-    } else {
-      numbers.push_back(element.number({-1e9, 1e9}));
-    }
-  }
-}
-
 CalibrationEntries split_json(const std::filesystem::path& file) {
   CalibrationEntries entries;
   const JsonDocument document = read_json(file);
@@ -134,9 +125,9 @@ CalibrationEntries split_json(const std::filesystem::path& file) {
       return std::find(names.begin(), names.end(), plain) != names.end();
     };
     if (list.is_list() && (is_one_of(kMatrixNames) || is_one_of(kDistortionNames) || is_one_of(kSizeNames))) {
-      collect_numbers(list, 1, entry.numbers.emplace());
+      entry.numbers = list.nested_numbers(0, kMaxNumbers, kAnyNumber);
     } else if (is_one_of(kWidthNames) || is_one_of(kHeightNames)) {
-      entry.numbers = {node.number({-1e9, 1e9})};
+      entry.numbers = {node.number(kAnyNumber)};
     }
     entries[plain] = entry;
   }
@@ -271,8 +262,7 @@ CameraDescription read_calibration_file(const InputFile& file, std::optional<Pic
   camera.cy_px = k[5];
   const std::vector<double> coefficients = calibration.numbers(distortion);
   if (!set_distortion(coefficients, camera)) {
-    calibration.fail(distortion, "4, 5, 8, 12 or 14 coefficients of OpenCV's model",
-                     std::to_string(coefficients.size()) + " numbers");
+    calibration.fail(distortion, kDistortionCounts, std::to_string(coefficients.size()) + " numbers");
   }
   return camera;
 }

@@ -9,9 +9,9 @@
 namespace traygauge {
 namespace {
 
+constexpr double kMaxFocalPx = 1e6;
 constexpr NumberRange kDistortion{-1e3, 1e3};
 constexpr std::size_t kMaxCoefficients = 14;
-constexpr const char* kCounts = "4, 5, 8, 12 or 14 coefficients of OpenCV's model";
 constexpr const char* kCountHint =
     "give k1, k2, p1, p2, k3, then k4, k5, k6, s1 to s4, tau_x, tau_y where used";
 
@@ -62,16 +62,6 @@ void check_focal_length(const InputFile& place, const char* key, double focal_px
                    "correct it, or remove it and calibrate with pictures of this size");
 }
 
-void collect(const JsonNode& node, int depth, std::vector<double>& numbers) {
-  for (const JsonNode& element : node.elements(1, kMaxCoefficients)) {
-    if (depth > 0 && element.is_list()) {
-      collect(element, depth - 1, numbers);
-    } else {
-      numbers.push_back(element.number(kDistortion));
-    }
-  }
-}
-
 }  // namespace
 
 bool CameraDescription::has_further_distortion() const {
@@ -91,12 +81,21 @@ std::vector<double> CameraDescription::coefficients() const {
   return all;
 }
 
+void read_camera_values(const JsonNode& node, NumberRange cx_range, NumberRange cy_range,
+                        CameraDescription& camera) {
+  camera.fx_px = node.member("fx").positive_number(kMaxFocalPx);
+  camera.fy_px = node.member("fy").positive_number(kMaxFocalPx);
+  camera.cx_px = node.member("cx").number(cx_range);
+  camera.cy_px = node.member("cy").number(cy_range);
+  read_distortion(node.member("distortion"), camera);
+}
+
 void read_distortion(const JsonNode& node, CameraDescription& camera) {
   const JsonNode list = node.is_object() ? node.member("data") : node;
-  if (!list.is_list()) list.fail(kCounts, kCountHint);
+  if (!list.is_list()) list.fail(kDistortionCounts, kCountHint);
   std::vector<double> numbers;
-  if (!list.is_empty()) collect(list, 1, numbers);
-  if (!set_distortion(numbers, camera)) list.fail(kCounts, kCountHint);
+  if (!list.is_empty()) numbers = list.nested_numbers(1, kMaxCoefficients, kDistortion);
+  if (!set_distortion(numbers, camera)) list.fail(kDistortionCounts, kCountHint);
 }
 
 bool set_distortion(std::span<const double> coefficients, CameraDescription& camera) {
@@ -175,10 +174,6 @@ bool has_same_aspect(PictureSize a, PictureSize b) {
   constexpr double tolerance = 0.002;
   const double ratio = (static_cast<double>(a.width) * b.height) / (static_cast<double>(b.width) * a.height);
   return std::abs(ratio - 1.0) <= tolerance;
-}
-
-std::string size_text(PictureSize size) {
-  return std::to_string(size.width) + "x" + std::to_string(size.height);
 }
 
 }  // namespace traygauge

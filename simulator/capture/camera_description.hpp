@@ -13,6 +13,7 @@
 namespace traygauge {
 
 class JsonNode;
+struct NumberRange;
 
 // OpenCV's camera model: pinhole and k1, k2, p1, p2, k3. What few lenses need: k4, k5, k6 (radial
 // denominator), s1 to s4 (thin prism), tau_x and tau_y (sensor tilt, radians); all 0 in most.
@@ -30,6 +31,11 @@ struct CameraDescription {
   std::vector<double> coefficients() const;
 };
 
+inline constexpr const char* kDistortionCounts = "4, 5, 8, 12 or 14 coefficients of OpenCV's model";
+
+// fx, fy, cx and cy, these in pixels from such ranges, and distortion. Throws InputError.
+void read_camera_values(const JsonNode& node, NumberRange cx_range, NumberRange cy_range,
+                        CameraDescription& camera);
 // Of 4, 5, 8, 12 or 14 numbers, in OpenCV's order: a list, a list of lists, or a matrix as cv::FileStorage
 // writes it. Throws InputError.
 void read_distortion(const JsonNode& node, CameraDescription& camera);
@@ -47,8 +53,5 @@ void mend_camera_scale(const InputFile& place, CameraDescription& camera, std::s
 CameraDescription scaled(const CameraDescription& camera, PictureSize size);
 // Sizes that a scaled picture may have: sides in proportion, to a fifth of a per cent.
 bool has_same_aspect(PictureSize a, PictureSize b);
-
-// "1600x1200".
-std::string size_text(PictureSize size);
 
 }  // namespace traygauge

@@ -15,7 +15,6 @@ namespace traygauge {
 namespace {
 
 constexpr int kVersion = 1;
-constexpr double kMaxFocalPx = 1e6;
 constexpr NumberRange kCentrePx{-1e5, 1e5};  // within the picture, once its size is sure
 constexpr NumberRange kCardSizeMm{10.0, 500.0};
 constexpr NumberRange kCardThicknessMm{0.0, 10.0};
@@ -59,11 +58,7 @@ GivenCamera read_camera(const JsonNode& node, const std::filesystem::path& folde
   } else {
     CameraDescription& camera = given.camera;
     camera.size = read_size(node);
-    camera.fx_px = node.member("fx").positive_number(kMaxFocalPx);
-    camera.fy_px = node.member("fy").positive_number(kMaxFocalPx);
-    camera.cx_px = node.member("cx").number(kCentrePx);
-    camera.cy_px = node.member("cy").number(kCentrePx);
-    read_distortion(node.member("distortion"), camera);
+    read_camera_values(node, kCentrePx, kCentrePx, camera);
   }
   mend_camera_scale(given.place, given.camera, given.note);
   check_camera(given.place, given.camera);

@@ -146,6 +146,20 @@ std::string JsonNode::text() const {
   return text;
 }
 
+std::vector<double> JsonNode::nested_numbers(std::size_t min_count, std::size_t max_count,
+                                             NumberRange range) const {
+  std::vector<double> numbers;
+  for (const JsonNode& element : elements(min_count, max_count)) {
+    if (!element.is_list()) {
+      numbers.push_back(element.number(range));
+      continue;
+    }
+    for (const JsonNode& inner : element.elements(min_count, max_count))
+      numbers.push_back(inner.number(range));
+  }
+  return numbers;
+}
+
 std::vector<double> JsonNode::numbers(std::size_t count, NumberRange range) const {
   std::vector<double> numbers;
   for (const JsonNode& element : elements(count, count)) numbers.push_back(element.number(range));

@@ -46,6 +46,8 @@ class JsonNode {
   bool is_empty() const;  // of a list
   bool truth() const;     // true or false
   std::vector<double> numbers(std::size_t count, NumberRange range) const;
+  // Of a list, and of lists in it; each holds so many elements.
+  std::vector<double> nested_numbers(std::size_t min_count, std::size_t max_count, NumberRange range) const;
 
   const std::filesystem::path& file() const { return origin_->file; }
   const std::string& key() const { return key_; }

@@ -7,6 +7,8 @@
 #include <cstdint>
 #include <string>
 
+#include "core/labels/label_regions.hpp"
+
 namespace traygauge {
 namespace {
 
@@ -18,8 +20,6 @@ constexpr int kNearPx = 8;  // an item seen through a gap shows its next part wi
 constexpr std::size_t kMaxSpecks = 100;
 constexpr std::size_t kMaxThinLabels = 8;
 constexpr std::size_t kShownLabels = 8;
-constexpr std::uint8_t kFirstDish = 1;
-constexpr std::uint8_t kCard = 255;
 
 // Equal labels in a row; `parent` leads to the first run of the connected part.
 struct Run {
@@ -234,10 +234,6 @@ std::string count_of(std::size_t count, const std::string& one) {
   return std::to_string(count) + " " + one + (count == 1 ? "" : "s");
 }
 
-bool is_dish(std::uint8_t label) {
-  return label == kFirstDish || (label > 200 && label < 250);
-}
-
 // True where the picture has the speck's label near, but for the speck itself; or where a dish's speck
 // touches anything but background: this is the dish between foods.
 bool belongs_somewhere(const Speck& speck, const Picture& labels) {
@@ -256,7 +252,7 @@ bool belongs_somewhere(const Speck& speck, const Picture& labels) {
       const std::uint8_t label = pixels.at(x, y);
       if (label == speck.label) ++near_pixels;
       const bool touches = y >= top - 1 && y <= bottom && x >= left - 1 && x <= right;
-      const bool is_other = label != speck.label && label != 0 && label != kCard;
+      const bool is_other = label != speck.label && label != kBackgroundLabel && label != kCardLabel;
       if (is_dish(speck.label) && touches && is_other) return true;
     }
   }
@@ -284,7 +280,7 @@ void refuse_soft_edges(const InputFile& file, const Picture& labels, const Label
   std::size_t pixels = 0;
   for (const Run& run : parts.runs()) thin.set(run.label, !wide.test(run.label));
   for (const Speck& speck : specks) {
-    if (speck.label == kFirstDish) continue;
+    if (speck.label == kDishLabel) continue;
     ++count;
     pixels += speck.pixels;
   }

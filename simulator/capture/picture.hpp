@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "core/image_view/image_view.hpp"
@@ -18,6 +19,11 @@ struct PictureSize {
   int height = 0;
   bool operator==(const PictureSize&) const = default;
 };
+
+// "1600x1200".
+inline std::string size_text(PictureSize size) {
+  return std::to_string(size.width) + "x" + std::to_string(size.height);
+}
 
 // 8 bits a channel, rows without padding.
 struct Picture {

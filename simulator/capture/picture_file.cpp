@@ -65,10 +65,8 @@ void check_picture_size(const InputFile& file, std::uint64_t width, std::uint64_
   if (!required) return;
   const PictureSize size{static_cast<int>(width), static_cast<int>(height)};
   if (size == *required) return;
-  throw InputError(file,
-                   std::to_string(required->width) + "x" + std::to_string(required->height) +
-                       " pixels (the camera's size)",
-                   found, "store pictures and labels at the size that the camera was calibrated for");
+  throw InputError(file, size_text(*required) + " pixels (the camera's size)", found,
+                   "store pictures and labels at the size that the camera was calibrated for");
 }
 
 }  // namespace traygauge

@@ -56,7 +56,7 @@ void LaidScene::add_dishes(int threads) {
     transform(object.mesh, moved(pose, 0.0, 0.0, kClearanceMm));
     scene_.objects.push_back(std::move(object));
     for (ServedFood& food :
-         serve_foods(description_, static_cast<int>(i), shells_[i], kFirstSceneFoodLabel, threads)) {
+         serve_foods(description_, static_cast<int>(i), shells_[i], kFirstItemLabel, threads)) {
       transform(food.object.mesh, moved(Eigen::Isometry3d::Identity(), 0.0, 0.0, kClearanceMm));
       scene_.objects.push_back(std::move(food.object));
       food.object = SceneObject{{}, nullptr, scene_.objects.back().label};
@@ -78,7 +78,7 @@ void LaidScene::add_card() {
   const Eigen::Isometry3d pose = world_from_card(card);
   SceneObject object{
       box_mesh({0.0, 0.0, 0.0}, {card.width_mm, card.height_mm, card.thickness_mm - kClearanceMm}),
-      make_card_material(print_, px_per_mm, pose.inverse()), kSceneCardLabel};
+      make_card_material(print_, px_per_mm, pose.inverse()), kCardLabel};
   transform(object.mesh, pose);
   scene_.objects.push_back(std::move(object));
 }
@@ -125,7 +125,7 @@ void LaidScene::add_room(const Eigen::Isometry3d& world_of_room) {
 
 // Of a dish, a food or the card, in the world.
 Eigen::Vector2d LaidScene::middle_of(std::uint8_t label) const {
-  if (label == kSceneCardLabel) return description_.card.centre_mm;
+  if (label == kCardLabel) return description_.card.centre_mm;
   for (const LaidDish& dish : description_.dishes) {
     if (dish.dish.label == label) return dish.centre_mm;
   }

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "core/labels/label_regions.hpp"
 #include "simulator/capture/capture.hpp"
 #include "simulator/scenes/food_shapes.hpp"
 #include "simulator/scenes/surface_material.hpp"
@@ -17,10 +18,6 @@ namespace traygauge {
 
 // World: mm, z up; z = 0 is what dishes and card stand on, the tray's floor where there is a tray, else the
 // table. Rotations are about z, from x towards y.
-
-// As in labels_N.png: foods from 2 on, in their order.
-inline constexpr std::uint8_t kFirstSceneFoodLabel = 2;
-inline constexpr std::uint8_t kSceneCardLabel = 255;
 
 struct LaidDish {
   DishDescription dish;

@@ -22,7 +22,6 @@ constexpr std::size_t kMaxSceneBytes = std::size_t{1} << 20U;
 constexpr std::size_t kMaxFoods = 198;
 constexpr std::size_t kMaxDisplacements = 20;
 constexpr std::size_t kMaxViews = 100;
-constexpr int kFirstFurtherDish = 201;
 constexpr NumberRange kPlaceMm{-1000.0, 1000.0};
 constexpr NumberRange kAngleDeg{-360.0, 360.0};
 constexpr std::array<std::string_view, 4> kUtensilNames = {"fork", "knife", "spoon", "napkin"};
@@ -112,7 +111,7 @@ LaidDish read_laid_dish(const JsonNode& node, const std::filesystem::path& folde
                                 "decoration", "lines", "specks"});
   LaidDish laid;
   laid.dish = read_dish_file(folder / node.member("file").text());
-  laid.dish.label = number == 0 ? 1 : kFirstFurtherDish + static_cast<int>(number) - 1;
+  laid.dish.label = number == 0 ? 1 : kFirstFurtherDishLabel + static_cast<int>(number) - 1;
   table.read("centre_mm", laid.centre_mm, kPlaceMm);
   table.read("rotation_deg", laid.rotation_deg, kAngleDeg);
   table.read("seed", laid.seed);
@@ -146,7 +145,7 @@ LaidFood read_food(const JsonNode& node, const SceneDescription& scene, const st
   food.name = food.kind;
   if (const auto name = table.find("name")) food.name = name->text();
   if (const auto label = table.find("dish")) {
-    const int wanted = label->integer(1, kFirstFurtherDish + static_cast<int>(kMaxDishes));
+    const int wanted = label->integer(1, kFirstFurtherDishLabel + static_cast<int>(kMaxDishes));
     const auto dish =
         std::ranges::find(scene.dishes, wanted, [](const LaidDish& laid) { return laid.dish.label; });
     if (dish == scene.dishes.end())

@@ -206,10 +206,10 @@ void add_slips(SceneDescription& scene, Draws& draws) {
   };
   const auto food = std::find_if(scene.foods.begin(), scene.foods.end(),
                                  [](const LaidFood& laid) { return laid.dish == 0 && laid.level_mm == 0.0; });
-  const auto food_label = static_cast<std::uint8_t>(kFirstSceneFoodLabel + (food - scene.foods.begin()));
+  const auto food_label = static_cast<std::uint8_t>(kFirstItemLabel + (food - scene.foods.begin()));
   scene.pairs = {{0, 1}};
   for (const double length_mm : kLengthsMm) {
-    add(kSceneCardLabel, length_mm, -from_card);
+    add(kCardLabel, length_mm, -from_card);
     add(static_cast<std::uint8_t>(dish.dish.label), length_mm, from_card);
     if (food != scene.foods.end())
       add(food_label, length_mm, Eigen::Vector2d(draws.between(-1.0, 1.0), draws.between(-1.0, 1.0)));
