@@ -104,7 +104,7 @@ std::vector<StationTrends> computed(HubStore& store, const DriftParams& params) 
       const auto first = take(scans.begin(), scans.end(), first_numbers);
       const auto last = take(scans.rbegin(), scans.rend(), last_numbers);
       if (last.empty()) continue;
-      const bool are_others = first_numbers.back() < last_numbers.back();
+      const bool are_others = !first.empty() && first_numbers.back() < last_numbers.back();
       trends.trends.push_back(judge_trend(static_cast<WatchedCheck>(i), sorted_estimate(last),
                                           are_others ? std::optional(sorted_estimate(first)) : std::nullopt,
                                           params));
