@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <utility>
+#include <vector>
+
+#include "firmware/handover/told_drift.hpp"
 
 namespace traygauge {
 
@@ -96,6 +99,7 @@ StationListener Hub::listener_for_inbox() {
     const Expected<void> put = is_kept ? pictures_.keep(id, jpeg) : pictures_.show(id, std::move(jpeg));
     if (!put.ok()) log_problem(put.failure());
   };
+  listener.tell_drift = [this](const std::string& station) { return drift_of(station); };
   listener.on_problem = [this](const std::string& problem) { log_problem(problem); };
   return listener;
 }
@@ -115,6 +119,18 @@ Expected<void> Hub::start_webhook(const std::optional<WebhookConfig>& config, co
   webhook_ = std::move(*webhook);
   if (const std::string warning = webhook_->warning(); !warning.empty()) log_(warning);
   return {};
+}
+
+std::string Hub::drift_of(const std::string& name) const {
+  std::vector<ToldTrend> told;
+  for (const StationTrends& station : drift_.trends()) {
+    if (station.station != name) continue;
+    for (const CheckTrend& trend : station.trends) {
+      told.push_back({traygauge::name(trend.check), trend.last.value, trend.last.sigma, trend.last.count,
+                      trend.drifts ? drift_sentence(trend) : std::string()});
+    }
+  }
+  return told_drift_json(told);
 }
 
 void Hub::follow_drift() {

@@ -55,6 +55,7 @@ class Hub {
   StationListener listener_for_inbox();
   void tidy_pictures();
   Expected<void> start_webhook(const std::optional<WebhookConfig>& config, const WebhookLimits& limits);
+  std::string drift_of(const std::string& name) const;
   void follow_drift();
   void log_problem(const std::string& problem);
 

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "firmware/api/shape_mesh.hpp"
+#include "firmware/handover/told_drift.hpp"
 #include "firmware/hub/picture_shelf.hpp"
 #include "firmware/hub/shape_shelf.hpp"
 #include "firmware/hub/station_inbox.hpp"
@@ -33,7 +34,7 @@ class FuzzedHub {
         break;
       }
       Message message;
-      message.type = static_cast<MessageType>(kind % 9);
+      message.type = static_cast<MessageType>(kind % 11);
       message.text = take_until(said, '\0');
       message.bytes = take_until(said, '\0');
       send(*station, encode(message));
@@ -71,6 +72,7 @@ class FuzzedHub {
     told.on_picture = [this](const ScanId& id, std::string jpeg, bool) {
       std::ignore = pictures_.show(id, std::move(jpeg));
     };
+    told.tell_drift = [](const std::string&) { return told_drift_json({}); };
     told.on_problem = [](const std::string& problem) { demand(!problem.empty(), "a sentence"); };
     return told;
   }
@@ -83,7 +85,8 @@ class FuzzedHub {
       const Expected<std::optional<Message>> answer = reader.next();
       demand(answer.ok(), "the hub answers in messages");
       if (!*answer) break;
-      demand((*answer)->type == MessageType::stored || (*answer)->type == MessageType::set_aside,
+      demand((*answer)->type == MessageType::stored || (*answer)->type == MessageType::set_aside ||
+                 (*answer)->type == MessageType::drift,
              "a scan is stored or set aside");
     }
   }
