@@ -1,6 +1,7 @@
 // What a station says to its hub, after its hello: messages, each a byte for its kind, its text up to a zero
 // byte, and its bytes up to the next one. Kind 255 sends what follows as it is. The hub closes the connection
-// or goes on, answers each scan, and never stores a scan of another station.
+// or goes on, answers each scan, never stores a scan of another station, and knows medians of what it stored.
+#include <cmath>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -8,6 +9,7 @@
 #include <utility>
 
 #include "firmware/api/shape_mesh.hpp"
+#include "firmware/drift/drift_watch.hpp"
 #include "firmware/handover/told_drift.hpp"
 #include "firmware/hub/picture_shelf.hpp"
 #include "firmware/hub/shape_shelf.hpp"
@@ -61,9 +63,24 @@ class FuzzedHub {
     demand(store.ok(), "a store");
     return std::move(*store);
   }
+  DriftWatch watch() {
+    DriftWatch watch(store_);
+    demand(watch.follow({}).ok(), "a store that can be read");
+    return watch;
+  }
   StationListener listener() {
     StationListener told;
-    told.on_stored = [](const ScanId& id) { demand(id.station == kStation, "a scan of the station"); };
+    told.on_stored = [this](const ScanId& id) {
+      demand(id.station == kStation, "a scan of the station");
+      drift_.note(id);
+      for (const StationTrends& station : drift_.trends()) {
+        for (const CheckTrend& trend : station.trends) {
+          demand(std::isfinite(trend.last.value) && std::isfinite(trend.last.sigma),
+                 "a median that is a number");
+          demand(!drift_sentence(trend).empty(), "a sentence about drift");
+        }
+      }
+    };
     told.on_shape = [this](const ScanId& id, std::string json) {
       const Expected<ReadShape> shape = read_shape(json);
       if (shape.ok()) demand(compose_shape_mesh(*shape).starts_with("ply\n"), "a mesh");
@@ -97,6 +114,7 @@ class FuzzedHub {
 
   TemporaryFolder folder_;
   HubStore store_ = open();
+  DriftWatch drift_ = watch();
   ShapeShelf shapes_;
   PictureShelf pictures_{{}};
   StationInbox inbox_{listen(), store_, listener()};
