@@ -24,7 +24,7 @@ struct ToldTrend {
 
 // {"trends":[{"check","median","sigma","scans","drift"}, …]}; reading fails with what was expected.
 std::string told_drift_json(const std::vector<ToldTrend>& trends);
-Expected<std::vector<ToldTrend>> read_told_drift(const std::string& json);
+Expected<std::vector<ToldTrend>> read_told_drift(const std::string& text);
 
 // Connects, asks and waits for the answer for at most `limit`. Who asks is no station for the hub, so that a
 // running station keeps its connection. Fails where no hub answers there.

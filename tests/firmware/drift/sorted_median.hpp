@@ -19,6 +19,7 @@ inline MedianEstimate sorted_estimate(const std::vector<double>& values) {
   if (values.empty()) return {};
   const double median = sorted_median(values);
   std::vector<double> deviations;
+  deviations.reserve(values.size());
   for (const double value : values) deviations.push_back(std::abs(value - median));
   const double error =
       1.253 * 1.4826 * sorted_median(deviations) / std::sqrt(static_cast<double>(values.size()));
