@@ -254,6 +254,25 @@ TEST_F(Watched, FollowsAStoreThatWasOpenedAnew) {
   EXPECT_EQ(watch.trends().at(0).trends.at(0).last.value, 2.0);
 }
 
+// A disk that fails for a while: what came meanwhile is read later, and not at each step of the hub's loop.
+TEST_F(Watched, ReadsAnewWhatCouldNotBeRead) {
+  DriftWatch watch(store_);
+  const auto begin = SteadyClock::now();
+  ASSERT_TRUE(watch.follow(begin).ok());
+  put(sample(1, 1.0));
+  Database& database = store_.store()->database();
+  ASSERT_TRUE(database.run_script("test", "ALTER TABLE documents RENAME TO hidden").ok());
+  watch.note({"kitchen", 1});
+  const Expected<void> failed = watch.follow(begin);
+  ASSERT_FALSE(failed.ok());
+  EXPECT_NE(failed.failure().find("the history cannot be read"), std::string::npos) << failed.failure();
+  ASSERT_TRUE(database.run_script("test", "ALTER TABLE hidden RENAME TO documents").ok());
+  EXPECT_TRUE(watch.follow(begin + std::chrono::seconds(59)).ok());
+  EXPECT_TRUE(watch.trends().empty());
+  EXPECT_TRUE(watch.follow(begin + std::chrono::seconds(60)).ok());
+  EXPECT_EQ(watch.trends().size(), 1U);
+}
+
 TEST_F(Watched, MoreStationsThanItsLimitAreNotWatched) {
   DriftParams params;
   params.max_stations = 2;
