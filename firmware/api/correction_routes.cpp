@@ -44,6 +44,7 @@ HttpResponse add_correction(const HubSite& site, const HttpRequest& request, Sto
       store.corrections().add(id, *action, author, text_of(body, "reason"), site.wall_clock());
   if (!booked.ok()) return store_failure(booked.failure());
   if (!booked->refusal.empty()) return error_response(409, "refused", booked->refusal);
+  site.drift.note(id);
   site.events.broadcast({"correction", Json{{"id", scan_id_text(id)}}.dump(), {}});
   const Expected<std::optional<StoredScan>> scan = store.scans().find(id);
   return scan.ok() ? answer_scan(store, **scan, 201) : store_failure(scan.failure());

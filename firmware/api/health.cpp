@@ -80,6 +80,20 @@ HealthPart examine_webhook(const Webhook& webhook) {
   return {"webhook", HealthState::warning, text};
 }
 
+// Of stations that still measure; only what drifts is a part.
+void examine_drift(const DriftWatch& drift, const WallTime& now, std::vector<HealthPart>& parts) {
+  for (const StationTrends& station : drift.trends()) {
+    if (!still_measures(station, now, drift.params())) continue;
+    std::string message;
+    for (const CheckTrend& trend : station.trends) {
+      if (!trend.drifts) continue;
+      if (!message.empty()) message += ' ';
+      message += drift_sentence(trend);
+    }
+    if (!message.empty()) parts.push_back({"drift of " + station.station, HealthState::warning, message});
+  }
+}
+
 HttpResponse answer_health(const HubSite& site) {
   const Health health = examine_health(site);
   Json json = {{"status", name(health.worst())}, {"parts", Json::array()}};
@@ -119,6 +133,7 @@ Health examine_health(const HubSite& site) {
     health.parts.push_back({"configuration", HealthState::warning, site.facts.configuration_problem});
   if (site.webhook != nullptr) health.parts.push_back(examine_webhook(*site.webhook));
   for (const auto& [name, live] : site.inbox.stations()) examine_station(name, live, health.parts);
+  examine_drift(site.drift, site.wall_clock(), health.parts);
   return health;
 }
 

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "firmware/base/wall_clock.hpp"
+#include "firmware/drift/drift_watch.hpp"
 #include "firmware/hub/hub_store.hpp"
 #include "firmware/hub/picture_shelf.hpp"
 #include "firmware/hub/shape_shelf.hpp"
@@ -28,6 +29,7 @@ struct SiteFacts {
 struct HubSite {
   HubStore& store;
   StationInbox& inbox;
+  DriftWatch& drift;
   const ShapeShelf& shapes;
   const PictureShelf& pictures;
   EventStreams& events;

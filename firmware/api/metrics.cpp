@@ -1,5 +1,7 @@
 // Figures for Prometheus, in its text format.
+#include <array>
 #include <string>
+#include <vector>
 
 #include "firmware/api/health.hpp"
 #include "firmware/api/hub_site.hpp"
@@ -13,7 +15,9 @@ class Metrics {
   void declare(const char* name, const char* type, const char* help) {
     text_ += std::string("# HELP ") + name + " " + help + "\n# TYPE " + name + " " + type + "\n";
   }
-  void add(const std::string& name, double value) { text_ += name + " " + fixed(value, 3) + "\n"; }
+  void add(const std::string& name, double value, int decimals = 3) {
+    text_ += name + " " + fixed(value, decimals) + "\n";
+  }
   void add(const std::string& name, std::uint64_t value) {
     text_ += name + " " + std::to_string(value) + "\n";
   }
@@ -61,6 +65,37 @@ void add_stations(const HubSite& site, Metrics& metrics) {
   }
 }
 
+struct TrendFigure {
+  const char* name;
+  const char* help;
+  double (*value)(const CheckTrend& trend);
+  int decimals;
+};
+constexpr auto kTrendFigures = std::to_array<TrendFigure>(
+    {{"traygauge_check_median",
+      "Median of a check over the last scans of a station that have it, in the unit of its name.",
+      [](const CheckTrend& trend) { return trend.last.value; }, 3},
+     {"traygauge_check_median_error", "Standard error of that median.",
+      [](const CheckTrend& trend) { return trend.last.sigma; }, 3},
+     {"traygauge_check_scans", "Scans that the median is taken over.",
+      [](const CheckTrend& trend) { return static_cast<double>(trend.last.count); }, 0},
+     {"traygauge_check_drifts", "1 while the median is too far off.",
+      [](const CheckTrend& trend) { return trend.drifts ? 1.0 : 0.0; }, 0}});
+
+void add_drift(const DriftWatch& drift, Metrics& metrics) {
+  const std::vector<StationTrends> stations = drift.trends();
+  for (const TrendFigure& figure : kTrendFigures) {
+    metrics.declare(figure.name, "gauge", figure.help);
+    for (const StationTrends& station : stations) {
+      for (const CheckTrend& trend : station.trends) {
+        const std::string labels =
+            "{station=\"" + station.station + "\",check=\"" + name(trend.check) + "\"}";
+        metrics.add(std::string(figure.name) + labels, figure.value(trend), figure.decimals);
+      }
+    }
+  }
+}
+
 void add_webhook(const Webhook& webhook, Metrics& metrics) {
   const WebhookState& state = webhook.state();
   metrics.one("traygauge_webhook_delivered_total", "counter",
@@ -82,6 +117,7 @@ HttpResponse answer_metrics(const HubSite& site) {
   if (Store* const store = site.store.store()) add_store(*store, metrics);
   if (site.webhook != nullptr) add_webhook(*site.webhook, metrics);
   add_stations(site, metrics);
+  add_drift(site.drift, metrics);
   const HttpCounts http = site.http();
   metrics.one("traygauge_http_requests_total", "counter", "Requests answered since the start.",
               http.requests);

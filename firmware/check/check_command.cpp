@@ -5,6 +5,7 @@
 #include "firmware/base/exit_status.hpp"
 #include "firmware/base/text.hpp"
 #include "firmware/check/device_check.hpp"
+#include "firmware/check/drift_check.hpp"
 #include "firmware/check/view_check.hpp"
 #include "firmware/command/program.hpp"
 #include "firmware/config/dish_choice.hpp"
@@ -117,6 +118,7 @@ class StationCheck {
   bool run() {
     knows_geometry_ = tell(try_geometry(station_, pattern_));
     tell(try_trays(station_, knows_geometry_));
+    if (station_.handover) tell(check_drift(*station_.handover));
     const bool arm_works = !station_.arm || tell(try_homing(*hardware_.arm(), longest_move(*station_.arm)));
     const auto first = look(hardware_.camera(), station_.camera, station_.lens, "lens");
     if (station_.second_camera) {

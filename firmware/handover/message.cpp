@@ -10,9 +10,10 @@ namespace {
 constexpr std::string_view kMagic = "TGM1";
 constexpr std::size_t kHeaderBytes = kMagic.size() + 1 + 2 * sizeof(std::uint32_t);
 
-constexpr auto kNames = std::to_array<const char*>(
-    {"hello", "scan", "state", "shape", "picture", "stored", "set_aside", "refused", "next_tray"});
-static_assert(kNames.size() == static_cast<std::size_t>(MessageType::next_tray) + 1);
+constexpr auto kNames =
+    std::to_array<const char*>({"hello", "scan", "state", "shape", "picture", "stored", "set_aside",
+                                "refused", "next_tray", "ask_drift", "drift"});
+static_assert(kNames.size() == static_cast<std::size_t>(MessageType::drift) + 1);
 
 void append_length(std::size_t length, std::string& out) {
   for (unsigned shift = 0; shift < 32; shift += 8) out += static_cast<char>((length >> shift) & 0xFFU);

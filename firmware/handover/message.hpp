@@ -23,6 +23,10 @@ enum class MessageType : std::uint8_t {
   set_aside,  // {"id","why"}: kept on disk, but it is no scan that can be booked
   refused,    // {"id","why"}: not on disk; try again later
   next_tray,  // what is known of the next tray: see told_tray_json(); not answered
+  // from anybody who may open the socket, without a hello
+  ask_drift,  // {"station"}: what its last scans say together; answered by drift
+  // from the hub
+  drift,  // see told_drift_json()
 };
 const char* name(MessageType type);
 

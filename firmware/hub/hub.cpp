@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <utility>
+#include <vector>
+
+#include "firmware/handover/told_drift.hpp"
 
 namespace traygauge {
 
@@ -14,11 +17,12 @@ Expected<std::unique_ptr<Hub>> Hub::start(HubParams params, HubLog log) {
   if (!store.ok()) return Failure{store.failure()};
   for (const std::string& notice : store->notices()) log(notice);
   std::unique_ptr<Hub> hub(new Hub(std::move(*store), std::move(*listener), params, std::move(log)));
+  hub->follow_drift();
   if (const auto started = hub->start_webhook(params.webhook, params.webhook_limits); !started.ok())
     return Failure{started.failure()};
   if (params.web.config.listen.empty()) return hub;
   Expected<std::unique_ptr<HubWeb>> web =
-      HubWeb::start(params.web, {hub->store_, hub->inbox_, hub->shapes_, hub->pictures_});
+      HubWeb::start(params.web, {hub->store_, hub->inbox_, hub->drift_, hub->shapes_, hub->pictures_});
   if (!web.ok()) return Failure{web.failure()};
   hub->web_ = std::move(*web);
   if (hub->webhook_ != nullptr) hub->web_->show_webhook(*hub->webhook_);
@@ -59,6 +63,7 @@ void Hub::step(std::chrono::milliseconds longest_wait) {
     for (const std::string& sentence : webhook_->attend()) log_(sentence);
   }
   for (const std::string& sentence : store_.tend(std::chrono::steady_clock::now())) log_(sentence);
+  follow_drift();
   tidy_pictures();
 }
 
@@ -79,6 +84,7 @@ StationListener Hub::listener_for_inbox() {
   StationListener listener;
   listener.on_stored = [this](const ScanId& id) {
     last_problem_.clear();
+    drift_.note(id);
     if (web_ != nullptr) web_->tell_scan(id);
   };
   listener.on_state = [this](const std::string& station) {
@@ -93,6 +99,7 @@ StationListener Hub::listener_for_inbox() {
     const Expected<void> put = is_kept ? pictures_.keep(id, jpeg) : pictures_.show(id, std::move(jpeg));
     if (!put.ok()) log_problem(put.failure());
   };
+  listener.tell_drift = [this](const std::string& station) { return drift_of(station); };
   listener.on_problem = [this](const std::string& problem) { log_problem(problem); };
   return listener;
 }
@@ -112,6 +119,23 @@ Expected<void> Hub::start_webhook(const std::optional<WebhookConfig>& config, co
   webhook_ = std::move(*webhook);
   if (const std::string warning = webhook_->warning(); !warning.empty()) log_(warning);
   return {};
+}
+
+std::string Hub::drift_of(const std::string& name) const {
+  std::vector<ToldTrend> told;
+  for (const StationTrends& station : drift_.trends()) {
+    if (station.station != name) continue;
+    for (const CheckTrend& trend : station.trends) {
+      told.push_back({traygauge::name(trend.check), trend.last.value, trend.last.sigma, trend.last.count,
+                      trend.drifts ? drift_sentence(trend) : std::string()});
+    }
+  }
+  return told_drift_json(told);
+}
+
+void Hub::follow_drift() {
+  if (const auto followed = drift_.follow(std::chrono::steady_clock::now()); !followed.ok())
+    log_problem(followed.failure());
 }
 
 // A station asks again every few seconds: the same answer is told once.

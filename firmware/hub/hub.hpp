@@ -10,6 +10,7 @@
 #include <string>
 
 #include "firmware/base/expected.hpp"
+#include "firmware/drift/drift_watch.hpp"
 #include "firmware/hub/hub_store.hpp"
 #include "firmware/hub/hub_web.hpp"
 #include "firmware/hub/picture_shelf.hpp"
@@ -54,11 +55,14 @@ class Hub {
   StationListener listener_for_inbox();
   void tidy_pictures();
   Expected<void> start_webhook(const std::optional<WebhookConfig>& config, const WebhookLimits& limits);
+  std::string drift_of(const std::string& name) const;
+  void follow_drift();
   void log_problem(const std::string& problem);
 
   HubLog log_;
   std::string last_problem_;
   HubStore store_;
+  DriftWatch drift_{store_};
   ShapeShelf shapes_;
   PictureShelf pictures_;
   std::chrono::steady_clock::time_point tidied_at_;  // the pictures

@@ -104,9 +104,10 @@ Expected<std::unique_ptr<HubWeb>> HubWeb::start(const HubWebParams& params, cons
 HubWeb::HubWeb(Parts parts, const HubParts& hub)
     : access_(std::move(parts.access)),
       events_(EventStreamLimits{}),
-      hub_site_{hub.store, hub.inbox, hub.shapes, hub.pictures, events_, std::move(parts.facts), [this] {
-                  return server_->counts();
-                }} {
+      hub_site_{
+          hub.store, hub.inbox, hub.drift, hub.shapes, hub.pictures, events_, std::move(parts.facts), [this] {
+            return server_->counts();
+          }} {
   add_login_routes(router_, access_);
   add_scan_routes(router_, hub_site_);
   add_next_tray_routes(router_, hub_site_);

@@ -30,6 +30,7 @@ struct HubWebParams {
 struct HubParts {
   HubStore& store;
   StationInbox& inbox;
+  DriftWatch& drift;
   const ShapeShelf& shapes;
   const PictureShelf& pictures;
 };

@@ -79,6 +79,7 @@ void StationInbox::read(Peer& peer) {
 
 void StationInbox::take_on(Peer& peer, Message message) {
   if (message.type == MessageType::hello) return greet(peer, message);
+  if (message.type == MessageType::ask_drift) return answer_drift(peer, message);
   if (peer.station.empty()) {
     report(std::string("a station's socket: expected its name first, found ") + name(message.type) +
            "; the connection is closed");
@@ -95,6 +96,12 @@ void StationInbox::take_on(Peer& peer, Message message) {
     default:
       report("station " + peer.station + " sent " + name(message.type) + ", which a hub says");
   }
+}
+
+// Not only to stations: who asks may be a person at the command line, while the station runs.
+void StationInbox::answer_drift(Peer& peer, const Message& message) const {
+  if (told_.tell_drift)
+    send(peer, {MessageType::drift, told_.tell_drift(text_of(parsed(message.text), "station")), {}});
 }
 
 void StationInbox::greet(Peer& peer, const Message& message) {

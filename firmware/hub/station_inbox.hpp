@@ -41,6 +41,8 @@ struct StationListener {
   std::function<void(const ScanId& id, std::string shape)> on_shape;
   std::function<void(const ScanId& id, std::string jpeg, bool is_kept)> on_picture;
   std::function<void(const std::string& problem)> on_problem;  // a sentence for the log
+  // What told_drift_json() writes of a station; without it nobody is told.
+  std::function<std::string(const std::string& station)> tell_drift;
 };
 
 // Never blocks. Used by one thread.
@@ -71,6 +73,7 @@ class StationInbox {
   void accept_new();
   void read(Peer& peer);
   void take_on(Peer& peer, Message message);
+  void answer_drift(Peer& peer, const Message& message) const;
   void greet(Peer& peer, const Message& message);
   void keep(Peer& peer, const Message& message);
   Message store(const Peer& peer, const std::string& id, const std::string& document);

@@ -34,6 +34,12 @@ Json check_documents(const CheckList& checks) {
   return list;
 }
 
+Json blur_document(const PictureReport& pictures) {
+  Json list = Json::array();
+  for (const double blur_px : pictures.blur_px) list.push_back(number_or_null(blur_px, blur_px > 0.0));
+  return list;
+}
+
 Json warning_documents(const std::vector<ReportedWarning>& warnings) {
   Json list = Json::array();
   for (const ReportedWarning& warning : warnings) {

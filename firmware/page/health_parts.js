@@ -8,7 +8,7 @@ const kMarks = { ok: 'good', warning: 'warning', failing: 'fault' };
 // The hub's own parts have the names of a station's parts, but no station.
 const kHubParts = { disk: 'hub_disk', configuration: 'hub_configuration' };
 
-// The hub's names: "disk", "clock", "station NAME", "disk of NAME", "queue of NAME", "DEVICE of NAME".
+// The hub's names: "disk", "clock", "station NAME", "disk of NAME", "queue of NAME", "drift of NAME", "DEVICE of NAME".
 function split_name(name) {
   if (name.startsWith('station ')) return { kind: 'station', station: name.slice('station '.length) };
   const [what, station] = name.split(' of ');
@@ -28,7 +28,8 @@ function sentence_of(part) {
   if (part.status === 'ok') return word('health.ok');
   const ours = word_of('health_bad', kind);
   if (ours === null || language === 'en') return part.message ? hub_text(part.message) : word('health.bad');
-  return ours;
+  // What drifts, and by how much, stands in the hub's sentence alone.
+  return kind === 'drift' && part.message ? [ours, ' ', hub_text(`(${part.message})`)] : ours;
 }
 
 function line(part) {

@@ -3,6 +3,7 @@ import { element } from './elements.js';
 import { error_note } from './error_note.js';
 import { get, get_picture } from './hub_api.js';
 import { live } from './live_data.js';
+import { check_section } from './check_table.js';
 import { correction_panel } from './correction_form.js';
 import { correction_list } from './correction_list.js';
 import { format_number } from './numbers.js';
@@ -24,6 +25,13 @@ async function show_picture(frame, scan, signal) {
     element('figcaption', { class: 'quiet' }, word('scan.picture'))));
 }
 
+// Of both pictures; null where neither was measured.
+function blur_text(scan) {
+  const blurs = Array.isArray(scan.blur_px) ? scan.blur_px : [];
+  if (!blurs.some((blur) => typeof blur === 'number')) return null;
+  return blurs.map((blur) => (typeof blur === 'number' ? `${format_number(blur, 2)} px` : '–')).join(' · ');
+}
+
 function facts(scan) {
   const facts_told = [
     ['scan.taken_at', format_time(scan.taken_at)],
@@ -32,6 +40,7 @@ function facts(scan) {
     ['scan.number', String(scan.number)],
     ['scan.tray_name', scan.tray],
     ['scan.duration', scan.duration_ms && word('number.milliseconds', { count: format_number(scan.duration_ms) })],
+    ['scan.blur', blur_text(scan)],
   ];
   const list = facts_told.filter(([, value]) => value).map(([key, value]) =>
     element('div', {}, element('dt', {}, word(key)), element('dd', {}, value)));
@@ -100,6 +109,7 @@ class ScanView {
       element('section', { class: 'card', 'aria-labelledby': 'corrections-head' },
         element('h2', { id: 'corrections-head', tabindex: '-1' }, word('correction.title')), saved,
         correction_list(corrections), panel),
+      check_section(scan) ?? '',
       facts(scan));
   }
 

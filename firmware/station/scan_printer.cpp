@@ -58,6 +58,8 @@ void add_measurement(const Measurement& measurement, Json& json) {
   if (measurement.segmentation_ms > 0.0) timing["segmentation"] = measurement.segmentation_ms;
   timing["total"] = measurement.total_ms;
   json["timing_ms"] = timing;
+  json["checks"] = check_documents(measurement.checks);
+  json["blur_px"] = blur_document(measurement.report.pictures);
   json["warnings"] = warning_documents(list_warnings(measurement, {}));
 }
 
@@ -107,6 +109,8 @@ std::string scan_json(const ScanResult& result, const ScanIdentity* identity) {
                {"relative_angle_deg", nullptr},
                {"duration_ms", std::chrono::duration<double, std::milli>(result.duration).count()},
                {"timing_ms", nullptr},
+               {"checks", Json::array()},
+               {"blur_px", {nullptr, nullptr}},
                {"warnings", Json::array()}});
   if (result.measurement != nullptr) add_measurement(*result.measurement, json);
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);

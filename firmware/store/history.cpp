@@ -27,6 +27,19 @@ std::string page_sql(HistoryOrder order) {
          (order == HistoryOrder::newest_first ? "DESC" : "ASC") + " LIMIT ?12";
 }
 
+// In the order of the index scans_by_id: what is read does not depend on how much is stored.
+std::string station_sql(HistoryOrder order) {
+  return std::string("SELECT ") + kStoredScanColumns +
+         " FROM scans CROSS JOIN documents USING (seq) WHERE station = ?1 ORDER BY number " +
+         (order == HistoryOrder::newest_first ? "DESC" : "ASC") + " LIMIT ?2";
+}
+
+// A step in the same index for each station, whatever the number of scans.
+constexpr const char* kStationsSql =
+    "WITH RECURSIVE names (name) AS (SELECT min(station) FROM scans UNION ALL"
+    " SELECT (SELECT min(station) FROM scans WHERE station > name) FROM names WHERE name IS NOT NULL)"
+    " SELECT name FROM names WHERE name IS NOT NULL LIMIT ?1";
+
 }  // namespace
 
 std::string history_cursor_text(const HistoryCursor& cursor) {
@@ -106,6 +119,22 @@ Expected<void> History::for_each(const HistoryFilter& filter,
     cursor = read->next;
   } while (cursor);
   return {};
+}
+
+Expected<std::vector<std::string>> History::stations(std::size_t max) {
+  std::vector<std::string> names;
+  const Expected<void> read = database_.each(
+      kReadingHistory, kStationsSql, [&](const Statement& row) { names.push_back(row.text(0)); },
+      static_cast<std::int64_t>(max));
+  if (!read.ok()) return Failure{read.failure()};
+  return names;
+}
+
+Expected<void> History::for_each_of(const std::string& station, HistoryOrder order, std::size_t max,
+                                    const std::function<void(const StoredScan&)>& on_scan) {
+  return database_.each(
+      kReadingHistory, station_sql(order).c_str(),
+      [&](const Statement& row) { on_scan(read_stored_scan(row)); }, station, static_cast<std::int64_t>(max));
 }
 
 }  // namespace traygauge

@@ -60,6 +60,12 @@ class History {
   // Oldest first, with a few scans in memory at a time, until `on_scan` returns false.
   Expected<void> for_each(const HistoryFilter& filter, const std::function<bool(const StoredScan&)>& on_scan);
 
+  // Names of stations that have scans, the first `max` of the alphabet.
+  Expected<std::vector<std::string>> stations(std::size_t max);
+  // The first or the last `max` scans of a station by their numbers, with one scan in memory at a time.
+  Expected<void> for_each_of(const std::string& station, HistoryOrder order, std::size_t max,
+                             const std::function<void(const StoredScan&)>& on_scan);
+
  private:
   struct Range {
     std::int64_t first = 0;

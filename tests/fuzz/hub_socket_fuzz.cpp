@@ -1,6 +1,7 @@
 // What a station says to its hub, after its hello: messages, each a byte for its kind, its text up to a zero
 // byte, and its bytes up to the next one. Kind 255 sends what follows as it is. The hub closes the connection
-// or goes on, answers each scan, and never stores a scan of another station.
+// or goes on, answers each scan, never stores a scan of another station, and knows medians of what it stored.
+#include <cmath>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -8,6 +9,8 @@
 #include <utility>
 
 #include "firmware/api/shape_mesh.hpp"
+#include "firmware/drift/drift_watch.hpp"
+#include "firmware/handover/told_drift.hpp"
 #include "firmware/hub/picture_shelf.hpp"
 #include "firmware/hub/shape_shelf.hpp"
 #include "firmware/hub/station_inbox.hpp"
@@ -33,7 +36,7 @@ class FuzzedHub {
         break;
       }
       Message message;
-      message.type = static_cast<MessageType>(kind % 9);
+      message.type = static_cast<MessageType>(kind % 11);
       message.text = take_until(said, '\0');
       message.bytes = take_until(said, '\0');
       send(*station, encode(message));
@@ -60,9 +63,24 @@ class FuzzedHub {
     demand(store.ok(), "a store");
     return std::move(*store);
   }
+  DriftWatch watch() {
+    DriftWatch watch(store_);
+    demand(watch.follow({}).ok(), "a store that can be read");
+    return watch;
+  }
   StationListener listener() {
     StationListener told;
-    told.on_stored = [](const ScanId& id) { demand(id.station == kStation, "a scan of the station"); };
+    told.on_stored = [this](const ScanId& id) {
+      demand(id.station == kStation, "a scan of the station");
+      drift_.note(id);
+      for (const StationTrends& station : drift_.trends()) {
+        for (const CheckTrend& trend : station.trends) {
+          demand(std::isfinite(trend.last.value) && std::isfinite(trend.last.sigma),
+                 "a median that is a number");
+          demand(!drift_sentence(trend).empty(), "a sentence about drift");
+        }
+      }
+    };
     told.on_shape = [this](const ScanId& id, std::string json) {
       const Expected<ReadShape> shape = read_shape(json);
       if (shape.ok()) demand(compose_shape_mesh(*shape).starts_with("ply\n"), "a mesh");
@@ -71,6 +89,7 @@ class FuzzedHub {
     told.on_picture = [this](const ScanId& id, std::string jpeg, bool) {
       std::ignore = pictures_.show(id, std::move(jpeg));
     };
+    told.tell_drift = [](const std::string&) { return told_drift_json({}); };
     told.on_problem = [](const std::string& problem) { demand(!problem.empty(), "a sentence"); };
     return told;
   }
@@ -83,7 +102,8 @@ class FuzzedHub {
       const Expected<std::optional<Message>> answer = reader.next();
       demand(answer.ok(), "the hub answers in messages");
       if (!*answer) break;
-      demand((*answer)->type == MessageType::stored || (*answer)->type == MessageType::set_aside,
+      demand((*answer)->type == MessageType::stored || (*answer)->type == MessageType::set_aside ||
+                 (*answer)->type == MessageType::drift,
              "a scan is stored or set aside");
     }
   }
@@ -94,6 +114,7 @@ class FuzzedHub {
 
   TemporaryFolder folder_;
   HubStore store_ = open();
+  DriftWatch drift_ = watch();
   ShapeShelf shapes_;
   PictureShelf pictures_{{}};
   StationInbox inbox_{listen(), store_, listener()};

@@ -1,12 +1,13 @@
 // What comes over the socket between station and hub, in pieces: first a byte, the size of a piece less one.
-// What is read as messages is what was sent, byte by byte, and what the hub tells of the next tray keeps its
-// meaning.
+// What is read as messages is what was sent, byte by byte, and what the hub tells of the next tray and of
+// drift keeps its meaning.
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "firmware/handover/message.hpp"
 #include "firmware/handover/next_tray.hpp"
+#include "firmware/handover/told_drift.hpp"
 #include "tests/fuzz/fuzz_target.hpp"
 
 namespace traygauge {
@@ -21,6 +22,13 @@ void check_told_tray(const std::string& text) {
   demand(again->hint.tray == told->hint.tray && again->hint.foods == told->hint.foods &&
              again->hint.dishes == told->hint.dishes && again->valid_for == told->valid_for,
          "the next tray stays the same");
+}
+
+void check_told_drift(const std::string& text) {
+  const Expected<std::vector<ToldTrend>> told = read_told_drift(text);
+  if (!told.ok()) return demand(!told.failure().empty(), "a sentence about drift");
+  const Expected<std::vector<ToldTrend>> again = read_told_drift(told_drift_json(*told));
+  demand(again.ok() && *again == *told, "what is told of drift stays the same");
 }
 
 }  // namespace
@@ -44,6 +52,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       encoded += encode(**next);
       demand(sent.starts_with(encoded), "messages are encoded as they came");
       check_told_tray((*next)->text);
+      check_told_drift((*next)->text);
     }
   }
   demand(reader.holds_part() == (encoded.size() < sent.size()), "nothing is left but a part of a message");

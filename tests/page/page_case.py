@@ -29,11 +29,14 @@ class Shared:
 
 
 def store_samples(rig):
-    """Scan 5 is refused, 6 superseded by 7, 8 doubtful; 9 has forty items, 10 is the last and has a shape."""
+    """Scan 1 is of an earlier program, 4 has checks, 5 is refused, 6 superseded by 7, 8 doubtful; 9 has forty items, 10 is
+    the last and has a shape."""
     station = rig.station()
     station.tell_state(temperature_c=51.2, under_voltage=False, calibration={"grade_percent": 0.31})
-    for number in range(1, 5):
-        station.hand_over(samples.meal(number, age_s=86400 * (5 - number)))
+    station.hand_over(samples.unchecked(1))
+    for number in range(2, 5):
+        checks = samples.checks() if number == 4 else []
+        station.hand_over(samples.meal(number, age_s=86400 * (5 - number), checks=checks))
     station.hand_over(samples.refused(5))
     station.hand_over(samples.meal(6))
     station.hand_over(samples.meal(7, supersedes="kitchen-6"))

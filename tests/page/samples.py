@@ -16,12 +16,35 @@ def document(number, items, station="kitchen", status="ok", message="Measured.",
             "taken_at": taken.strftime("%Y-%m-%dT%H:%M:%S.000Z"), "clock_synchronised": True, "supersedes": None,
             "scan": number, "tray": None, "status": status, "message": message, "items": items,
             "relative_angle_deg": 18.0, "duration_ms": 1234.5, "timing_ms": {"total": 321.0}, "warnings": [],
-            **more}
+            "checks": [], "blur_px": [0.87, 0.91], **more}
+
+
+def check(name, label, value, sigma, limit, verdict="passed"):
+    return {"name": name, "label": label, "value": value, "sigma": sigma, "limit": limit, "verdict": verdict}
+
+
+def checks(scale_percent=0.12):
+    """Of a dish and two of its items; one has no points to compare, one is no check that the page knows."""
+    return [check("dish_slip_mm", 1, 0.05, 0.21, 0.75), check("scale_percent", 1, scale_percent, 0.24, 1.0),
+            check("dish_height_mm", 1, -1.31, 0.24, 1.0, "warned"), check("item_slip_mm", 2, 0, 0, 0.25),
+            check("item_foot_mm", 3, -1.6, 0, 0.75, "refused"), check("brand_new_mm", 1, 0.5, 0.1, 1.0)]
 
 
 def meal(number, **more):
     return document(number, [item(2, 142.4, 5.1, food="Rice"), item(3, 88.0, 3.2, food="Chicken curry"),
                              item(4, 61.3, 2.4, food="Green beans")], **more)
+
+
+def unchecked(number):
+    """As stations measured before they told of checks."""
+    old = meal(number)
+    del old["checks"], old["blur_px"]
+    return old
+
+
+def drifting(number):
+    """Its card makes everything too large, but by too little to be refused."""
+    return meal(number, checks=checks(scale_percent=0.42 + 0.01 * (number % 5)))
 
 
 def forty_items(number):

@@ -8,6 +8,7 @@ VIEWS = {
     "#live": (".outlines", "Last tray", "Letztes Tablett"),
     "#history": ("table.history", "Show all", "Alle zeigen"),
     "#scan/kitchen-8": (".correction-form", "Warnings", "Warnungen"),
+    "#scan/kitchen-4": ("table.checks", "Checks", "Prüfungen"),
     "#scan/kitchen-9": (".correction-form", "Details", "Einzelheiten"),
     "#devices": (".figures-of-store", "Stored results", "Gespeicherte Ergebnisse"),
     "#about": (".facts", "Licence", "Lizenz"),
@@ -73,6 +74,37 @@ class ViewsTest(PageCase):
         self.show("#scan/kitchen-777", "de")
         self.browser.wait_text("Diese Messung gibt es nicht.", "[role=alert]")
         self.assertIn("404", "".join(self.browser.errors()))
+
+    def test_checks_are_told_by_word_and_shape(self):
+        def rows():
+            self.browser.wait_any("table.checks")
+            return self.browser.run(
+                "return [...document.querySelectorAll('table.checks tbody tr')].map((line) => [line.dataset.check, "
+                "...[...line.children].map((cell) => cell.textContent), line.querySelector('.mark').classList[1]])")
+        self.show("#scan/kitchen-4")
+        self.assertEqual([[cell.strip() for cell in line] for line in rows()], [
+            ["dish_slip_mm", "Dish and card moved against each other dish 1", "0.05 ± 0.21 mm", "0.75 mm", "passed",
+             "mark-good"],
+            ["scale_percent", "Too large by the card, compared with the dish dish 1", "0.12 ± 0.24 %", "1.00 %",
+             "passed", "mark-good"],
+            ["dish_height_mm", "Edge of the dish above where it belongs dish 1", "-1.31 ± 0.24 mm", "1.00 mm", "warned",
+             "mark-warning"],
+            ["item_slip_mm", "Item moved on its dish Rice", "–", "0.25 mm", "nothing to compare",
+             "mark-away"],
+            ["item_foot_mm", "Edge of the item above its dish Chicken curry", "-1.60 mm", "-0.75 mm", "refused",
+             "mark-fault"],
+            ["brand_new_mm", "brand_new_mm dish 1", "0.50 ± 0.10 mm", "1.00 mm", "passed", "mark-good"]])
+        self.browser.wait_text("0.87 px · 0.91 px", ".facts")
+        self.show("#scan/kitchen-4", "de")
+        self.assertIn("Zu groß nach der Karte, verglichen mit dem Geschirr Geschirr 1", rows()[1][1])
+        self.assertEqual([line[2:5] for line in rows()][2], ["-1,31 ± 0,24 mm", "1,00 mm", "Warnung"])
+
+    def test_scans_of_earlier_programs_have_no_checks(self):
+        self.show("#scan/kitchen-1")
+        self.browser.wait_any(".correction-form")
+        self.assertEqual(self.browser.find_all("table.checks"), [])
+        self.browser.wait_text("Details", "main")
+        self.check_page()
 
     def test_picture_is_shown_where_there_is_one(self):
         self.show("#scan/kitchen-10")

@@ -63,6 +63,14 @@ class WordsTest(unittest.TestCase):
             self.assertGreater(len(codes), 10)
             self.assertEqual([code for code in codes if f"{family}.{code}" not in WORDS["en"]], [], header)
 
+    def test_checks_and_verdicts_have_words(self):
+        header = (PAGE.parents[1] / "core/quality/check.hpp").read_text()
+        for names, family in (("kCheckNames", "check"), ("kVerdictNames", "verdict")):
+            listed = re.search(names + r" =[^;]*\{([^}]*)\}", header).group(1)
+            codes = re.findall(r'"(\w+)"', listed)
+            self.assertGreater(len(codes), 2)
+            self.assertEqual([code for code in codes if f"{family}.{code}" not in WORDS["en"]], [], names)
+
     def test_codes_of_the_devices_have_words(self):
         listed = re.search(r"enum class DeviceCode[^{]*\{([^}]*)\}", (PAGE.parents[1] / "drivers/device_status.hpp").read_text())
         codes = [code for code in re.findall(r"\w+", listed.group(1)) if code != "ok"]

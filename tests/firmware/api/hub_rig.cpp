@@ -12,8 +12,6 @@
 #include <utility>
 #include <vector>
 
-#include "tests/firmware/store/sample_scan.hpp"
-
 namespace traygauge::test {
 namespace {
 
@@ -81,12 +79,16 @@ Answer parsed(const std::string& text) {
 
 }  // namespace
 
-HubRig::HubRig(WebConfig web) {
-  web.listen = {"127.0.0.1:0"};
+HubRig::HubRig(WebConfig web) : web_(std::move(web)) {
+  web_.listen = {"127.0.0.1:0"};
+  start_hub();
+}
+
+void HubRig::start_hub() {
   HubParams params;
   params.socket = folder_.path() / "hub";
   params.store.options.file = folder_.path() / "results.db";
-  params.web.config = web;
+  params.web.config = web_;
   auto hub = Hub::start(params, [](const std::string&) {});
   if (!hub.ok()) throw std::runtime_error(hub.failure());
   hub_ = std::move(*hub);
@@ -98,6 +100,13 @@ HubRig::HubRig(WebConfig web) {
   link.station = "kitchen";
   link.program_version = "1.2.3";
   station_ = std::make_unique<HubLink>(link);
+}
+
+void HubRig::restart() {
+  stop_loop();
+  station_.reset();
+  hub_.reset();
+  start_hub();
 }
 
 HubRig::~HubRig() {
@@ -189,8 +198,15 @@ void HubRig::store(int number, double volume_ml, int seconds, const std::string&
   scan.foods = status == "ok" ? std::vector<std::string>{"rice"} : std::vector<std::string>();
   Json document = Json::parse(sample_document(scan));
   for (Json& item : document["items"]) item["volume_ml"] = volume_ml;
-  const std::string id = scan_id_text(scan.id);
-  const HubReply reply = station_->deliver(id, document.dump());
+  deliver(scan.id, document.dump());
+}
+
+void HubRig::store(const SampleScan& scan) {
+  deliver(scan.id, sample_document(scan));
+}
+
+void HubRig::deliver(const ScanId& id, const std::string& document) {
+  const HubReply reply = station_->deliver(scan_id_text(id), document);
   if (reply.answer != HubAnswer::stored) throw std::runtime_error("not stored: " + reply.text);
 }
 

@@ -14,6 +14,7 @@
 #include "firmware/handover/hub_link.hpp"
 #include "firmware/hub/hub.hpp"
 #include "tests/firmware/api/api_description.hpp"
+#include "tests/firmware/store/sample_scan.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace traygauge::test {
@@ -51,16 +52,22 @@ class HubRig {
 
   // A scan with one item of so many ml, taken so many seconds after 2026-11-27 07:00:00 UTC.
   void store(int number, double volume_ml, int seconds = 0, const std::string& status = "ok");
+  void store(const SampleScan& scan);
+  // The hub ends and starts with the same store; the station has to connect again.
+  void restart();
 
   const TemporaryFolder& folder() const { return folder_; }
   HubLink& station() { return *station_; }
   std::uint16_t port() const { return port_; }
 
  private:
+  void start_hub();
   void start_loop();
   void stop_loop();
+  void deliver(const ScanId& id, const std::string& document);
   Answer checked(Exchange exchange) const;
 
+  WebConfig web_;
   TemporaryFolder folder_;
   std::unique_ptr<Hub> hub_;
   std::unique_ptr<HubLink> station_;

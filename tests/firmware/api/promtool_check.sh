@@ -18,4 +18,5 @@ address=$(sed -n 's/.*\(http[0-9a-z.:/]*[0-9]\).*/\1/p' "$folder/hub.log")
 /usr/bin/python3 -c 'import sys, urllib.request; sys.stdout.buffer.write(urllib.request.urlopen(sys.argv[1]).read())' \
   "$address/metrics" >"$folder/metrics"
 grep -q '^traygauge_' "$folder/metrics" || { echo "no figures:"; cat "$folder/metrics"; exit 1; }
+grep -q '^traygauge_check_median{station="demo"' "$folder/metrics" || { echo "no medians:"; cat "$folder/metrics"; exit 1; }
 "$promtool" check metrics <"$folder/metrics"

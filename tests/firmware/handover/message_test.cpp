@@ -20,7 +20,7 @@ std::string random_bytes(std::mt19937& random, std::size_t max_bytes) {
 }
 
 Message random_message(std::mt19937& random) {
-  constexpr int kLastType = static_cast<int>(MessageType::refused);
+  constexpr int kLastType = static_cast<int>(MessageType::drift);
   const auto type = static_cast<MessageType>(std::uniform_int_distribution<int>(0, kLastType)(random));
   return {type, random_bytes(random, 300), random_bytes(random, 300)};
 }

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "firmware/handover/hub_link.hpp"
+#include "firmware/handover/told_drift.hpp"
 #include "firmware/hub/hub.hpp"
 #include "tests/firmware/store/sample_scan.hpp"
 #include "tests/support/random_seed.hpp"
@@ -68,6 +69,31 @@ class Inbox : public ::testing::Test {
   std::atomic<bool> stop_{false};
   std::thread thread_;
 };
+
+// Who asks says no hello: a station of that name goes on.
+TEST_F(Inbox, TellsADriftToWhoAsks) {
+  HubLink link = link_of("kitchen");
+  SampleScan scan;
+  scan.scale_percent = -0.5;
+  for (scan.id.number = 1; scan.id.number <= 20; ++scan.id.number)
+    ASSERT_EQ(link.deliver(scan_id_text(scan.id), sample_document(scan)).answer, HubAnswer::stored);
+  const auto told = ask_drift(folder_.path() / "hub", "kitchen", Milliseconds(5000));
+  ASSERT_TRUE(told.ok()) << told.failure();
+  ASSERT_EQ(told->size(), 3U);
+  EXPECT_EQ(told->front().check, "scale_percent");
+  EXPECT_EQ(told->front().median, -0.5);
+  EXPECT_EQ(told->front().scans, 20U);
+  EXPECT_NE(told->front().drift.find("0.50 % smaller"), std::string::npos) << told->front().drift;
+  EXPECT_EQ(told->back().drift, "");
+  const auto of_nobody = ask_drift(folder_.path() / "hub", "buffet", Milliseconds(5000));
+  ASSERT_TRUE(of_nobody.ok()) << of_nobody.failure();
+  EXPECT_TRUE(of_nobody->empty());
+  EXPECT_TRUE(link.is_connected());
+  EXPECT_EQ(link.deliver("kitchen-21", document("kitchen", 21)).answer, HubAnswer::stored);
+  end();
+  EXPECT_EQ(hub_->inbox().stations().size(), 1U);
+  EXPECT_EQ(log_, "");
+}
 
 TEST_F(Inbox, StoresEachScanOnceHoweverOftenItComes) {
   HubLink link = link_of("kitchen");

@@ -3,9 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <cerrno>
+#include <iostream>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "firmware/journal/journal_block.hpp"
 #include "firmware/measure/measure_report.hpp"
 
 namespace traygauge {
@@ -58,6 +61,42 @@ TEST_F(Printed, JsonIsOneLineAndHasNullForWhatWasNotMeasured) {
   EXPECT_EQ(json["warnings"].size(), 1U);
 }
 
+TEST_F(Printed, JsonTellsChecksAndBlur) {
+  measurement_.checks.add({CheckKind::scale_percent, 1, -1.25, 0.25, 1.0, Verdict::warned});
+  measurement_.checks.add({CheckKind::item_slip_mm, 2, 0.0, 0.0, 0.25, Verdict::passed});
+  measurement_.report.pictures.blur_px = {0.875, 0.0};  // the second card shows too few edges
+  const auto json = nlohmann::json::parse(scan_json(result_));
+  EXPECT_EQ(json["checks"], nlohmann::json::parse(R"([
+      {"name":"scale_percent","label":1,"value":-1.25,"sigma":0.25,"limit":1.0,"verdict":"warned"},
+      {"name":"item_slip_mm","label":2,"value":0.0,"sigma":0.0,"limit":0.25,"verdict":"passed"}])"));
+  EXPECT_EQ(json["blur_px"], nlohmann::json::parse("[0.875,null]"));
+}
+
+// A result has to fit into the station's journal: with all that a tray of sixteen items may say, and each
+// number as long as it can be.
+TEST_F(Printed, TheLongestResultOfSixteenItemsFitsIntoTheJournal) {
+  constexpr double kLong = -1.2345678901234567e-123;
+  std::array<ItemResult, 16> items;
+  for (std::size_t i = 0; i < items.size(); ++i) {
+    const auto label = static_cast<std::uint8_t>(kLastItemLabel - i);
+    items[i] = {label, 255, StatusCode::ok, kLong, kLong, -kLong, kLong, kLong, kLong};
+    for (const Warning warning :
+         {Warning::food_clipped, Warning::little_texture, Warning::item_hardly_matched, Warning::item_moved,
+          Warning::item_uncertain, Warning::items_doubtful})
+      measurement_.warnings.raise(warning, label);
+  }
+  for (std::size_t i = 0; i < kWarningCount; ++i) measurement_.warnings.raise(static_cast<Warning>(i));
+  while (measurement_.checks.items().size() < CheckList::kCapacity)
+    measurement_.checks.add({CheckKind::dish_height_mm, 255, kLong, kLong, kLong, Verdict::refused});
+  measurement_.items = items;
+  measurement_.report.pictures.blur_px = {-kLong, -kLong};
+  const ScanIdentity identity{{std::string(32, 'k'), std::numeric_limits<std::uint64_t>::max()}, {}, {}};
+  const std::string document = scan_json(result_, &identity);
+  std::cout << document.size() << " bytes" << std::endl;
+  EXPECT_EQ(nlohmann::json::parse(document)["checks"].size(), CheckList::kCapacity);
+  EXPECT_LE(document.size() + scan_id_text(identity.id).size() + 1, kMaxPayloadBytes);
+}
+
 TEST_F(Printed, DeviceFailuresNameDeviceReasonDetailAndErrno) {
   result_.outcome = ScanOutcome::device_failed;
   result_.measurement = nullptr;
@@ -67,6 +106,8 @@ TEST_F(Printed, DeviceFailuresNameDeviceReasonDetailAndErrno) {
   const auto json = nlohmann::json::parse(scan_json(result_));
   EXPECT_EQ(json["status"], "device_gone");
   EXPECT_TRUE(json["items"].empty());
+  EXPECT_EQ(json["checks"], nlohmann::json::array());
+  EXPECT_EQ(json["blur_px"], nlohmann::json::parse("[null,null]"));
 }
 
 TEST_F(Printed, ResultsAndFaultsDoNotMix) {

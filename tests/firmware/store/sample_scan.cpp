@@ -40,6 +40,25 @@ OrderedJson sample_timing() {
   return timing;
 }
 
+OrderedJson sample_check(const char* name, std::size_t label, double value, double limit) {
+  return {{"name", name},   {"label", label},     {"value", value}, {"sigma", 0.2123456789012345},
+          {"limit", limit}, {"verdict", "passed"}};
+}
+
+OrderedJson sample_checks(const SampleScan& scan) {
+  OrderedJson checks = OrderedJson::array();
+  if (scan.scale_percent) {
+    checks.push_back(sample_check("dish_slip_mm", 1, 0.1512345678901234, 0.75));
+    checks.push_back(sample_check("scale_percent", 1, *scan.scale_percent, 1.0));
+    checks.push_back(sample_check("dish_height_mm", 1, scan.dish_height_mm, 1.0));
+  }
+  for (std::size_t i = 0; i < scan.foods.size(); ++i) {
+    checks.push_back(sample_check("item_slip_mm", i + 2, 0.0812345678901234, 0.25));
+    checks.push_back(sample_check("item_foot_mm", i + 2, 1.2312345678901234, 0.75));
+  }
+  return checks;
+}
+
 }  // namespace
 
 std::string sample_document(const SampleScan& scan) {
@@ -59,6 +78,12 @@ std::string sample_document(const SampleScan& scan) {
       {"duration_ms", 2211.123456789},
       {"timing_ms", sample_timing()},
       {"warnings", OrderedJson::array()}};
+  if (scan.has_checks) {
+    json["checks"] = sample_checks(scan);
+    json["blur_px"] = OrderedJson::array();
+    for (const std::optional<double>& blur_px : scan.blur_px)
+      json["blur_px"].push_back(blur_px ? OrderedJson(*blur_px) : OrderedJson());
+  }
   for (std::size_t i = 0; i < scan.foods.size(); ++i) json["items"].push_back(sample_item(i, scan.foods[i]));
   json["warnings"].push_back({{"code", "items_doubtful"},
                               {"message", "Two items touch and have one colour: they may be one food."},

@@ -1,6 +1,7 @@
 // Documents of scans as a station hands them over.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -21,9 +22,13 @@ struct SampleScan {
   std::string tray = "tray 12";
   std::string status = "ok";
   std::vector<std::string> foods = {"rice", "peas", "meatballs", "gravy"};  // an item each
+  bool has_checks = true;  // false: an earlier program measured it, which told neither checks nor blur
+  std::optional<double> scale_percent = 0.1234567890123456;  // none: no dish was checked
+  double dish_height_mm = 0.0456789012345678;
+  std::array<std::optional<double>, 2> blur_px = {0.8712345678901234, 0.9112345678901234};
 };
 
-// Some 3 kB with four items.
+// Some 4 kB with four items.
 std::string sample_document(const SampleScan& scan);
 std::string sample_document(std::uint64_t number);
 

@@ -33,13 +33,21 @@ fs::path frozen(std::size_t version) {
          ("version_" + std::to_string(version) + ".sql");
 }
 
+// By the program of the first version.
+std::string first_document() {
+  SampleScan scan;
+  scan.taken_ms = kMorningMs + 60'000;
+  scan.has_checks = false;
+  return sample_document(scan);
+}
+
 // Each version's store was frozen with the same content: see frozen/README.md.
 void expect_frozen_content(Store& store) {
   EXPECT_EQ(store.scans().totals()->counts.scans, 3);
   const auto superseded = store.scans().find({"kitchen", 1});
   ASSERT_TRUE(superseded.ok() && *superseded);
   EXPECT_EQ((*superseded)->superseded_by, (ScanId{"kitchen", 2}));
-  EXPECT_EQ((*superseded)->document, sample_document(1));
+  EXPECT_EQ((*superseded)->document, first_document());
   const auto corrected = store.corrections().corrected({"kitchen", 2});
   ASSERT_TRUE(corrected.ok() && *corrected);
   EXPECT_EQ((*corrected)->items.size(), 5U);
@@ -59,7 +67,7 @@ void expect_frozen_content(Store& store) {
 }
 
 void fill_for_freezing(Store& store) {
-  ASSERT_TRUE(store.scans().put(sample_document(1), at(kMorningMs)).ok());
+  ASSERT_TRUE(store.scans().put(first_document(), at(kMorningMs)).ok());
   SampleScan second;
   second.id.number = 2;
   second.supersedes = ScanId{"kitchen", 1};

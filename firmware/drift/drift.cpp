@@ -1,0 +1,73 @@
+#include "firmware/drift/drift.hpp"
+
+#include <cmath>
+
+#include "firmware/base/text.hpp"
+
+namespace traygauge {
+namespace {
+
+bool is_too_blurred(const MedianEstimate& last, const MedianEstimate& first, const DriftParams& params) {
+  const double sigma = std::hypot(last.sigma, first.sigma);
+  return first.count >= params.min_values && last.value > params.max_blur_ratio * first.value &&
+         last.value - first.value > params.sigmas * sigma;
+}
+
+bool is_beyond(const MedianEstimate& last, double limit, const DriftParams& params) {
+  return std::abs(last.value) > limit && std::abs(last.value) > params.sigmas * last.sigma;
+}
+
+bool is_drift(WatchedCheck check, const MedianEstimate& last, const std::optional<MedianEstimate>& first,
+              const DriftParams& params) {
+  if (last.count < params.min_values) return false;
+  switch (check) {
+    case WatchedCheck::scale_percent:
+      return is_beyond(last, params.max_scale_percent, params);
+    case WatchedCheck::dish_height_mm:
+      return is_beyond(last, params.max_dish_height_mm, params);
+    case WatchedCheck::blur_px:
+      break;
+  }
+  return first && is_too_blurred(last, *first, params);
+}
+
+std::string scale_sentence(const MedianEstimate& last) {
+  return "the card made everything " + fixed(std::abs(last.value), 2) + " % " +
+         (last.value > 0.0 ? "larger" : "smaller") + " than the dishes say (± " + fixed(last.sigma, 2) +
+         " %). Measure the card with a caliper, and look whether it is worn or another lies there.";
+}
+
+std::string height_sentence(const MedianEstimate& last) {
+  return "the edges of the dishes came out " + fixed(std::abs(last.value), 2) + " mm " +
+         (last.value > 0.0 ? "above" : "below") + " where the card puts them (± " + fixed(last.sigma, 2) +
+         " mm). Look whether the card lies flat on what the dishes stand on, and measure its thickness.";
+}
+
+std::string blur_sentence(const MedianEstimate& last, const MedianEstimate& first) {
+  return "the pictures were " + fixed(last.value / first.value, 2) + " times as blurred as in the first " +
+         std::to_string(first.count) + " that are stored: " + fixed(last.value, 2) + " px (± " +
+         fixed(last.sigma, 2) + " px), then " + fixed(first.value, 2) +
+         " px. Clean the lens, and look whether its focus or the camera was moved.";
+}
+
+}  // namespace
+
+CheckTrend judge_trend(WatchedCheck check, const MedianEstimate& last,
+                       const std::optional<MedianEstimate>& first, const DriftParams& params) {
+  return {check, last, first, is_drift(check, last, first, params)};
+}
+
+std::string drift_sentence(const CheckTrend& trend) {
+  const std::string begin = "In the last " + std::to_string(trend.last.count) + " trays ";
+  switch (trend.check) {
+    case WatchedCheck::scale_percent:
+      return begin + scale_sentence(trend.last);
+    case WatchedCheck::dish_height_mm:
+      return begin + height_sentence(trend.last);
+    case WatchedCheck::blur_px:
+      break;
+  }
+  return begin + blur_sentence(trend.last, trend.first.value_or(trend.last));
+}
+
+}  // namespace traygauge

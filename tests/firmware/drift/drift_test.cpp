@@ -1,0 +1,99 @@
+#include "firmware/drift/drift.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+namespace traygauge::test {
+namespace {
+
+constexpr DriftParams kParams;
+
+bool drifts(WatchedCheck check, const MedianEstimate& last,
+            const std::optional<MedianEstimate>& first = std::nullopt) {
+  return judge_trend(check, last, first, kParams).drifts;
+}
+
+double above(double value) {
+  return std::nextafter(value, std::numeric_limits<double>::infinity());
+}
+
+TEST(Drift, TheParametersAreThoseThatWereAgreed) {
+  EXPECT_EQ(kParams.values, 50U);
+  EXPECT_EQ(kParams.min_values, 20U);
+  EXPECT_EQ(kParams.max_scale_percent, 0.3);
+  EXPECT_EQ(kParams.max_dish_height_mm, 0.2);
+  EXPECT_EQ(kParams.max_blur_ratio, 1.3);
+  EXPECT_EQ(kParams.sigmas, 3.0);
+}
+
+TEST(Drift, OfScaleAndHeightBeginsBeyondTheLimit) {
+  for (const double sign : {1.0, -1.0}) {
+    EXPECT_FALSE(drifts(WatchedCheck::scale_percent, {sign * 0.3, 0.01, 50}));
+    EXPECT_TRUE(drifts(WatchedCheck::scale_percent, {sign * above(0.3), 0.01, 50}));
+    EXPECT_FALSE(drifts(WatchedCheck::dish_height_mm, {sign * 0.2, 0.01, 50}));
+    EXPECT_TRUE(drifts(WatchedCheck::dish_height_mm, {sign * above(0.2), 0.01, 50}));
+  }
+}
+
+TEST(Drift, BeginsBeyondThreeStandardErrors) {
+  for (const double sign : {1.0, -1.0}) {
+    EXPECT_FALSE(drifts(WatchedCheck::scale_percent, {sign * 0.75, 0.25, 50}));
+    EXPECT_TRUE(drifts(WatchedCheck::scale_percent, {sign * above(0.75), 0.25, 50}));
+    EXPECT_FALSE(drifts(WatchedCheck::dish_height_mm, {sign * 0.75, 0.25, 50}));
+    EXPECT_TRUE(drifts(WatchedCheck::dish_height_mm, {sign * above(0.75), 0.25, 50}));
+  }
+  EXPECT_TRUE(drifts(WatchedCheck::scale_percent, {0.5, 0.0, 50}));
+}
+
+TEST(Drift, NeedsTwentyValues) {
+  const MedianEstimate sharp{0.8, 0.01, 20};
+  for (const std::size_t count : {std::size_t{0}, std::size_t{19}}) {
+    EXPECT_FALSE(drifts(WatchedCheck::scale_percent, {0.5, 0.01, count}));
+    EXPECT_FALSE(drifts(WatchedCheck::dish_height_mm, {0.5, 0.01, count}));
+    EXPECT_FALSE(drifts(WatchedCheck::blur_px, {2.0, 0.01, count}, sharp));
+    EXPECT_FALSE(drifts(WatchedCheck::blur_px, {2.0, 0.01, 50}, MedianEstimate{0.8, 0.01, count}));
+  }
+  EXPECT_TRUE(drifts(WatchedCheck::scale_percent, {0.5, 0.01, 20}));
+  EXPECT_TRUE(drifts(WatchedCheck::dish_height_mm, {0.5, 0.01, 20}));
+  EXPECT_TRUE(drifts(WatchedCheck::blur_px, {2.0, 0.01, 20}, sharp));
+}
+
+TEST(Drift, OfBlurIsAgainstTheFirstScans) {
+  const MedianEstimate first{0.8, 0.01, 50};
+  EXPECT_FALSE(drifts(WatchedCheck::blur_px, {2.0, 0.01, 50})) << "there are no others to compare with";
+  EXPECT_FALSE(drifts(WatchedCheck::blur_px, {1.3 * 0.8, 0.01, 50}, first));
+  EXPECT_TRUE(drifts(WatchedCheck::blur_px, {above(1.3 * 0.8), 0.01, 50}, first));
+  EXPECT_FALSE(drifts(WatchedCheck::blur_px, {0.4, 0.01, 50}, first)) << "sharper is no fault";
+  // The errors of both count: 0.3 and 0.4 px make 0.5 px, of which three are 1.5 px.
+  EXPECT_FALSE(drifts(WatchedCheck::blur_px, {2.5, 0.4, 50}, MedianEstimate{1.0, 0.3, 50}));
+  EXPECT_TRUE(drifts(WatchedCheck::blur_px, {2.51, 0.4, 50}, MedianEstimate{1.0, 0.3, 50}));
+}
+
+TEST(Drift, SaysWhatWasFoundAndWhatToDo) {
+  const auto sentence = [](WatchedCheck check, const MedianEstimate& last,
+                           const std::optional<MedianEstimate>& first = std::nullopt) {
+    return drift_sentence(judge_trend(check, last, first, kParams));
+  };
+  EXPECT_EQ(sentence(WatchedCheck::scale_percent, {0.4249, 0.0512, 50}),
+            "In the last 50 trays the card made everything 0.42 % larger than the dishes say (± 0.05 %). "
+            "Measure the "
+            "card with a caliper, and look whether it is worn or another lies there.");
+  EXPECT_NE(sentence(WatchedCheck::scale_percent, {-0.5, 0.05, 21})
+                .find("21 trays the card made everything 0.50 % smaller"),
+            std::string::npos);
+  EXPECT_NE(sentence(WatchedCheck::dish_height_mm, {0.31, 0.04, 50})
+                .find("0.31 mm above where the card puts them (± 0.04 mm)"),
+            std::string::npos);
+  EXPECT_NE(sentence(WatchedCheck::dish_height_mm, {-0.31, 0.04, 50}).find("0.31 mm below"),
+            std::string::npos);
+  EXPECT_NE(
+      sentence(WatchedCheck::blur_px, {1.2, 0.02, 50}, MedianEstimate{0.8, 0.01, 50})
+          .find(
+              "1.50 times as blurred as in the first 50 that are stored: 1.20 px (± 0.02 px), then 0.80 px"),
+      std::string::npos);
+}
+
+}  // namespace
+}  // namespace traygauge::test
