@@ -9,7 +9,7 @@ arch=$1
 guest=$2
 folder=$3
 cmp -s "$0" "$folder/made_by" && [ "$folder/made_by" -nt "$guest/made_by" ] && exit 0
-rm -rf "$folder/base"
+rm -rf "$folder"/{base,debs}
 mkdir -p "$folder/debs/partial" "$folder/base/system"
 folder=$(realpath "$folder")
 . "$(dirname "$0")/own_apt.sh" "$folder" "APT::Architecture \"$arch\"; APT::Architectures { \"$arch\"; };"
@@ -35,7 +35,7 @@ for unit in getty.target systemd-logind.service proc-sys-fs-binfmt_misc.automoun
 done
 # What it prints comes between the results.
 printf '[Manager]\nShowStatus=error\n' >"$system/etc/systemd/system.conf.d/quiet.conf"
-# The board and its files are there before the programs start, which wait for READY=1.
+# Station and hub start after its READY=1: by then the board and the station file are there.
 cat >"$system/etc/systemd/system/board.service" <<'END'
 [Unit]
 Description=The board, and who tests it
