@@ -1,5 +1,6 @@
 # make build | demo | test | bench: each installs what config/packages.txt names and is missing, then does it.
 # make board-test: the drivers and the station on a real kernel in an emulated machine; BOARD=arm64 cross-builds for it.
+# make board-systemd: a part of it: systemd boots the installed units with no camera, which is then plugged in.
 # make arm-test: cross-builds for 64-bit ARM, runs tests and compares volumes under user-mode emulation.
 # make test-debian13: builds and tests in a Debian 13, whatever this machine is.
 # make soak: the long runs of station and hub: power cuts, kills, fuzzing, trays in a row; two to three hours. Sizes: SOAK_….
@@ -24,7 +25,7 @@ say = @echo "== $$(date +%T) $(1)"
 sources = git ls-files '*.cpp' '*.hpp'
 ctest = ctest --output-on-failure --no-tests=error -j $(JOBS) -LE '^bench$$'
 
-.PHONY: configure build build-all demo test test-programs golden bench board-test board-packages board-guest arm-sysroot board-programs board-drivers board-gpiod-2 board-station board-power-cuts arm-test test-debian13 lint lint-changed format check-format check-captures sanitize asan-ubsan tsan soak soak-cuts soak-kills fuzz soak-trays packages page-packages clean
+.PHONY: configure build build-all demo test test-programs golden bench board-test board-packages board-guest arm-sysroot board-programs board-drivers board-gpiod-2 board-station board-systemd board-power-cuts arm-test test-debian13 lint lint-changed format check-format check-captures sanitize asan-ubsan tsan soak soak-cuts soak-kills fuzz soak-trays packages page-packages clean
 
 configure: packages
 	cmake --preset release $(options)
@@ -74,14 +75,14 @@ bench: build-all
 
 # What is downloaded and built for it stays in build-board. BOARD_UNPLUGS=100: how often the camera is pulled out.
 BOARD ?= amd64
-BOARD_TARGETS = traygauge drivers_test board_test station_cycle
+BOARD_TARGETS = traygauge drivers_test board_test station_cycle $(if $(filter amd64,$(BOARD)),boot_unplugged)
 board_preset = $(if $(filter arm64,$(BOARD)),aarch64,release)
 board_build = $(if $(filter arm64,$(BOARD)),build-aarch64,build)
 arm_sysroot = $(abspath build-board/sysroot-arm64)
 board_sysroot = $(if $(filter arm64,$(BOARD)),$(arm_sysroot))
 board_guest = build-board/guest-$(BOARD)
 in_board = SYSROOT=$(board_sysroot) tests/board/run_guest.sh $(BOARD) $(board_guest)
-board-test: board-drivers board-gpiod-2 board-station
+board-test: board-drivers board-gpiod-2 board-station board-systemd
 
 board-packages: packages
 	config/install_packages.sh tests/board/packages.txt
@@ -112,6 +113,16 @@ endif
 board-station: board-programs
 	$(in_board) tests/board/station.sh $(board_build)/traygauge $(board_build)/traygauge-station \
 	  $(board_build)/tests/board/station_cycle simulator/demo/mash_and_meatballs
+
+# On this machine's architecture alone. BOARD_NO_MODULES=1 does not install modules-load.conf: then it has to fail.
+board_systemd = build-board/systemd-$(BOARD)
+board-systemd: board-programs
+ifeq ($(BOARD),amd64)
+	tests/board/make_systemd.sh $(BOARD) $(board_guest) $(board_systemd)
+	tests/board/run_guest.sh $(BOARD) $(board_systemd) tests/board/systemd.sh \
+	  $(addprefix $(board_build)/,traygauge traygauge-station traygauge-hub tests/board/boot_unplugged) \
+	  tests/board/install.sh config/systemd config/60-traygauge-gpio.rules simulator/demo/mash_and_meatballs
+endif
 
 # The power of an emulated machine is cut while it runs station and hub under load, POWER_CUTS=100 times: power_cuts.py.
 power_programs = traygauge-hub tests/board/cut_station tests/board/cut_check tests/board/no_sync.so

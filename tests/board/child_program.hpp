@@ -17,7 +17,7 @@ class ChildProgram {
   ChildProgram& operator=(const ChildProgram&) = delete;
   ~ChildProgram() { finish(); }
 
-  // Blocks; false at the end.
+  // Blocks; false at the end, where `line` has what came without a line's end.
   bool read_line(std::string& line);
   // Waits for its end; its exit status.
   int finish();

@@ -62,7 +62,7 @@ rm -rf "$base"
 mkdir -p "$base"/{bin,dev,proc,sys,tmp,etc}
 dpkg-deb --fsys-tarfile "$folder/debs/"busybox-static_*.deb | tar -xO ./bin/busybox >"$base/bin/busybox"
 chmod +x "$base/bin/busybox"
-for module in configfs gpio-sim vivid uvcvideo vhci-hcd virtio_pci virtio_blk crc32c_generic ext4; do
+for module in configfs gpio-sim vivid uvcvideo usbserial cdc_acm vhci-hcd virtio_pci virtio_blk crc32c_generic ext4; do
   modprobe -d "$kernel" -S "$release" --show-depends "$module" 2>/dev/null | sed -n 's/^insmod \([^ ]*\).*/\1/p'
 done | sort -u | while read -r file; do
   to=$base/lib/modules/$release/${file#"$kernel/lib/modules/$release/"}

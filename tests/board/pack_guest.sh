@@ -42,7 +42,7 @@ for file; do
   [ -d "$file" ] || add_libraries "$file"
 done
 cp "$script" "$work/root/test/run.sh"
-cp "$(dirname "$0")/devices.sh" "$work/root/test/"
+cp "$(dirname "$0")"/{devices,lines}.sh "$work/root/test/"
 env | sed -n 's/^\(BOARD_[A-Z_]*=[0-9]*\)$/export \1/p' >"$work/root/test/environment"
 loader=$(for file; do { readelf -l "$file" 2>/dev/null || true; } | sed -n 's/.*interpreter: \(.*\)\]/\1/p'; done | sort -u)
 if [ -n "$loader" ]; then

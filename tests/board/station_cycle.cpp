@@ -2,7 +2,6 @@
 // uvcvideo, a button and lamps on gpio-sim, an arm on a pseudo-terminal. What it reports is compared with
 // what `traygauge measure` makes of the same pictures; then things go wrong. Usage: station_cycle PROGRAM
 // CAPTURE arm|double|twin, in a guest; see station.sh.
-#include <cmath>
 #include <cstdio>
 #include <functional>
 #include <map>
@@ -10,6 +9,7 @@
 #include <sstream>
 
 #include "tests/board/child_program.hpp"
+#include "tests/board/measured_volumes.hpp"
 #include "tests/board/station_rig.hpp"
 
 namespace {
@@ -21,18 +21,9 @@ using nlohmann::json;
 constexpr double kMaxOff_ml = 0.01;
 constexpr double kMaxResident_mib = 64.0;  // the station's budget
 
-// Label to volume.
-std::map<int, double> volumes(const json& document) {
-  std::map<int, double> volumes;
-  for (const json& item : document["items"]) {
-    if (!item["volume_ml"].is_null()) volumes[item["label"]] = item["volume_ml"];
-  }
-  return volumes;
-}
-
 class Cycle {
  public:
-  Cycle(StationRig& rig, ChildProgram& station, std::map<int, double> expected)
+  Cycle(StationRig& rig, ChildProgram& station, Volumes expected)
       : rig_(rig), station_(station), expected_(std::move(expected)) {}
 
   // Presses once the lamp says ready and expects this status; with the right volumes where it is ok.
@@ -45,14 +36,10 @@ class Cycle {
     if (is_ready && after_press) after_press();
     if (!is_ready || !station_.read_line(line)) return tell(what, false, "it was not ready, or ended");
     const json document = json::parse(line);
-    const auto found = volumes(document);
-    double worst_ml = 0.0;
+    const Volumes found = volumes_ml(document);
+    const double worst_ml = worst_difference_ml(found, expected_);
     bool is_right = document["status"] == status;
     if (status == "ok") is_right = is_right && found.size() == expected_.size();
-    for (const auto& [label, volume_ml] : found) {
-      const auto known = expected_.find(label);
-      worst_ml = std::max(worst_ml, known == expected_.end() ? 1e9 : std::abs(known->second - volume_ml));
-    }
     const double took_s = std::chrono::duration<double>(rig_.clock().now() - pressed_at).count();
     std::ostringstream text;
     text << document["status"] << " " << document["message"] << ", " << found.size() << " items, at most "
@@ -88,18 +75,10 @@ class Cycle {
 
   StationRig& rig_;
   ChildProgram& station_;
-  std::map<int, double> expected_;
+  Volumes expected_;
   ChildProgram::Memory memory_;
   bool is_good_ = true;
 };
-
-json measure(const std::string& program, const std::string& capture, Outlines outlines) {
-  const char* const labels = outlines == Outlines::given ? "given" : "auto";
-  ChildProgram run(program + " measure " + capture + " --labels " + labels + " --seed 0 --json");
-  std::string text;
-  run.read_line(text);
-  return json::parse(text);
-}
 
 void pull_out(StationRig& rig, UsbCamera& camera) {
   camera.unplug();
@@ -170,7 +149,7 @@ int run(const std::string& program, const std::string& folder, const Course& cou
   if (!rig.plug_in()) return 2;
   const std::string file = "/tmp/site/station.toml";
   rig.write_station(file, course.outlines);
-  const auto expected = volumes(measure(program, folder, course.outlines));
+  const Volumes expected = measure_ml(program, folder, course.outlines);
   std::printf("measure: %zu items\n", expected.size());
   ChildProgram check(program + " check " + file);
   for (std::string line; check.read_line(line);) std::printf("check: %s\n", line.c_str());
