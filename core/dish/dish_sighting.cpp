@@ -106,8 +106,75 @@ DishSighting sight_dish(std::span<const Vec2> outline, const Pose& camera_from_t
   return sighting;
 }
 
-// About where both views have the dish, and about where this one alone wants it: bands of a decoration draw
-// the second place aside, a slip between the pictures the first. More of the rim agrees about the right one.
+namespace {
+
+// Of a dish that was found, about places that are guessed.
+class FoundRim {
+ public:
+  FoundRim(RimTracer& tracer, const DishSearchView& view, std::size_t index, const FoundDish& found,
+           const DishSearchParams& search, const DishSightingParams& params, BoundedList<Vec2>& rays)
+      : tracer_(tracer),
+        view_(view),
+        index_(index),
+        found_(found),
+        search_(search),
+        params_(params),
+        rays_(rays) {}
+
+  // The better of what shows about where both views have the dish, and about where this one alone wants it:
+  // bands of a decoration draw the second place aside, a slip between the pictures the first.
+  DishSighting sight() {
+    DishPose own = found_.place;
+    tracer_.shift_to_edges(std::array{index_}, found_.inside_sign, own);
+    trace(found_.place);
+    const DishSighting sighting = sight_dish(found_.place, params_);
+    trace(own);
+    const DishSighting own_sighting = sight_dish(own, params_);
+    return own_sighting.points > sighting.points ? own_sighting : sighting;
+  }
+
+  // Of a rim that is larger than described nearly all has to show: parts are the edges of other things.
+  DishSighting sight_larger(double size) {
+    DishPose about = found_.place;
+    for (double& side_mm : about.size_mm) side_mm *= size;
+    tracer_.shift_to_edges(std::array{index_}, found_.inside_sign, about);
+    trace(about);
+    DishSightingParams any = params_;
+    any.min_agreeing = 0.0;
+    const DishSighting rough = sight_dish(about, any);
+    if (!rough.is_known) return {};
+    about.centre_mm = rough.place.head<2>();
+    about.azimuth_rad = rough.place[kPlaceAzimuth];
+    for (double& side_mm : about.size_mm) side_mm *= 1.0 + rough.place[kSightedSize];
+    const RimTrace shown = trace(about);
+    if (shown.supported < params_.min_agreeing * shown.seen) return {};
+    DishSighting sighting = sight_dish(about, params_);
+    const double described_mm = found_.place.size_mm[0];
+    sighting.place[kSightedSize] =
+        about.size_mm[0] / described_mm * (1.0 + sighting.place[kSightedSize]) - 1.0;
+    return sighting;
+  }
+
+ private:
+  RimTrace trace(const DishPose& about) {
+    return tracer_.trace(index_, about, found_.inside_sign, search_.min_step, RimChoice::nearest, rays_);
+  }
+  DishSighting sight_dish(const DishPose& about, const DishSightingParams& params) const {
+    return traygauge::sight_dish(rays_.items(), view_.camera_from_table, view_.lens.pinhole.mean_focal_px(),
+                                 about, params);
+  }
+
+  RimTracer& tracer_;
+  const DishSearchView& view_;
+  std::size_t index_;
+  const FoundDish& found_;
+  const DishSearchParams& search_;
+  const DishSightingParams& params_;
+  BoundedList<Vec2>& rays_;
+};
+
+}  // namespace
+
 std::array<DishSighting, 2> sight_found_dish(const DishSearchViews& views, const FoundDish& found,
                                              const DishSearchParams& search, const DishSightingParams& params,
                                              DishSearchWorkspace& workspace) {
@@ -116,14 +183,14 @@ std::array<DishSighting, 2> sight_found_dish(const DishSearchViews& views, const
   RimTracer tracer(views, wide, workspace);
   std::array<DishSighting, 2> sightings;
   for (std::size_t v = 0; v < 2; ++v) {
-    DishPose own = found.place;
-    tracer.shift_to_edges(std::array{v}, found.inside_sign, own);
-    for (const DishPose& about : {found.place, own}) {
-      BoundedList<Vec2>& rays = workspace.outlines[v];
-      tracer.trace(v, about, found.inside_sign, search.min_step, RimChoice::nearest, rays);
-      const DishSighting sighting = sight_dish(rays.items(), views[v].camera_from_table,
-                                               views[v].lens.pinhole.mean_focal_px(), about, params);
-      if (sighting.points > sightings[v].points) sightings[v] = sighting;
+    FoundRim rim(tracer, views[v], v, found, search, params, workspace.outlines[v]);
+    sightings[v] = rim.sight();
+    // Of several edges around a dish its own is the outermost.
+    for (const double size : params.larger_sizes) {
+      const DishSighting larger = rim.sight_larger(size);
+      const double least = sightings[v].place[kSightedSize] + params.least_larger;
+      if (larger.is_known && (!sightings[v].is_known || larger.place[kSightedSize] > least))
+        sightings[v] = larger;
     }
   }
   return sightings;

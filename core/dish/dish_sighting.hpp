@@ -26,6 +26,10 @@ struct DishSightingParams {
   // is on changes along it. Single edges of rendered dishes reach 0.93 and more, painted ones 0.89 at most.
   double min_agreeing = 0.92;
   int iterations = 6;  // of Gauss and Newton, with each scale
+  // The edge of a dish that was found is also sought at these sizes: a card that is stated up to 7 % too
+  // large makes it look so. Smaller ones would meet the bands of decorations.
+  std::array<double, 3> larger_sizes{1.02, 1.04, 1.06};
+  double least_larger = 0.01;  // of the described size: what is nearer is the same edge
 };
 
 // Centre (mm) and azimuth (rad) in the table frame, and by which share the dish looks larger than described.
