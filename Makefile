@@ -189,9 +189,10 @@ test-debian13: packages
 packages:
 	@config/install_packages.sh
 
-# The browser, which is larger than all others together.
+# The browser, which is larger than all others together, and what checks the hub's figures.
 page-packages: packages
 	@config/install_packages.sh tests/page/packages.txt
+	@tests/firmware/api/get_promtool.sh build/promtool
 
 check-captures:
 ifeq ($(CI),true)

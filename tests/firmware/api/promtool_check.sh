@@ -1,8 +1,8 @@
 #!/bin/sh
-# Checks the hub's /metrics, after two scans, with Prometheus' own promtool (package prometheus), from PATH or PROMTOOL. Usage:
-# promtool_check.sh BUILD_FOLDER CAPTURES. Exit status 77: there is no promtool.
+# Checks the hub's /metrics, after two scans, with Prometheus' own promtool, from PATH or as get_promtool.sh unpacks it into the
+# build folder. Usage: promtool_check.sh BUILD_FOLDER CAPTURES. Exit status 77: there is no promtool.
 set -eu
-promtool=$(command -v "${PROMTOOL:-promtool}") || { echo "skipped: no promtool; install prometheus"; exit 77; }
+promtool=$(command -v promtool || command -v "$1/promtool/promtool") || { echo "skipped: no promtool; run make test"; exit 77; }
 folder=$(mktemp -d)
 hub=
 trap 'kill $hub 2>/dev/null; wait 2>/dev/null; rm -rf "$folder"' EXIT
