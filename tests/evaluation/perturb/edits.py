@@ -73,14 +73,10 @@ def card_size(pair, percent):
 
 
 def card_height(pair, mm):
-    """The card lies higher than stated."""
-    pair.document["card"]["thickness_mm"] = max(0.0, pair.document["card"]["thickness_mm"] - mm)
-    if pair.document["card"]["thickness_mm"] == 0.0:  # what the card's own height does not give, the dishes must
-        for dish in pair.dishes():
-            for key in ("rim_height_mm", "bottom_height_mm"):
-                dish[key] += mm
-            if "profile" in dish:
-                dish["profile"] = [[inset, height + mm] for inset, height in dish["profile"]]
+    """The card lies higher than stated: its height is stated lower, and what that does not give, the dishes higher."""
+    by_card_mm = min(mm, pair.document["card"]["thickness_mm"])
+    pair.document["card"]["thickness_mm"] -= by_card_mm
+    dish_height(pair, mm - by_card_mm)
 
 
 def focal(pair, percent):
