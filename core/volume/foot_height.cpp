@@ -12,7 +12,7 @@ constexpr std::uint32_t kMinFootSamples = 30;
 constexpr double kLowestFootMm = -20.0;  // of a histogram up to +20 mm, finer than what is warned of
 constexpr double kFootBinMm = 0.25;
 constexpr std::size_t kFootBins = 160;
-constexpr double kFootQuantile = 0.25;  // wrong matches at the edge move less than a quarter of them
+constexpr double kFootQuantile = 0.25;  // holds while fewer than a quarter are matched wrongly to below
 
 bool is_beside(const ImageView<const std::uint8_t>& labels, int x, int y, std::uint8_t dish) {
   const auto is_dish = [&](int column, int row) {

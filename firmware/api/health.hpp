@@ -13,8 +13,9 @@ enum class HealthState : std::uint8_t { ok, warning, failing };
 const char* name(HealthState state);
 
 struct HealthPart {
-  std::string name;  // "disk", "clock", "webhook", "station kitchen", "camera of kitchen", "queue of
-                     // kitchen", "drift of kitchen"
+  // "disk", "clock", "webhook", "station kitchen", "camera of kitchen", "queue of kitchen", "drift of
+  // kitchen"
+  std::string name;
   HealthState state = HealthState::ok;
   std::string message;  // empty where all is well
 };

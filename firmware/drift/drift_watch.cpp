@@ -51,7 +51,7 @@ Expected<void> DriftWatch::read_all(Store& store) {
 // Documents are read once where both windows hold the same scans.
 Expected<DriftWatch::Station> DriftWatch::read_station(Store& store, const std::string& name) const {
   const std::size_t max = params_.scans_looked_at;
-  Station station{{ScanWindow::End::first, max}, {ScanWindow::End::last, max}};
+  Station station = empty_station();
   Expected<void> read =
       store.history().for_each_of(name, HistoryOrder::newest_first, max,
                                   [&](const StoredScan& scan) { station.last.put(window_scan(scan)); });
@@ -80,21 +80,24 @@ Expected<void> DriftWatch::look_at(Store& store, const ScanId& id) {
   auto station = stations_.find(id.station);
   if (station == stations_.end()) {
     if (stations_.size() >= params_.max_stations) return {};
-    const std::size_t max = params_.scans_looked_at;
-    const Station empty{{ScanWindow::End::first, max}, {ScanWindow::End::last, max}};
-    station = stations_.emplace(id.station, empty).first;
+    station = stations_.emplace(id.station, empty_station()).first;
   }
-  station->second.first.put(window_scan(scan));
-  station->second.last.put(window_scan(scan));
+  const auto put = [&windows = station->second](const WindowScan& read) {
+    windows.first.put(read);
+    windows.last.put(read);
+  };
+  put(window_scan(scan));
   // The scan that it supersedes does not count any more. That one supersedes none anew.
   if (!scan.supersedes) return {};
   const Expected<std::optional<StoredScan>> earlier = store.scans().find(*scan.supersedes);
   if (!earlier.ok()) return Failure{earlier.failure()};
-  if (*earlier) {
-    station->second.first.put(window_scan(**earlier));
-    station->second.last.put(window_scan(**earlier));
-  }
+  if (*earlier) put(window_scan(**earlier));
   return {};
+}
+
+DriftWatch::Station DriftWatch::empty_station() const {
+  const std::size_t max = params_.scans_looked_at;
+  return {{ScanWindow::End::first, max}, {ScanWindow::End::last, max}};
 }
 
 std::vector<StationTrends> DriftWatch::trends() const {

@@ -48,6 +48,7 @@ class DriftWatch {
   };
 
   Expected<void> read_all(Store& store);
+  Station empty_station() const;
   Expected<Station> read_station(Store& store, const std::string& name) const;
   Expected<void> look_at(Store& store, const ScanId& id);
   StationTrends trends_of(const std::string& name, const Station& station) const;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/median.hpp"
+
 namespace traygauge {
 namespace {
 
@@ -18,16 +20,14 @@ double middle_of(std::vector<double>& values) {
 
 MedianEstimate estimate_median(std::vector<double> values) {
   if (values.empty()) return {};
-  // Of a normal distribution: the standard deviation, of the median absolute deviation; the standard error of
-  // the median, of that of the mean.
-  constexpr double kSigmaPerDeviation = 1.4826;
+  // Of a normal distribution: the standard error of the median over that of the mean, sqrt(π / 2).
   constexpr double kMedianPerMean = 1.253;
   MedianEstimate estimate;
   estimate.count = values.size();
   estimate.value = middle_of(values);
   for (double& value : values) value = std::abs(value - estimate.value);
-  estimate.sigma = kMedianPerMean * kSigmaPerDeviation * middle_of(values) /
-                   std::sqrt(static_cast<double>(estimate.count));
+  estimate.sigma =
+      kMedianPerMean * kMedianToSigma * middle_of(values) / std::sqrt(static_cast<double>(estimate.count));
   return estimate;
 }
 
