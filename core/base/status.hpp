@@ -66,6 +66,9 @@ namespace traygauge {
   CODE(card_lifted, \
        "Reference card and dish disagree about where the table is; lay the card flat on what the dish " \
        "stands on, and check its thickness and the dish's height as described.") \
+  CODE(dish_differs, \
+       "The dish's surface does not lie where its description puts it; check which dish it is and its " \
+       "description, or describe it anew with traygauge enrol-dish.") \
   CODE(card_not_found, \
        "The reference card was not found in both pictures; lay it flat beside the dish, fully visible " \
        "and without glare.") \

@@ -24,6 +24,15 @@ double explain(const Evidence& evidence, const EvidenceMatrix& information, cons
 
 }  // namespace
 
+std::array<DishFault, kDishFaults> DishConsistency::best_first() const {
+  std::array<DishFault, kDishFaults> faults{DishFault::slip, DishFault::scale, DishFault::height};
+  const auto unexplained = [&](DishFault fault) {
+    return left[static_cast<std::size_t>(fault)] + (fault == DishFault::slip ? 1.0 : 0.0);
+  };
+  std::ranges::sort(faults, {}, unexplained);
+  return faults;
+}
+
 DishConsistency compare_sightings(const std::array<DishSighting, 2>& sightings, const TableCameras& cameras,
                                   const CamerasMatrix& covariance, double size_mm,
                                   const DishConsistencyParams& params) {

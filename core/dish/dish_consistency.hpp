@@ -31,14 +31,12 @@ struct DishConsistency {
   double height_mm = 0.0;  // of dish and table over where the card puts them
   double height_sigma_mm = 0.0;
 
-  // The one that leaves least unexplained. A slip has one degree of freedom more than the others.
-  DishFault best_fault() const {
-    const double by_slip = left[static_cast<std::size_t>(DishFault::slip)] + 1.0;
-    const double by_scale = left[static_cast<std::size_t>(DishFault::scale)];
-    const double by_height = left[static_cast<std::size_t>(DishFault::height)];
-    if (by_slip <= by_scale && by_slip <= by_height) return DishFault::slip;
-    return by_scale <= by_height ? DishFault::scale : DishFault::height;
+  double explained_by(DishFault fault) const {
+    return squared_deviation - left[static_cast<std::size_t>(fault)];
   }
+  // Those that leave less unexplained come first. A slip has one degree of freedom more than the others.
+  std::array<DishFault, kDishFaults> best_first() const;
+  DishFault best_fault() const { return best_first().front(); }
 };
 
 // `size_mm`: mean of the dish's axes. The cameras differ from those of the sightings by little; `covariance`

@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/pipeline/bare_checks.hpp"
 #include "core/pipeline/dish_observation.hpp"
 #include "core/pipeline/food_agreement.hpp"
 #include "core/pipeline/item_checks.hpp"
+#include "core/pipeline/tray_checks.hpp"
 #include "core/stereo/dish_projection.hpp"
 #include "core/volume/matched_fraction.hpp"
 #include "core/volume/uncertainty.hpp"
@@ -106,6 +108,11 @@ void measure_dish(const ViewPair& views, const SceneGeometry& geometry, std::siz
     DenseStereoWorkspace::View& view = workspace.surface.views[v];
     project_onto_dish(inner, grids[v], view.points, view.evidence);
   }
+  const auto glaze = find_glaze(views, geometry.bundle.camera_from_table, grids[0], inner, dish.label,
+                                configuration.checks.bare);
+  status = check_glaze(glaze, dish.label, geometry.table, configuration.checks, measurement.checks,
+                       measurement.warnings);
+  if (!status.ok()) return refuse(status);
   const LabelSet round =
       shape_round_bodies({grids, {workspace.surface.views[0].points, workspace.surface.views[1].points}},
                          inner, configuration.round_body, workspace.round_body);

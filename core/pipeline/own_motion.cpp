@@ -29,7 +29,7 @@ OwnMotion find_own_motion(std::span<const SightedDish> dishes, const TableCamera
     const DishConsistency consistency =
         compare_sightings(dish.sightings, cameras, covariance, dish.size_mm, params.consistency);
     const double slip_mm = consistency.slip_mm.norm();
-    if (consistency.squared_deviation <= params.max_squared_deviation ||
+    if (consistency.explained_by(DishFault::slip) <= params.max_explained_by_slip ||
         consistency.best_fault() != DishFault::slip || slip_mm < params.least_own_motion_mm)
       return {};
     if (slip_mm > params.most_own_motion_mm) return {.is_too_far = true};

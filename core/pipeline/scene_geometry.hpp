@@ -12,6 +12,7 @@
 #include "core/pipeline/measurement.hpp"
 #include "core/pipeline/own_motion.hpp"
 #include "core/pipeline/tray_view.hpp"
+#include "core/stereo/surface_agreement.hpp"
 
 namespace traygauge {
 
@@ -28,6 +29,7 @@ struct SceneGeometry {
   std::size_t dish_count = 0;
   OwnMotion own_motion;  // from the first picture to the second; then the cameras are those in its frame
   BundleResult bundle;
+  AgreedHeight table;  // over where the card puts it, around the card
   std::span<const PointTrack> tracks;
   std::span<const PointTrack> strays;  // that contradict the cameras' motion
 };

@@ -4,6 +4,7 @@
 #include "core/adjustment/item_motion.hpp"
 #include "core/dish/dish_consistency.hpp"
 #include "core/dish/dish_sighting.hpp"
+#include "core/pipeline/bare_check_params.hpp"
 
 namespace traygauge {
 
@@ -11,9 +12,12 @@ struct TrayCheckParams {
   DishSightingParams sighting;
   DishConsistencyParams consistency;
   ItemMotionParams motion;
-  // From which squared deviation, of four degrees of freedom, something is wrong: by chance in one dish of
-  // 100,000.
-  double max_squared_deviation = 28.5;
+  BareCheckParams bare;
+  // How much of what was seen one fault may explain by chance: a slip, whose sigma knows nothing of rims that
+  // food hides alike, in one dish of 100,000 (two degrees of freedom); size and height, whose sigma is mostly
+  // what dishes of one kind differ by, in one of 1,000.
+  double max_explained_by_slip = 23.0;
+  double max_explained_by_size = 10.8;
   // A slip along the line between the cameras lifts everything by about three times its length: 1 mm is 3 mm
   // of a food that is some 20 mm high. Dishes that stood still: up to 0.71 mm (22 rendered
   // meals and trays, 34 captures), on which these two were chosen.
@@ -31,9 +35,10 @@ struct TrayCheckParams {
   // Volumes go with the third power.
   double scale_warning = 0.01;
   double max_scale = 0.03;
-  // Of the dish's edge. 2 mm are a tenth of a food that is 20 mm high.
+  // Of a dish's edge and glaze, and of the table. 2 mm are a tenth of a food that is 20 mm high.
   double height_warning_mm = 1.0;
   double max_height_mm = 2.0;
+  double max_glaze_sigmas = 4.0;  // of a jackknife over eight parts: by chance in one dish of 200
   // Of an item, across the line between the cameras. What it moved along that line is not seen and lifts it
   // by about three times as much: where 0.5 mm are seen, 1.5 mm of its height are in doubt. Items that stood
   // still: up to 0.12 mm (371 of 22 rendered meals and trays and of 34 pairs of the captures, outlines given

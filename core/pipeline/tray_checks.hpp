@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 
 #include "core/base/status.hpp"
 #include "core/dish/dish_consistency.hpp"
@@ -13,6 +14,11 @@
 
 namespace traygauge {
 
+// Whether dishes that lie elsewhere than described do so because the card does: not where the table around it
+// lies where the card puts it.
+Warning height_warning(const AgreedHeight& table, const TrayCheckParams& params);
+StatusCode height_status(const AgreedHeight& table, const TrayCheckParams& params);
+
 // Where both views show a dish, and who looked.
 struct CheckedTray {
   ViewPair views;
@@ -21,9 +27,17 @@ struct CheckedTray {
 };
 
 // Once the cameras are known well. Adds the checks of each dish and raises warnings; a dish that fails one is
-// not measured: its verdict in `geometry` is dish_moved, scale_disagrees or card_lifted.
+// not measured: its verdict in `geometry` is dish_moved, scale_disagrees, card_lifted or dish_differs.
 void check_dishes(const CheckedTray& tray, const SceneGeometryWorkspace& workspace,
                   const Configuration& configuration, SceneGeometry& geometry, CheckList& checks,
                   WarningSet& warnings);
+
+// By its bare bands, each at its own height. The status for the whole dish: ok, card_lifted or dish_differs.
+StatusCode check_glaze(std::span<const AgreedHeight> bands, std::uint8_t dish, const AgreedHeight& table,
+                       const TrayCheckParams& params, CheckList& checks, WarningSet& warnings);
+
+// Once all dishes were checked. Where one of them lies as described, the card does too, whatever it lies on.
+void check_table(const AgreedHeight& table, const TrayCheckParams& params, CheckList& checks,
+                 WarningSet& warnings);
 
 }  // namespace traygauge

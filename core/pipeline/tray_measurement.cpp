@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/pipeline/bare_checks.hpp"
 #include "core/pipeline/dish_observation.hpp"
 #include "core/pipeline/tray_checks.hpp"
 #include "core/quality/view_input.hpp"
@@ -94,8 +95,13 @@ void measure_tray(TrayMemory& memory, const Configuration& configuration, const 
   }
   measurement.status =
       find_geometry(views, configuration, random, memory.geometry, clock, measurement.report, geometry);
-  if (measurement.status.ok() || measurement.status.code() == StatusCode::pose_contradicts_card)
+  const bool are_cameras_known =
+      measurement.status.ok() || measurement.status.code() == StatusCode::pose_contradicts_card;
+  if (are_cameras_known) {
+    geometry.table = find_table(views, geometry.bundle.camera_from_table, configuration.card.size(),
+                                configuration.checks.bare);
     check_dishes(checked, memory.geometry, configuration, geometry, measurement.checks, measurement.warnings);
+  }
   if (!measurement.status.ok()) {
     measurement.status = named(measurement.status, geometry);
     return;
@@ -119,6 +125,7 @@ void measure_tray(TrayMemory& memory, const Configuration& configuration, const 
   for (std::size_t d = 0; d < geometry.dish_count; ++d) {
     measure_dish(views, geometry, d, configuration, dish, observer, clock, measurement);
   }
+  check_table(geometry.table, configuration.checks, measurement.checks, measurement.warnings);
   if (measurement.report.dish_index >= 0) {
     const auto index = static_cast<std::size_t>(measurement.report.dish_index);
     measurement.views.dish_bottom =

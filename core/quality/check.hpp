@@ -13,15 +13,18 @@ namespace traygauge {
 
 // As the JSON contract spells them, with units.
 enum class CheckKind : std::uint8_t {
-  dish_slip_mm,    // how far dish and card moved against each other between the pictures
-  scale_percent,   // by how much the card's size would have to be wrong for the dish's to be right
-  dish_height_mm,  // how far the dish's edge lies over where card and description put it
-  own_motion_mm,   // how far dishes slid over the table, which were measured all the same
-  item_slip_mm,    // how far an item moved between the pictures, across the line between the cameras
-  item_foot_mm,    // how high an item's edge came out over the dish; it does not lie below it
+  dish_slip_mm,     // how far dish and card moved against each other between the pictures
+  scale_percent,    // by how much the card's size would have to be wrong for the dish's to be right
+  dish_height_mm,   // how far the dish's edge lies over where card and description put it
+  glaze_height_mm,  // how far a dish's bare glaze lies over where its description puts it
+  table_height_mm,  // how far the table around the card lies over where the card puts it; of the card's label
+  own_motion_mm,    // how far dishes slid over the table, which were measured all the same
+  item_slip_mm,     // how far an item moved between the pictures, across the line between the cameras
+  item_foot_mm,     // how high an item's edge came out over the dish; it does not lie below it
 };
-inline constexpr auto kCheckNames = std::to_array<const char*>(
-    {"dish_slip_mm", "scale_percent", "dish_height_mm", "own_motion_mm", "item_slip_mm", "item_foot_mm"});
+inline constexpr auto kCheckNames =
+    std::to_array<const char*>({"dish_slip_mm", "scale_percent", "dish_height_mm", "glaze_height_mm",
+                                "table_height_mm", "own_motion_mm", "item_slip_mm", "item_foot_mm"});
 inline const char* name(CheckKind kind) {
   return kCheckNames[static_cast<std::size_t>(kind)];
 }
@@ -50,7 +53,7 @@ constexpr Verdict judge(double value, double warning, double most) {
 
 class CheckList {
  public:
-  static constexpr std::size_t kCapacity = 64;  // eight dishes and sixteen items
+  static constexpr std::size_t kCapacity = 80;  // eight dishes, sixteen items and the table
 
   // What does not fit is left out.
   void add(const Check& check) {

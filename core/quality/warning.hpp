@@ -50,6 +50,9 @@ namespace traygauge {
   CODE(card_lifted, \
        "Reference card and dish disagree about where the table is; check that the card lies flat, its " \
        "thickness and the dish's description.") \
+  CODE(dish_differs, \
+       "A dish's surface lies a little off where its description puts it; check which dish it is, and its " \
+       "description.") \
   CODE(item_moved, \
        "An item seems to have moved a little on its dish between the pictures; its volume may be off.") \
   CODE(dish_empty, "No food was seen on a dish; it counts as empty.") \

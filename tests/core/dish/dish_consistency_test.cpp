@@ -77,6 +77,19 @@ TEST_F(DishConsistencies, TellHowTheDishSlipped) {
   }
 }
 
+// What explains most comes first; a slip needs to explain more by its further degree of freedom.
+TEST(DishConsistencyOrder, PutsFirstWhatLeavesLeast) {
+  DishConsistency dish;
+  dish.squared_deviation = 40.0;
+  dish.left = {12.0, 30.0, 3.0};
+  EXPECT_EQ(dish.best_first(), (std::array{DishFault::height, DishFault::slip, DishFault::scale}));
+  EXPECT_EQ(dish.explained_by(DishFault::height), 37.0);
+  dish.left = {4.0, 4.5, 30.0};
+  EXPECT_EQ(dish.best_fault(), DishFault::scale);
+  dish.left = {4.0, 5.5, 30.0};
+  EXPECT_EQ(dish.best_fault(), DishFault::slip);
+}
+
 // A card printed too small makes everything too large.
 TEST_F(DishConsistencies, TellAWrongScale) {
   for (const double scale : {-0.04, -0.02, 0.02, 0.04}) {

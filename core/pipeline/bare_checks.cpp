@@ -1,0 +1,78 @@
+#include "core/pipeline/bare_checks.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace traygauge {
+namespace {
+
+// Shares of a dish's depth, from its crest, at which its bands end.
+constexpr double kEdgeDepth = 0.2;
+constexpr double kWallDepth = 0.8;
+
+SurfaceView surface_view(const TrayView& view, const Pose& camera_from_table) {
+  return {view.gray, view.lens, view.labels, camera_from_table};
+}
+
+std::size_t band_of(double height_mm, const DishProfile& profile) {
+  const double depth_mm = profile.crest_height_mm() - profile.bottom_height_mm();
+  const double depth = depth_mm > 0.0 ? (profile.crest_height_mm() - height_mm) / depth_mm : 1.0;
+  return depth < kEdgeDepth ? 0 : depth < kWallDepth ? 1 : 2;
+}
+
+}  // namespace
+
+AgreedHeight find_table(const ViewPair& views, const TableCameras& cameras, const CardModelSize& card,
+                        const BareCheckParams& params) {
+  const SurfaceView first = surface_view(*views[0], cameras[0]);
+  const SurfaceView second = surface_view(*views[1], cameras[1]);
+  const Vec3 middle_mm = print_point_mm(Vec2(0.5 * card.width_mm, 0.5 * card.height_mm), 0.0);
+  SurfaceAgreement table(first, second, kBackgroundLabel, middle_mm, params.agreement);
+  const auto steps = [&](double side_mm) {
+    return static_cast<int>((side_mm + 2.0 * params.around_card_mm) / params.table_step_mm);
+  };
+  const auto is_off = [&](double x_mm, double side_mm) {
+    return x_mm < -params.card_margin_mm || x_mm > side_mm + params.card_margin_mm;
+  };
+  for (int row = 0; row <= steps(card.height_mm); ++row) {
+    for (int column = 0; column <= steps(card.width_mm); ++column) {
+      const Vec2 place = params.table_step_mm * Vec2(column, row) - Vec2::Constant(params.around_card_mm);
+      if (is_off(place.x(), card.width_mm) || is_off(place.y(), card.height_mm))
+        table.add(print_point_mm(place, 0.0));
+    }
+  }
+  return table.solve();
+}
+
+std::array<AgreedHeight, kGlazeBands> find_glaze(const ViewPair& views, const TableCameras& cameras,
+                                                 const SurfaceGrid& grid, const InnerSurface& inner,
+                                                 std::uint8_t dish, const BareCheckParams& params) {
+  const SurfaceView first = surface_view(*views[0], cameras[0]);
+  const SurfaceView second = surface_view(*views[1], cameras[1]);
+  const auto for_each_bare = [&](int step, const auto& action) {
+    for (int y = 0; y < grid.labels.height; y += step) {
+      for (int x = 0; x < grid.labels.width; x += step) {
+        if (grid.labels.at(x, y) != kDishLabel || grid.evidence.at(x, y) != SurfaceEvidence::both) continue;
+        const SurfacePoint& point = grid.points.at(x, y);
+        action(band_of(point.z_mm, inner.profile), Vec3(point.x_mm, point.y_mm, point.z_mm));
+      }
+    }
+  };
+  std::array<std::size_t, kGlazeBands> counts{};
+  for_each_bare(1, [&](std::size_t band, const Vec3&) { ++counts[band]; });
+  std::array<AgreedHeight, kGlazeBands> heights;
+  const Vec2& centre = inner.place.centre_mm;
+  for (std::size_t band = 0; band < kGlazeBands; ++band) {
+    const double share = static_cast<double>(counts[band]) / static_cast<double>(params.max_glaze_samples);
+    SurfaceAgreement glaze(first, second, dish, {centre.x(), centre.y(), inner.profile.bottom_height_mm()},
+                           params.agreement);
+    for_each_bare(std::max(1, static_cast<int>(std::ceil(std::sqrt(share)))),
+                  [&](std::size_t of, const Vec3& place_mm) {
+                    if (of == band) glaze.add(place_mm);
+                  });
+    heights[band] = glaze.solve();
+  }
+  return heights;
+}
+
+}  // namespace traygauge
