@@ -10,6 +10,7 @@
 
 #include "core/labels/label_set.hpp"
 #include "tests/firmware/command_runner.hpp"
+#include "tests/support/capture_truth.hpp"
 #include "tests/support/faulty_capture.hpp"
 
 namespace traygauge {
@@ -33,6 +34,23 @@ class DishChecks : public ::testing::TestWithParam<const char*> {
     const fs::path folder = capture.store();
     json document = json::parse(read_text(folder / "capture.json"));
     document["card"].update(changes);
+    write_text(folder / "capture.json", document.dump());
+    return measure(folder);
+  }
+  // The capture with another dish: its rim and what lies below it so much higher, and its bottom that much
+  // further down.
+  static json measure_with_dish(const fs::path& name, double higher_mm, double deeper_mm) {
+    const test::FaultyCapture capture(name, {0, 1});
+    const fs::path folder = capture.store();
+    json document = json::parse(read_text(folder / "capture.json"));
+    json& dish = document["dish"];
+    const double rim_mm = dish["rim_height_mm"];
+    const double depth_mm = rim_mm - dish["bottom_height_mm"].get<double>();
+    const auto moved = [&](const json& height_mm) {
+      return rim_mm + higher_mm - (rim_mm - height_mm.get<double>()) * (1.0 + deeper_mm / depth_mm);
+    };
+    for (json& point : dish["profile"]) point[1] = moved(point[1]);
+    for (const char* const key : {"rim_height_mm", "bottom_height_mm"}) dish[key] = moved(dish[key]);
     write_text(folder / "capture.json", document.dump());
     return measure(folder);
   }
@@ -91,7 +109,7 @@ TEST_P(DishChecks, PassWhereNothingIsWrong) {
   for (const char* name : {"fish_and_potatoes", "mash_and_meatballs"}) {
     const json document = measure(kDemoCaptures / name);
     EXPECT_EQ(document.at("status"), "ok");
-    ASSERT_EQ(document.at("checks").size(), 3U + 2U * document.at("items").size());
+    ASSERT_EQ(document.at("checks").size(), 4U + 2U * document.at("items").size());
     for (const json& check : document.at("checks")) {
       EXPECT_EQ(check.at("verdict"), "passed") << check;
       const double value = check.at("value");
@@ -166,6 +184,25 @@ TEST_P(DishChecks, TellOfACardThatIsStatedTooLarge) {
 TEST_P(DishChecks, TellOfACardThatLiesElsewhereThanSaid) {
   const json document = measure_with_card({{"thickness_mm", 4.3}});
   EXPECT_TRUE(codes(document).contains("card_lifted")) << document;
+}
+
+// The table around the card lies where it belongs, so it is the dish.
+TEST_P(GivenDishChecks, TellOfADishThatIsHigherThanSaid) {
+  const json document = measure_with_dish(kDemoCaptures / "fish_and_potatoes", -2.2, 0.0);
+  EXPECT_TRUE(codes(document).contains("dish_differs")) << document;
+  EXPECT_LT(std::abs(value(document, "table_height_mm")), 0.3) << document;
+}
+
+// Its rim is as described; its scratched glaze shows where the bottom lies.
+TEST_P(DishChecks, TellOfADishThatIsDeeperOrShallowerThanSaid) {
+  if (captures_folder().empty()) GTEST_SKIP() << "TRAYGAUGE_CAPTURES names no captures";
+  const fs::path capture = captures_folder() / "meals/m08";
+  EXPECT_LT(std::abs(value(measure_with_dish(capture, 0.0, 0.0), "glaze_height_mm")), 0.5);
+  for (const double deeper_mm : {-3.0, 3.0}) {
+    const json document = measure_with_dish(capture, 0.0, deeper_mm);
+    EXPECT_TRUE(codes(document).contains("dish_differs")) << document;
+    EXPECT_NEAR(value(document, "glaze_height_mm"), deeper_mm, 0.8) << document;
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Labels, GivenDishChecks, ::testing::Values("given"));
