@@ -18,12 +18,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-SheetPaper choose_paper(const std::string& name) {
-  if (name == "a4") return kA4Paper;
-  if (name == "letter") return kLetterPaper;
-  throw UsageError("--paper: expected a4 or letter, found " + printable(name));
-}
-
 void make_folder(const fs::path& folder) {
   std::error_code problem;
   fs::create_directories(folder, problem);

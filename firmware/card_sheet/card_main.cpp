@@ -1,13 +1,19 @@
 #include <iostream>
 
+#include "firmware/card_sheet/body_command.hpp"
 #include "firmware/card_sheet/card_command.hpp"
 #include "firmware/command/program.hpp"
 
 // NOLINTNEXTLINE(bugprone-exception-escape): options that contradict each other end the program at once
 int main(int argument_count, char** arguments) {
-  traygauge::Program program("Makes the reference card.", "traygauge");
-  traygauge::CardOptions options;
-  traygauge::add_card_command(program, options);
-  const auto run = [&] { return traygauge::run_card(options, std::cout); };
+  traygauge::Program program("Makes what is printed: the reference card, the proof bodies.", "traygauge");
+  traygauge::CardOptions card;
+  traygauge::BodyOptions bodies;
+  traygauge::add_card_command(program, card);
+  traygauge::add_bodies_command(program, bodies);
+  const auto run = [&] {
+    return program.chosen() == "card" ? traygauge::run_card(card, std::cout)
+                                      : traygauge::run_bodies(bodies, std::cout);
+  };
   return program.run(argument_count, arguments, run, std::cout, std::cerr);
 }

@@ -4,12 +4,12 @@
 #include <string>
 
 #include "firmware/card/card_drawing.hpp"
+#include "firmware/card_sheet/page_ruler.hpp"
 
 namespace traygauge {
 namespace {
 
 constexpr double kHairMm = 0.1;
-constexpr double kTickMm = 0.2;
 constexpr double kEdgeMm = 0.4;  // as of the pattern's own line
 constexpr PageText kPlain{3.2, false};
 constexpr PageText kSmall{2.8, false};
@@ -37,10 +37,6 @@ constexpr std::array<Step, 5> kSteps{
       "traygauge card --measured BREITExHÖHExDICKE sagt, welche Zeilen in die Datei der Station gehören. "
       "card.png gehört daneben."}}};
 
-PagePoint moved(PagePoint point, double x_mm, double y_mm) {
-  return {point.x_mm + x_mm, point.y_mm + y_mm};
-}
-
 // Eight short lines that point at the corners and stay clear of the card.
 void draw_cut_marks(PagePen& pen, PagePoint corner) {
   constexpr double kGapMm = 1.5;
@@ -53,32 +49,6 @@ void draw_cut_marks(PagePen& pen, PagePoint corner) {
       pen.line(moved(at, out * kGapMm, 0.0), moved(at, out * (kGapMm + kLengthMm), 0.0), kHairMm);
       pen.line(moved(at, 0.0, down * kGapMm), moved(at, 0.0, down * (kGapMm + kLengthMm)), kHairMm);
     }
-  }
-}
-
-struct RulerScale {
-  int ticks = 0;
-  double tick_mm = 0.0;
-  int ticks_a_number = 0;
-  int units_a_number = 0;
-};
-constexpr RulerScale kMillimetres{100, 1.0, 10, 10};
-constexpr RulerScale kInches{32, 25.4 / 8, 8, 1};
-
-// Long ticks have a number, middle ones stand half way between them.
-double tick_length_mm(int tick, const RulerScale& scale) {
-  if (tick % scale.ticks_a_number == 0) return 4.0;
-  return 2 * tick % scale.ticks_a_number == 0 ? 3.0 : 2.0;
-}
-
-void draw_ruler(PagePen& pen, PagePoint zero, const RulerScale& scale) {
-  pen.line(zero, moved(zero, scale.ticks * scale.tick_mm, 0.0), kTickMm);
-  for (int i = 0; i <= scale.ticks; ++i) {
-    const PagePoint at = moved(zero, i * scale.tick_mm, 0.0);
-    pen.line(at, moved(at, 0.0, -tick_length_mm(i, scale)), kTickMm);
-    if (i % scale.ticks_a_number != 0) continue;
-    const int number = i / scale.ticks_a_number * scale.units_a_number;
-    pen.write_centred(moved(at, 0.0, 3.2), std::to_string(number), kSmall);
   }
 }
 
@@ -159,12 +129,8 @@ void write_card_sheet(const std::filesystem::path& file, int pattern, const Shee
   const SheetLayout layout = lay_out_sheet(paper);
   PagePen pen(paper.width_mm, paper.height_mm, "Traygauge reference card " + card_id(pattern));
   write_headings(pen, layout, pattern);
-  draw_ruler(pen, layout.ruler, kMillimetres);
-  pen.write(moved(layout.ruler, kRulerMm + 4.0, 0.0), "mm", kPlain, 20.0);
-  if (paper.has_inches) {
-    draw_ruler(pen, layout.inch_ruler, kInches);
-    pen.write(moved(layout.inch_ruler, kInchRulerMm + 4.0, 0.0), "inches", kPlain, 20.0);
-  }
+  draw_millimetre_ruler(pen, layout.ruler);
+  if (paper.has_inches) draw_inch_ruler(pen, layout.inch_ruler);
   pen.write(moved(layout.front, 0.0, -8.0), "Front, for the upper side / Vorderseite, nach oben", kPlain,
             layout.text_width_mm);
   draw_cut_marks(pen, layout.front);

@@ -4,20 +4,10 @@
 
 #include <filesystem>
 
-#include "firmware/card_sheet/page_pen.hpp"
+#include "firmware/card_sheet/page_ruler.hpp"
+#include "firmware/card_sheet/sheet_paper.hpp"
 
 namespace traygauge {
-
-struct SheetPaper {
-  double width_mm = 0.0;
-  double height_mm = 0.0;
-  bool has_inches = false;  // a ruler in inches, too
-};
-inline constexpr SheetPaper kA4Paper{210.0, 297.0, false};
-inline constexpr SheetPaper kLetterPaper{215.9, 279.4, true};
-
-inline constexpr double kRulerMm = 100.0;
-inline constexpr double kInchRulerMm = 4 * 25.4;
 
 // Where things stand on the sheet.
 struct SheetLayout {

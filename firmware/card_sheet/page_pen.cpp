@@ -47,6 +47,20 @@ void PagePen::line(PagePoint from, PagePoint to, double width_mm) {
   cairo_stroke(context_.get());
 }
 
+void PagePen::dashed_line(PagePoint from, PagePoint to, double width_mm, double dash_mm) {
+  cairo_set_dash(context_.get(), &dash_mm, 1, 0.0);
+  line(from, to, width_mm);
+  cairo_set_dash(context_.get(), nullptr, 0, 0.0);
+}
+
+void PagePen::begin_clip(const std::vector<PagePoint>& outline) {
+  cairo_save(context_.get());
+  cairo_new_path(context_.get());
+  for (const PagePoint& corner : outline) line_to(corner);
+  cairo_close_path(context_.get());
+  cairo_clip(context_.get());
+}
+
 void PagePen::begin_clip(PagePoint corner, double width_mm, double height_mm) {
   cairo_save(context_.get());
   cairo_rectangle(context_.get(), corner.x_mm, corner.y_mm, width_mm, height_mm);
@@ -66,7 +80,11 @@ void PagePen::line_to(PagePoint point) {
 }
 
 void PagePen::fill(bool is_ink) {
-  const double light = is_ink ? 0.0 : 1.0;
+  fill_gray(is_ink ? 0 : 255);
+}
+
+void PagePen::fill_gray(int gray) {
+  const double light = gray / 255.0;
   cairo_set_source_rgb(context_.get(), light, light, light);
   cairo_fill(context_.get());
 }
@@ -109,6 +127,10 @@ void PagePen::write_centred(PagePoint middle, const std::string& text, const Pag
   choose(style);
   move_to({middle.x_mm - 0.5 * width_of(text), middle.y_mm});
   cairo_show_text(context_.get(), text.c_str());
+}
+
+void PagePen::next_page() {
+  cairo_show_page(context_.get());
 }
 
 void PagePen::save(const std::filesystem::path& file) {

@@ -1,9 +1,10 @@
-// A page of a PDF, drawn in millimetres from its top left corner.
+// Pages of a PDF, drawn in millimetres from their top left corners.
 #pragma once
 
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <vector>
 
 struct _cairo;          // NOLINT(bugprone-reserved-identifier): cairo's own
 struct _cairo_surface;  // NOLINT(bugprone-reserved-identifier)
@@ -30,19 +31,26 @@ class PagePen {
 
   // All that is drawn is black, unless it is drawn in paper's white.
   void line(PagePoint from, PagePoint to, double width_mm);
+  // Strokes and gaps of this length.
+  void dashed_line(PagePoint from, PagePoint to, double width_mm, double dash_mm);
   void begin_clip(PagePoint corner, double width_mm, double height_mm);
+  void begin_clip(const std::vector<PagePoint>& outline);
   void end_clip();
   // A filled polygon, corner by corner.
   void move_to(PagePoint point);
   void line_to(PagePoint point);
   void fill(bool is_ink);
+  // 0 is black, 255 white.
+  void fill_gray(int gray);
 
   // UTF-8. The point is the left end of the first line's base line; lines break where `width_mm` ends.
   // Returns the base line after the last one.
   double write(PagePoint at, const std::string& text, const PageText& style, double width_mm);
   void write_centred(PagePoint middle, const std::string& text, const PageText& style);
 
-  // Ends the page. Throws OutputError.
+  // What is drawn next is on another page of the same size.
+  void next_page();
+  // Ends the last page. Throws OutputError.
   void save(const std::filesystem::path& file);
 
  private:

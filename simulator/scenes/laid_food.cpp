@@ -11,6 +11,7 @@
 #include "simulator/render/shared_work.hpp"
 #include "simulator/scenes/food_material.hpp"
 #include "simulator/scenes/height_mesh.hpp"
+#include "simulator/scenes/laid_body.hpp"
 #include "simulator/scenes/mesh_columns.hpp"
 #include "simulator/scenes/mesh_tools.hpp"
 #include "simulator/scenes/scanned_food.hpp"
@@ -188,11 +189,13 @@ ServedFood serve_scan(const LaidFood& food, const SceneDescription& scene, const
   return served;
 }
 
-// A scanned food does not give way to others as heights on one grid do: what it shares would count twice.
+// A scanned food or a proof body does not give way to others as heights on one grid do: what it shares would
+// count twice.
 void require_apart(const std::vector<ServedFood>& foods) {
+  const auto gives_way = [](const ServedFood& food) { return !food.is_scan && !food.is_body; };
   for (std::size_t i = 0; i < foods.size(); ++i) {
     for (std::size_t k = 0; k < i; ++k) {
-      if (!foods[i].is_scan && !foods[k].is_scan) continue;
+      if (gives_way(foods[i]) && gives_way(foods[k])) continue;
       const double shared_ml =
           kMlPerMm3 * shared_columns_mm3(foods[i].object.mesh, foods[k].object.mesh, kSharedStepMm);
       if (shared_ml <= kMostSharedShare * std::min(foods[i].volume_ml, foods[k].volume_ml)) continue;
@@ -221,22 +224,22 @@ std::vector<ServedFood> serve_foods(const SceneDescription& scene, int dish, con
     const LaidFood& food = scene.foods[i];
     if (food.dish != dish) continue;
     const int label = first_label + static_cast<int>(i);
-    if (!food.scan) {
+    if (!food.scan && food.body.empty()) {
       orders.push_back(order_of(food, shell));
       labels.push_back(label);
       continue;
     }
-    ServedFood scan = serve_scan(food, scene, shell);
-    scan.object.label = static_cast<std::uint8_t>(label);
-    served.push_back(std::move(scan));
+    ServedFood solid = food.scan ? serve_scan(food, scene, shell) : serve_body(food, scene, shell);
+    solid.object.label = static_cast<std::uint8_t>(label);
+    served.push_back(std::move(solid));
     served.back().name = food.name;
   }
   PaintedFoods painted = paint_all(orders, shell, threads);
-  const std::size_t scans = served.size();
-  served.resize(scans + orders.size());
+  const std::size_t solids = served.size();
+  served.resize(solids + orders.size());
   share_work(static_cast<int>(orders.size()), threads, {}, [&](int number) {
     const auto i = static_cast<std::size_t>(number);
-    ServedFood& food = served[scans + i];
+    ServedFood& food = served[solids + i];
     food = serve(orders[i], std::move(painted.meshed[i]), scene, shell);
     food.check_volume_ml = kMlPerMm3 * summed_volume_mm3(orders[i], std::move(painted.summed[i]), shell);
     food.object.label = static_cast<std::uint8_t>(labels[i]);

@@ -16,6 +16,7 @@ struct ServedFood {
   SceneObject object;
   std::string name;
   bool is_scan = false;
+  bool is_body = false;  // a proof body: its volume is that of the closed form
   bool is_filled = false;
   double fill_level_mm = 0.0;
   double volume_ml = 0.0;

@@ -44,6 +44,7 @@ struct LaidFood {
   std::uint64_t seed = 1;
   double level_mm = 0.0;  // of filled food, above what the dish stands on
   std::optional<ScannedFood> scan;
+  std::string body;  // the id of a proof body, which lies there instead of a food; empty: a food
 };
 
 struct LaidCard {

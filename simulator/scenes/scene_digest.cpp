@@ -84,8 +84,10 @@ class Digest {
     add(length_mm, width_mm, height_mm);
   }
   void write(const LaidFood& food) {
-    const auto& [name, kind, dish, centre_mm, rotation_deg, size, seed, level_mm, scan] = food;
+    const auto& [name, kind, dish, centre_mm, rotation_deg, size, seed, level_mm, scan, body] = food;
     add(name, kind, dish, centre_mm, rotation_deg, size, seed, level_mm, scan);
+    // Captures without a proof body keep the digest that they have.
+    if (!body.empty()) add(body);
   }
   void write(const LaidCard& card) {
     const auto& [width_mm, height_mm, thickness_mm, centre_mm, rotation_deg, design, print] = card;

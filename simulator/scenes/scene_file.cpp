@@ -11,6 +11,7 @@
 #include <string_view>
 #include <utility>
 
+#include "simulator/bodies/proof_body.hpp"
 #include "simulator/capture/dish_toml.hpp"
 #include "simulator/capture/toml_file.hpp"
 #include "simulator/scenes/food_kinds.hpp"
@@ -130,7 +131,38 @@ LaidDish read_laid_dish(const JsonNode& node, const std::filesystem::path& folde
   return laid;
 }
 
+// Where a food or a proof body lies.
+void read_place(const SceneTable& table, const SceneDescription& scene, LaidFood& food) {
+  if (const auto name = table.find("name")) food.name = name->text();
+  if (const auto label = table.find("dish")) {
+    const int wanted = label->integer(1, kFirstFurtherDishLabel + static_cast<int>(kMaxDishes));
+    const auto dish =
+        std::ranges::find(scene.dishes, wanted, [](const LaidDish& laid) { return laid.dish.label; });
+    if (dish == scene.dishes.end())
+      label->fail("the label of a dish: 1 for the first, 201, 202, … for further ones", "correct the value");
+    food.dish = static_cast<int>(dish - scene.dishes.begin());
+  }
+  table.read("centre_mm", food.centre_mm, kPlaceMm);
+  table.read("rotation_deg", food.rotation_deg, kAngleDeg);
+}
+
+LaidFood read_body(const JsonNode& node, const SceneDescription& scene) {
+  const SceneTable table(node, {"body", "name", "dish", "centre_mm", "rotation_deg"});
+  LaidFood food;
+  food.body = node.member("body").text();
+  if (find_proof_body(food.body) == nullptr) {
+    std::string list;
+    for (const ProofBody& known : proof_bodies())
+      list += (list.empty() ? "one of " : ", ") + std::string(known.id);
+    node.member("body").fail(list, "correct the value");
+  }
+  food.name = food.body;
+  read_place(table, scene, food);
+  return food;
+}
+
 LaidFood read_food(const JsonNode& node, const SceneDescription& scene, const std::filesystem::path& folder) {
+  if (node.find("body")) return read_body(node, scene);
   const SceneTable table(node, {"kind", "name", "dish", "centre_mm", "rotation_deg", "size_mm", "seed",
                                 "level_mm", "mesh", "scale_mm", "turn_deg"});
   LaidFood food;
@@ -143,17 +175,7 @@ LaidFood read_food(const JsonNode& node, const SceneDescription& scene, const st
     node.member("kind").fail(list, "correct the value");
   }
   food.name = food.kind;
-  if (const auto name = table.find("name")) food.name = name->text();
-  if (const auto label = table.find("dish")) {
-    const int wanted = label->integer(1, kFirstFurtherDishLabel + static_cast<int>(kMaxDishes));
-    const auto dish =
-        std::ranges::find(scene.dishes, wanted, [](const LaidDish& laid) { return laid.dish.label; });
-    if (dish == scene.dishes.end())
-      label->fail("the label of a dish: 1 for the first, 201, 202, … for further ones", "correct the value");
-    food.dish = static_cast<int>(dish - scene.dishes.begin());
-  }
-  table.read("centre_mm", food.centre_mm, kPlaceMm);
-  table.read("rotation_deg", food.rotation_deg, kAngleDeg);
+  read_place(table, scene, food);
   table.read("seed", food.seed);
   std::array<double, 3> size_mm = {kind->size.length_mm, kind->size.width_mm, kind->size.height_mm};
   table.read("size_mm", size_mm, {1.0, 400.0});
