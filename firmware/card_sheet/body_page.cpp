@@ -16,8 +16,8 @@ constexpr double kCutMm = 0.15;
 constexpr double kFoldMm = 0.2;
 constexpr double kDashMm = 1.5;
 constexpr double kOverlapMm = 0.02;  // of neighbouring squares, so that no viewer shows paper between them
-constexpr PageText kPlain{3.4, false};
-constexpr PageText kGerman{2.9, false};
+constexpr PageText kInstructionText{3.4, false};
+constexpr PageText kGermanText{2.9, false};
 constexpr PageText kLabel{2.8, false};
 
 struct Instruction {
@@ -155,8 +155,8 @@ void write_instructions(PagePen& pen, const SheetPaper& paper) {
   if (paper.has_inches) draw_inch_ruler(pen, {kMarginMm, 58.0});
   double y = paper.has_inches ? 72.0 : 62.0;
   for (const Instruction& instruction : kInstructions) {
-    y = pen.write({kMarginMm, y}, instruction.english, kPlain, width_mm);
-    y = pen.write({kMarginMm + 4.0, y}, instruction.german, kGerman, width_mm - 4.0) + 2.0;
+    y = pen.write({kMarginMm, y}, instruction.english, kInstructionText, width_mm);
+    y = pen.write({kMarginMm + 4.0, y}, instruction.german, kGermanText, width_mm - 4.0) + 2.0;
   }
   y += 6.0;
   write_row(pen, kMarginMm, y, {"body", "kind", "drawn size in mm", "volume in ml"}, true);

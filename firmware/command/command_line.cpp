@@ -19,6 +19,7 @@
 #include "firmware/support/backup_command.hpp"
 #include "firmware/support/restore_command.hpp"
 #include "firmware/support/support_command.hpp"
+#include "firmware/verify/verify_command.hpp"
 
 namespace traygauge {
 namespace {
@@ -36,6 +37,7 @@ struct Options {
   SupportOptions support;
   BackupOptions backup;
   RestoreOptions restore;
+  VerifyOptions verify;
 };
 
 // What follows belongs to a program of its own.
@@ -80,6 +82,14 @@ int run_command(const Program& program, const Options& options, std::ostream& ou
   if (command == "support") return run_support(options.support, out);
   if (command == "backup") return run_backup(options.backup, out);
   if (command == "restore") return run_restore(options.restore, out);
+  if (command == "verify bodies") {
+    std::vector<std::string> arguments = program.remaining();
+    arguments.insert(arguments.begin(), {"verify", "bodies"});
+    return run_sibling_program("traygauge-card", arguments);
+  }
+  if (command == "verify plan") return run_verify_plan(options.verify.plan, out);
+  if (command == "verify run") return run_verify(options.verify.run, stop_on_signals(), out, error);
+  if (command == "verify report") return run_verify_report(options.verify.report, out, error);
   return run_memory(options.memory, out);
 }
 
@@ -102,6 +112,7 @@ int run_command_line(int argument_count, const char* const* arguments, std::ostr
   add_support_command(program, options.support);
   add_backup_command(program, options.backup);
   add_restore_command(program, options.restore);
+  add_verify_command(program, options.verify);
   add_calibrate_command(program);
   add_card_command(program);
   add_hub_command(program);

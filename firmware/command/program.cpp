@@ -185,7 +185,7 @@ std::string Program::chosen() const {
 }
 
 std::vector<std::string> Program::remaining() const {
-  return app_->get_subcommands().front()->remaining();
+  return app_->get_subcommands().front()->remaining(true);
 }
 
 }  // namespace traygauge

@@ -15,7 +15,7 @@
 namespace traygauge {
 namespace {
 
-constexpr double kMlPerMm3 = 1e-3;
+constexpr double kBodyMlPerMm3 = 1e-3;
 constexpr double kMaxGapMm = 0.01;  // between a corner and the bottom that it stands on
 
 class PrintedPaper : public Material {
@@ -56,7 +56,7 @@ ServedFood serve_body(const LaidFood& food, const SceneDescription& scene, const
   TriangleMesh& mesh = served.object.mesh;
   mesh = BodySurface(*body).mesh();
   served.volume_ml = body_volume_ml(body->kind, body->size_mm);
-  served.check_volume_ml = kMlPerMm3 * enclosed_volume_mm3(mesh);
+  served.check_volume_ml = kBodyMlPerMm3 * enclosed_volume_mm3(mesh);
   served.above_bottom_plane_ml = served.volume_ml;
   for (const Eigen::Vector3f& vertex : mesh.vertices) {
     if (vertex.z() > 0.0F) continue;
