@@ -106,7 +106,7 @@ void write_label(PagePen& pen, const PlacedPiece& placed) {
 }
 
 // Columns from the left margin.
-constexpr std::array<double, 4> kColumnsMm = {0.0, 22.0, 60.0, 145.0};
+constexpr std::array<double, 4> kColumnsMm = {0.0, 18.0, 50.0, 150.0};
 
 void write_row(PagePen& pen, double left_mm, double y_mm, const std::array<std::string, 4>& cells,
                bool is_bold) {
@@ -146,25 +146,26 @@ void draw_piece(PagePen& pen, const PlacedPiece& placed) {
 }
 
 void write_instructions(PagePen& pen, const SheetPaper& paper) {
-  constexpr double kMarginMm = 18.0;
-  const double width_mm = paper.width_mm - 2.0 * kMarginMm;
-  pen.write({kMarginMm, 18.0}, "Traygauge proof bodies", {6.4, true}, width_mm);
-  pen.write({kMarginMm, 27.0}, "Print at 100 % (actual size). Do not fit to page.", {4.4, true}, width_mm);
-  pen.write({kMarginMm, 34.0}, "Mit 100 % drucken. Nicht an Seite anpassen.", {4.4, true}, width_mm);
-  draw_millimetre_ruler(pen, {kMarginMm, 46.0});
-  if (paper.has_inches) draw_inch_ruler(pen, {kMarginMm, 58.0});
+  constexpr double kTextMarginMm = 18.0;
+  const double width_mm = paper.width_mm - 2.0 * kTextMarginMm;
+  pen.write({kTextMarginMm, 18.0}, "Traygauge proof bodies", {6.4, true}, width_mm);
+  pen.write({kTextMarginMm, 27.0}, "Print at 100 % (actual size). Do not fit to page.", {4.4, true},
+            width_mm);
+  pen.write({kTextMarginMm, 34.0}, "Mit 100 % drucken. Nicht an Seite anpassen.", {4.4, true}, width_mm);
+  draw_millimetre_ruler(pen, {kTextMarginMm, 46.0});
+  if (paper.has_inches) draw_inch_ruler(pen, {kTextMarginMm, 58.0});
   double y = paper.has_inches ? 72.0 : 62.0;
   for (const Instruction& instruction : kInstructions) {
-    y = pen.write({kMarginMm, y}, instruction.english, kInstructionText, width_mm);
-    y = pen.write({kMarginMm + 4.0, y}, instruction.german, kGermanText, width_mm - 4.0) + 2.0;
+    y = pen.write({kTextMarginMm, y}, instruction.english, kInstructionText, width_mm);
+    y = pen.write({kTextMarginMm + 4.0, y}, instruction.german, kGermanText, width_mm - 4.0) + 2.0;
   }
   y += 6.0;
-  write_row(pen, kMarginMm, y, {"body", "kind", "drawn size in mm", "volume in ml"}, true);
+  write_row(pen, kTextMarginMm, y, {"body", "kind", "drawn size in mm", "volume in ml"}, true);
   for (const ProofBody& body : proof_bodies()) {
     y += 6.0;
     std::string size = describe_size(body);
     size.erase(size.size() - 3);
-    write_row(pen, kMarginMm, y,
+    write_row(pen, kTextMarginMm, y,
               {std::string(body.id), std::string(name(body.kind)), size,
                fixed(body_volume_ml(body.kind, body.size_mm), 2)},
               false);

@@ -11,9 +11,9 @@
 namespace traygauge {
 namespace {
 
-constexpr double kMarginMm = 8.0;  // where office printers print
-constexpr double kTopMm = 38.0;    // below the heading and the ruler
-constexpr double kGapMm = 5.0;
+constexpr double kPageMarginMm = 8.0;  // where office printers print
+constexpr double kPageTopMm = 38.0;    // below the heading and the ruler
+constexpr double kPieceGapMm = 5.0;
 
 struct NetBox {
   NetPoint low = NetPoint::Constant(std::numeric_limits<double>::max());
@@ -45,26 +45,26 @@ class PageFiller {
 
   void begin_page() {
     ++page_;
-    at_ = {kMarginMm, kTopMm};
+    at_ = {kPageMarginMm, kPageTopMm};
     row_height_mm_ = 0.0;
   }
 
   // A piece that no page holds stands where the first page of its own begins.
   void place(PlacedPiece placed, std::vector<PlacedPiece>& all) {
     NetBox box = box_of(placed.piece, false);
-    placed.is_turned = box.size().x() > paper_.width_mm - 2.0 * kMarginMm;
+    placed.is_turned = box.size().x() > paper_.width_mm - 2.0 * kPageMarginMm;
     if (placed.is_turned) box = box_of(placed.piece, true);
     const NetPoint size = box.size();
-    if (at_.x_mm + size.x() > paper_.width_mm - kMarginMm) {
-      at_ = {kMarginMm, at_.y_mm + row_height_mm_ + kGapMm};
+    if (at_.x_mm + size.x() > paper_.width_mm - kPageMarginMm) {
+      at_ = {kPageMarginMm, at_.y_mm + row_height_mm_ + kPieceGapMm};
       row_height_mm_ = 0.0;
     }
-    if (at_.y_mm + size.y() > paper_.height_mm - kMarginMm) begin_page();
+    if (at_.y_mm + size.y() > paper_.height_mm - kPageMarginMm) begin_page();
     placed.page = page_;
     placed.low = box.low;
     placed.height_mm = size.y();
     placed.corner = at_;
-    at_.x_mm += size.x() + kGapMm;
+    at_.x_mm += size.x() + kPieceGapMm;
     row_height_mm_ = std::max(row_height_mm_, size.y());
     all.push_back(std::move(placed));
   }
@@ -76,12 +76,16 @@ class PageFiller {
   double row_height_mm_ = 0.0;
 };
 
-void write_heading(PagePen& pen, const SheetPaper& paper, const std::string& text) {
-  pen.write({kMarginMm + 2.0, 14.0}, text, {4.4, true}, paper.width_mm - 2.0 * kMarginMm);
-  pen.write({kMarginMm + 2.0, 19.5},
-            "Traygauge proof body. Cut along thin lines, fold dashed lines, print outside. 100 %.",
-            {2.8, false}, paper.width_mm - 2.0 * kMarginMm);
-  draw_millimetre_ruler(pen, {kMarginMm + 2.0, 28.0});
+void write_heading(PagePen& pen, const SheetPaper& paper, const PlacedPiece& placed) {
+  const double width_mm = paper.width_mm - 2.0 * kPageMarginMm;
+  const std::string title =
+      placed.piece.is_textured ? describe_body(*placed.body) : "Bottoms, this side outside";
+  const std::string what = placed.piece.is_textured ? describe_size(*placed.body) + ". " : "";
+  pen.write({kPageMarginMm + 2.0, 14.0}, title, {4.4, true}, width_mm);
+  pen.write({kPageMarginMm + 2.0, 19.5},
+            "Traygauge proof body. " + what + "Cut along thin lines, fold dashed lines, print outside.",
+            {2.8, false}, width_mm);
+  draw_millimetre_ruler(pen, {kPageMarginMm + 2.0, 28.0});
 }
 
 }  // namespace
@@ -122,10 +126,7 @@ void write_body_sheets(const std::filesystem::path& file, const SheetPaper& pape
     if (placed.page != page) {
       pen.next_page();
       page = placed.page;
-      write_heading(pen, paper,
-                    placed.piece.is_textured
-                        ? describe_body(*placed.body) + " (" + describe_size(*placed.body) + ")"
-                        : "Bottoms, glued under the lowest tabs, this side outside");
+      write_heading(pen, paper, placed);
     }
     draw_piece(pen, placed);
   }

@@ -14,6 +14,7 @@
 #include "firmware/base/text.hpp"
 #include "firmware/command/program.hpp"
 #include "firmware/evaluate/progress.hpp"
+#include "firmware/simulate/plan_scenes.hpp"
 #include "simulator/capture/input_error.hpp"
 #include "simulator/scenes/capture_writer.hpp"
 #include "simulator/scenes/scene_file.hpp"
@@ -32,6 +33,7 @@ struct RenderOptions {
   int samples = RenderSettings().samples;
   int pairs = 0;  // of each scene; 0: all
   bool is_reduced = false;
+  std::string config;  // of a plan's dish
 };
 
 bool is_set(const std::string& name) {
@@ -60,11 +62,11 @@ std::vector<SceneDescription> find_scenes(const RenderOptions& options) {
   return scenes;
 }
 
-int run_render(const RenderOptions& options, std::ostream& out, std::ostream& error) {
+int render_scenes(std::vector<SceneDescription> scenes, const RenderOptions& options, std::ostream& out,
+                  std::ostream& error) {
   RenderSettings settings;
   settings.samples = options.samples;
   settings.threads = options.jobs;
-  std::vector<SceneDescription> scenes = find_scenes(options);
   const std::filesystem::path folder = options.out;
   const std::size_t all = scenes.size();
   std::erase_if(scenes, [&](const SceneDescription& scene) {
@@ -94,6 +96,12 @@ int run_render(const RenderOptions& options, std::ostream& out, std::ostream& er
   return kExitMeasured;
 }
 
+int run_plan(const RenderOptions& options, std::ostream& out, std::ostream& error) {
+  const VerifyPlan plan = read_verify_plan(options.what);
+  return render_scenes(scenes_of_plan(plan, {options.seed, options.is_reduced, options.config}), options, out,
+                       error);
+}
+
 int run_list(std::ostream& out) {
   for (const SceneSet& set : scene_sets()) out << pad_right(std::string(set.name), 12) << set.what << "\n";
   return kExitMeasured;
@@ -111,6 +119,17 @@ void add_render(Program& program, RenderOptions& options) {
   command.add_flag("--reduced", options.is_reduced, "a few scenes of the set, in small pictures");
 }
 
+void add_plan(Program& program, RenderOptions& options) {
+  Command command = program.add_command("verify", "Render each step of a plan of traygauge verify.");
+  command.add_option("plan", options.what, "the plan; its bodies have to be folded ones").required();
+  command.add_option("--out", options.out, "folder of the captures; complete ones in it are kept").required();
+  command.add_option("--seed", options.seed, "of how exactly a person lays things");
+  command.add_option("--jobs", options.jobs, "threads; 0: one a core").range(0, 256);
+  command.add_option("--samples", options.samples, "rays a pixel").range(8, 4096);
+  command.add_flag("--reduced", options.is_reduced, "pictures of a quarter of the size");
+  command.add_option("--config", options.config, "folder with dishes/").environment("TRAYGAUGE_CONFIG");
+}
+
 }  // namespace
 
 int run_simulate(int argument_count, const char* const* arguments, std::ostream& out, std::ostream& error) {
@@ -118,9 +137,12 @@ int run_simulate(int argument_count, const char* const* arguments, std::ostream&
   program.add_version(TRAYGAUGE_VERSION);
   RenderOptions options;
   add_render(program, options);
+  add_plan(program, options);
   program.add_command("list", "The sets of scenes.");
   const auto run = [&] {
-    return program.chosen() == "list" ? run_list(out) : run_render(options, out, error);
+    if (program.chosen() == "list") return run_list(out);
+    if (program.chosen() == "verify") return run_plan(options, out, error);
+    return render_scenes(find_scenes(options), options, out, error);
   };
   return program.run(argument_count, arguments, run, out, error);
 }

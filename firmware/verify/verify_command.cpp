@@ -34,9 +34,8 @@ void add_run_command(Command& verify, VerifyRunOptions& options) {
   command.add_option("PLAN", options.plan, "The plan; see traygauge verify plan").required();
   command.add_option("-o,--out", options.out, "The results, one JSON line a scan").required();
   const CommandOption station = command.add_option("--station", options.station, "The station file");
-  const CommandOption captures =
-      command.add_option("--captures", options.captures, "Instead of devices: a folder with a capture a step")
-          .excludes(station);
+  command.add_option("--captures", options.captures, "Instead of devices: a folder with a capture a step")
+      .excludes(station);
   command
       .add_option(
           "--labels", options.labels,
@@ -46,8 +45,7 @@ void add_run_command(Command& verify, VerifyRunOptions& options) {
   command.add_option("--temperature", options.temperature, "For the certificate, such as \"21 °C\"");
   command.add_option("--tester", options.tester, "For the certificate: who tests");
   command.add_option("--config", options.config, "Folder with dishes/, for captures that name no dish")
-      .environment("TRAYGAUGE_CONFIG")
-      .excludes(station);
+      .environment("TRAYGAUGE_CONFIG");
 }
 
 void add_report_command(Command& verify, VerifyReportOptions& options) {

@@ -1,6 +1,6 @@
 #!/bin/sh
-# Checks that `traygauge card` starts the program that makes the card, with its exit status, and that no other program as it
-# ships loads cairo. Usage: card_program.sh BUILD_FOLDER
+# Checks that `traygauge card` and `traygauge verify bodies` start the program that makes what is printed, with its exit
+# status, and that no other program as it ships loads cairo. Usage: card_program.sh BUILD_FOLDER
 set -eu
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
@@ -21,6 +21,9 @@ for wrong in '--pattern 0' '--pattern x' '--paper a3' '--measured 83x52.4' '--ou
   [ "$(wc -l <"$folder/error")" = 1 ] || { echo "card $wrong: not one line"; cat "$folder/error"; exit 1; }
   grep -q '^traygauge: ' "$folder/error" || { echo "card $wrong:"; cat "$folder/error"; exit 1; }
 done
+
+"$1/traygauge" verify bodies -o "$folder/bodies.pdf" >"$folder/out"
+grep -q R180 "$folder/out" && [ -s "$folder/bodies.pdf" ] || { echo "verify bodies:"; cat "$folder/out"; exit 1; }
 
 ldd "$1/traygauge-card" | grep -q libcairo || { echo "traygauge-card does not load cairo: this test sees nothing"; exit 1; }
 for program in traygauge traygauge-station traygauge-hub; do
