@@ -1,4 +1,5 @@
 # make build | demo | test | bench: each installs what config/packages.txt names and is missing, then does it.
+# make verify-demo: the acceptance test on rendered pictures, from the PDF of the bodies to the certificate; half an hour.
 # make board-test: the drivers and the station on a real kernel in an emulated machine; BOARD=arm64 cross-builds for it.
 # make board-systemd: a part of it: systemd boots the installed units with no camera, which is then plugged in.
 # make arm-test: cross-builds for 64-bit ARM, runs tests and compares volumes under user-mode emulation.
@@ -25,7 +26,7 @@ say = @echo "== $$(date +%T) $(1)"
 sources = git ls-files '*.cpp' '*.hpp'
 ctest = ctest --output-on-failure --no-tests=error -j $(JOBS) -LE '^bench$$'
 
-.PHONY: configure build build-all demo test test-programs golden bench board-test board-packages board-guest arm-sysroot board-programs board-drivers board-gpiod-2 board-station board-systemd board-power-cuts arm-test test-debian13 lint lint-changed format check-format check-captures sanitize asan-ubsan tsan soak soak-cuts soak-kills fuzz soak-trays packages page-packages clean
+.PHONY: configure build build-all demo verify-demo test test-programs golden bench board-test board-packages board-guest arm-sysroot board-programs board-drivers board-gpiod-2 board-station board-systemd board-power-cuts arm-test test-debian13 lint lint-changed format check-format check-captures sanitize asan-ubsan tsan soak soak-cuts soak-kills fuzz soak-trays packages page-packages clean
 
 configure: packages
 	cmake --preset release $(options)
@@ -39,6 +40,20 @@ build-all: configure
 # A hub and a simulated station until Ctrl-C. DEMO_SCANS=2: ends by itself. DEMO_LISTEN=127.0.0.1:9000: another address.
 demo: build
 	simulator/run_demo.sh build
+
+# The whole protocol of traygauge verify with exactly known bodies, outlines found in the pictures as a station finds them.
+# What was rendered or measured already is kept in VERIFY_OUT. VERIFY_RENDER=--reduced: pictures of a quarter of the size.
+VERIFY_OUT ?= build/verify-demo
+VERIFY_RENDER ?=
+verify-demo: configure
+	cmake --build --preset release -j $(JOBS) --target traygauge traygauge-simulate
+	mkdir -p $(VERIFY_OUT)
+	build/traygauge verify bodies -o $(VERIFY_OUT)/bodies.pdf
+	test -f $(VERIFY_OUT)/plan.toml || build/traygauge verify plan -o $(VERIFY_OUT)/plan.toml --length-sigma 0
+	build/traygauge-simulate verify $(VERIFY_OUT)/plan.toml --out $(VERIFY_OUT)/captures $(VERIFY_RENDER)
+	build/traygauge verify run $(VERIFY_OUT)/plan.toml -o $(VERIFY_OUT)/results.jsonl --captures $(VERIFY_OUT)/captures \
+	  --labels auto --tester "make verify-demo"
+	build/traygauge verify report $(VERIFY_OUT)/results.jsonl -o $(VERIFY_OUT)/certificate
 
 # On CI what the board and ARM need is fetched beside the build.
 test-programs: page-packages

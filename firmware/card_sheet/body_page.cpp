@@ -41,9 +41,9 @@ constexpr std::array<Instruction, 7> kInstructions{
       "Die untersten Laschen nach innen falten und den weißen Boden mit der Nummer darunter kleben. Die "
       "Flächen müssen eben sein; große Körper vor dem Schließen mit Papier oder Schaum füllen."},
      {"5. The nominal volume is that of the drawn lines. Paper of 0.2 mm adds up to 0.1 mm on each side and "
-      "0.2 mm in height: 0.7 % of C400, 1.7 % of C50. Folds by hand are good to 0.3 mm.",
+      "0.2 mm in height: 0.9 % of C400, 1.7 % of C50. Folds by hand are good to 0.3 mm.",
       "Das Nennvolumen ist das der gezeichneten Linien. Papier von 0,2 mm trägt je Seite bis 0,1 mm auf und "
-      "0,2 mm in der Höhe: 0,7 % von C400, 1,7 % von C50. Von Hand wird auf 0,3 mm genau gefaltet."},
+      "0,2 mm in der Höhe: 0,9 % von C400, 1,7 % von C50. Von Hand wird auf 0,3 mm genau gefaltet."},
      {"6. Better: measure the finished body with a caliper, each length in three places, and write the means "
       "into the plan as measured_mm. The volume is then computed from them.",
       "Besser: den fertigen Körper mit der Schieblehre messen, jede Länge an drei Stellen, und die Mittel "

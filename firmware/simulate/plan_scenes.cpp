@@ -49,7 +49,7 @@ SceneDescription lay_station(const DishDescription& dish, const PlanSceneOptions
   laid.dish = dish;
   scene.dishes.push_back(laid);
   scene.table = {SurfaceKind::laminate, 0.0, draws.seed()};
-  scene.card.design = draws.seed();
+  scene.card.print = options.card_print;
   draw_lamps(scene, draws);
   scene.views = {view_at(kFirstViewDeg, dish.bottom_height_mm),
                  view_at(kSecondViewDeg, dish.bottom_height_mm)};

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -11,9 +12,10 @@
 namespace traygauge {
 
 struct PlanSceneOptions {
-  std::uint64_t seed = 1;   // of how exactly a person lays things
-  bool is_reduced = false;  // pictures of a quarter of the size
-  std::string config;       // folder with dishes/; empty: the usual one
+  std::uint64_t seed = 1;            // of how exactly a person lays things
+  bool is_reduced = false;           // pictures of a quarter of the size
+  std::string config;                // folder with dishes/; empty: the usual one
+  std::filesystem::path card_print;  // a picture of the card's printed side
 };
 
 // A scene a step, called by its id, under an arm that turns by 18 degrees. As by hand, dish, body and card

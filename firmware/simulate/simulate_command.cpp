@@ -12,10 +12,13 @@
 
 #include "firmware/base/exit_status.hpp"
 #include "firmware/base/text.hpp"
+#include "firmware/card/card_drawing.hpp"
 #include "firmware/command/program.hpp"
+#include "firmware/evaluate/evaluation_files.hpp"
 #include "firmware/evaluate/progress.hpp"
 #include "firmware/simulate/plan_scenes.hpp"
 #include "simulator/capture/input_error.hpp"
+#include "simulator/capture/png_writer.hpp"
 #include "simulator/scenes/capture_writer.hpp"
 #include "simulator/scenes/scene_file.hpp"
 #include "simulator/scenes/scene_sets.hpp"
@@ -98,8 +101,12 @@ int render_scenes(std::vector<SceneDescription> scenes, const RenderOptions& opt
 
 int run_plan(const RenderOptions& options, std::ostream& out, std::ostream& error) {
   const VerifyPlan plan = read_verify_plan(options.what);
-  return render_scenes(scenes_of_plan(plan, {options.seed, options.is_reduced, options.config}), options, out,
-                       error);
+  const std::filesystem::path folder = options.out;
+  create_folder(folder);
+  const std::filesystem::path card = folder / "card.png";
+  write_png(card, card_picture(1).frame());
+  return render_scenes(scenes_of_plan(plan, {options.seed, options.is_reduced, options.config, card}),
+                       options, out, error);
 }
 
 int run_list(std::ostream& out) {

@@ -23,8 +23,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kDpi = 254.0;  // 10 pixels a millimetre
-constexpr double kPxPerMm = kDpi / 25.4;
+constexpr double kBodyDpi = 254.0;  // 10 pixels a millimetre
+constexpr double kBodyPxPerMm = kBodyDpi / 25.4;
 
 class PrintedBodies {
  public:
@@ -54,8 +54,8 @@ class PrintedBodies {
 };
 
 cv::Point pixel(const PagePoint& at) {
-  return {static_cast<int>(std::lround(kPxPerMm * at.x_mm - 0.5)),
-          static_cast<int>(std::lround(kPxPerMm * at.y_mm - 0.5))};
+  return {static_cast<int>(std::lround(kBodyPxPerMm * at.x_mm - 0.5)),
+          static_cast<int>(std::lround(kBodyPxPerMm * at.y_mm - 0.5))};
 }
 
 // How dark it is within 0.2 mm of a place: 0 is black.
@@ -77,8 +77,8 @@ TEST(BodySheet, PagesHaveTheirPapersSizeAndKeepToWhatPrintersPrint) {
     const PrintedBodies sheets(paper);
     for (int number = 0; number < pages_of(lay_out_bodies(paper)); ++number) {
       cv::Mat1b page = sheets.page(number);
-      ASSERT_NEAR(page.cols, kPxPerMm * paper.width_mm, 1.0);
-      ASSERT_NEAR(page.rows, kPxPerMm * paper.height_mm, 1.0);
+      ASSERT_NEAR(page.cols, kBodyPxPerMm * paper.width_mm, 1.0);
+      ASSERT_NEAR(page.rows, kBodyPxPerMm * paper.height_mm, 1.0);
       EXPECT_GT(cv::countNonZero(page < 128), 100) << number;
       page(cv::Rect(60, 60, page.cols - 120, page.rows - 120)).setTo(255);
       EXPECT_EQ(cv::countNonZero(page < 255), 0) << "page " << number;
@@ -117,7 +117,8 @@ TEST(BodySheet, EveryPieceStandsOnAPageAndTouchesNoOther) {
       EXPECT_LE(bottom, paper.height_mm - 7.9);
       const cv::Rect2d rect(left, top, right - left, bottom - top);
       for (const Box& other : boxes) {
-        if (other.page == placed.page) EXPECT_EQ((other.rect & rect).area(), 0.0) << placed.body->id;
+        if (other.page != placed.page) continue;
+        EXPECT_EQ((other.rect & rect).area(), 0.0) << placed.body->id;
       }
       boxes.push_back({placed.page, rect});
     }

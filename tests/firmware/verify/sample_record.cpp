@@ -58,7 +58,7 @@ VerifyRecord large_record(const std::vector<double>& error_percent) {
     plan.steps.push_back({id, body, 0, 0.0, is_repeat});
     const double volume_ml = plan.bodies[body].volume_ml;
     const double error = error_percent[turn++ % error_percent.size()];
-    record.scans.push_back(measured_scan(id, volume_ml * (1.0 + 0.01 * error), 0.01 * volume_ml));
+    record.scans.push_back(measured_scan(id, volume_ml * (1.0 + 0.01 * error), 0.02 * volume_ml));
   };
   for (std::size_t body = 0; body < 5; ++body) {
     const std::string id = "body" + std::to_string(body);

@@ -15,7 +15,7 @@ VerifyScan measured_scan(const std::string& step, double volume_ml, double sigma
 VerifyScan refused_scan(const std::string& step);
 
 // As good as a test can be that half an hour allows: five bodies, six scans each, ten repeats; each volume is
-// off by what `error_percent` says in turn, with a sigma of 1 %.
+// off by what `error_percent` says in turn, with a sigma of 2 %.
 VerifyRecord large_record(const std::vector<double>& error_percent);
 
 }  // namespace traygauge

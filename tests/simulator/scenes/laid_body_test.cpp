@@ -75,8 +75,7 @@ TEST(LaidBody, MayNotReachIntoAnother) {
   scene.foods.push_back(scene.foods.front());
   scene.foods.back().centre_mm = {10.0, 0.0};
   EXPECT_THROW(serve_foods(scene, 0, DishShell(flat_dish()), 2), std::invalid_argument);
-  scene.foods.back().centre_mm = {0.0, 60.0};
-  scene.foods.back().body = "C50";
+  scene.foods.back().centre_mm = {0.0, 48.0};
   scene.foods.front().centre_mm = {0.0, -10.0};
   EXPECT_EQ(serve_foods(scene, 0, DishShell(flat_dish()), 2).size(), 2U);
 }
