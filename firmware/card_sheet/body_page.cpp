@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <string>
+#include <vector>
 
 #include "firmware/base/text.hpp"
 #include "firmware/card_sheet/page_ruler.hpp"
@@ -62,18 +64,23 @@ std::vector<PagePoint> on_page(const PlacedPiece& placed, const NetPolygon& poly
   return points;
 }
 
-void fill_square(PagePen& pen, const PlacedPiece& placed, int column, int row, int gray) {
-  const double left = kBodyCellMm * column - kOverlapMm;
-  const double low = kBodyCellMm * row - kOverlapMm;
-  const double right = kBodyCellMm * (column + 1) + kOverlapMm;
-  const double high = kBodyCellMm * (row + 1) + kOverlapMm;
+struct Square {
+  int column = 0;
+  int row = 0;
+};
+
+void add_square(PagePen& pen, const PlacedPiece& placed, const Square& square) {
+  const double left = kBodyCellMm * square.column - kOverlapMm;
+  const double low = kBodyCellMm * square.row - kOverlapMm;
+  const double right = kBodyCellMm * (square.column + 1) + kOverlapMm;
+  const double high = kBodyCellMm * (square.row + 1) + kOverlapMm;
   pen.move_to(placed.on_page({left, low}));
   for (const NetPoint& corner : {NetPoint(right, low), NetPoint(right, high), NetPoint(left, high)})
     pen.line_to(placed.on_page(corner));
-  pen.fill_gray(gray);
 }
 
-void draw_texture(PagePen& pen, const PlacedPiece& placed, const NetPolygon& face) {
+// The squares that a face may need, by their grey.
+std::map<int, std::vector<Square>> squares_of(const PlacedPiece& placed, const NetPolygon& face) {
   NetPoint low = face.front();
   NetPoint high = face.front();
   for (const NetPoint& corner : face) {
@@ -81,10 +88,20 @@ void draw_texture(PagePen& pen, const PlacedPiece& placed, const NetPolygon& fac
     high = high.cwiseMax(corner);
   }
   const auto cell = [](double at) { return static_cast<int>(std::floor(at / kBodyCellMm)); };
-  pen.begin_clip(on_page(placed, face));
+  std::map<int, std::vector<Square>> squares;
   for (int row = cell(low.y()); row <= cell(high.y()); ++row) {
     for (int column = cell(low.x()); column <= cell(high.x()); ++column)
-      fill_square(pen, placed, column, row, body_cell_gray(placed.body->id, placed.number, column, row));
+      squares[body_cell_gray(placed.body->id, placed.number, column, row)].push_back({column, row});
+  }
+  return squares;
+}
+
+// One shape a grey, because cairo writes the clip anew for each shape.
+void draw_texture(PagePen& pen, const PlacedPiece& placed, const NetPolygon& face) {
+  pen.begin_clip(on_page(placed, face));
+  for (const auto& [gray, squares] : squares_of(placed, face)) {
+    for (const Square& square : squares) add_square(pen, placed, square);
+    pen.fill_gray(gray);
   }
   pen.end_clip();
 }

@@ -33,7 +33,7 @@ int block_of(int cell) {
 }  // namespace
 
 std::uint8_t body_cell_gray(std::string_view body_id, int piece, int column, int row) {
-  std::uint64_t seed = static_cast<std::uint64_t>(piece);
+  auto seed = static_cast<std::uint64_t>(piece);
   for (const char letter : body_id) seed = mixed(seed + static_cast<unsigned char>(letter));
   const int level = below(5, seed, column, row) + below(3, mixed(seed), block_of(column), block_of(row)) - 1;
   return kGrays.at(static_cast<std::size_t>(std::clamp(level, 0, 4)));

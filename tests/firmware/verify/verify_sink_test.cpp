@@ -7,6 +7,7 @@
 
 #include "firmware/station/scan_printer.hpp"
 #include "firmware/verify/verify_station.hpp"
+#include "tests/firmware/station/station_rig.hpp"
 #include "tests/firmware/verify/sample_record.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -115,6 +116,49 @@ TEST_F(VerifyStation, EndsWhenAllIsDoneOrSomebodyWantsIt) {
   stop = true;
   sink.attend();
   EXPECT_TRUE(ended);
+}
+
+// The whole loop: ten steps, the second of them refused once; more presses would come.
+TEST_F(VerifyStation, LeadsAStationThroughItsSteps) {
+  StationRig rig(20);
+  rig.measurer.on_measure = [&rig] {
+    rig.measurer.status = rig.measurer.scans == 2 ? Status(StatusCode::card_not_found) : Status();
+  };
+  StationParams params;
+  params.repeat_within = {};
+  Station station(*rig.devices, rig.measurer, sink, ended, params);
+  station.run();
+  const VerifyRecord record = read_verify_record(file);
+  ASSERT_EQ(record.scans.size(), 11U);
+  EXPECT_EQ(record.scans[1].step, "a-middle-45");
+  EXPECT_FALSE(record.scans[1].is_measured);
+  EXPECT_EQ(record.scans[2].step, "a-middle-45");
+  EXPECT_TRUE(record.scans[2].is_measured);
+  EXPECT_EQ(guide.next(), nullptr);
+  EXPECT_EQ(station.totals().scans, 11U);
+  ASSERT_EQ(rig.measurer.hints.size(), 11U);
+  EXPECT_EQ(rig.measurer.hints[2].tray, "a-middle-45");
+  EXPECT_EQ(rig.measurer.hints[10].tray, "b-repeat-02");
+  EXPECT_EQ(rig.measurer.hints[10].foods, 1);
+}
+
+// A camera that fails in between spoils no step, and Ctrl-C leaves what was measured.
+TEST_F(VerifyStation, GoesOnAfterADeviceThatFailedAndAfterAnEnd) {
+  StationRig rig(20);
+  Fault fault;
+  fault.action = FaultKind::off;
+  fault.after_calls = 5;
+  rig.camera.faults().add(fault);
+  rig.measurer.on_measure = [&] { stop = rig.measurer.scans >= 4; };
+  Station station(*rig.devices, rig.measurer, sink, ended);
+  station.run();
+  const VerifyRecord record = read_verify_record(file);
+  ASSERT_GE(record.scans.size(), 3U);
+  EXPECT_LT(record.scans.size(), 10U);
+  for (std::size_t i = 0; i < record.scans.size(); ++i) {
+    EXPECT_TRUE(record.scans[i].is_measured);
+    EXPECT_EQ(record.scans[i].step, record.header.plan.steps[i].id);
+  }
 }
 
 }  // namespace
