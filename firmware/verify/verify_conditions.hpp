@@ -14,12 +14,12 @@ struct StationFile;
 // Program, time, plan and what the tester states.
 VerifyHeader begin_verify_header(const VerifyRunOptions& options, const VerifyPlan& plan);
 
-// "1600 × 1200, focal length 1400.0 px".
+// "1600 × 1200, focal length 1400.0 px, lens 0123456789abcdef".
 std::string describe_camera(const CameraDescription& camera);
 // "85.60 × 53.98 × 0.80 mm, print 0123456789abcdef". Throws InputError where the print cannot be read.
 std::string describe_card(const CardDescription& card);
 
-// The station's devices, lens and card, and the digest of its file, which has both.
-void add_station_conditions(const StationFile& station, VerifyHeader& header);
+// The station's devices, lens, card and that dish, and the digest of its file.
+void add_station_conditions(const StationFile& station, const DishDescription& dish, VerifyHeader& header);
 
 }  // namespace traygauge

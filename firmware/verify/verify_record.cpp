@@ -239,7 +239,7 @@ VerifyLog::VerifyLog(std::filesystem::path file, const VerifyHeader& header) : f
   for (const auto& [key, value] : now.items()) {
     if (before.contains(key) && before[key] == value) continue;
     throw UsageError(printable(file_.string()) + ": belongs to a test with another " +
-                     (key == "conditions" ? "camera, card, dish or temperature" : key) +
+                     (key == "conditions" ? "camera, card, dish, tester or temperature" : key) +
                      "; name another file, so that the certificate speaks of one test");
   }
 }

@@ -1,7 +1,8 @@
 #include "firmware/verify/verify_station.hpp"
 
-#include <algorithm>
 #include <ostream>
+#include <string>
+#include <vector>
 
 #include "firmware/base/exit_status.hpp"
 #include "firmware/config/dish_choice.hpp"
@@ -15,12 +16,12 @@
 namespace traygauge {
 namespace {
 
-void require_dish(const SiteScene& scene, const std::string& dish) {
-  const std::vector<std::string> styles = scene.dish_styles();
-  if (std::ranges::find(styles, dish) != styles.end()) return;
+DishDescription find_station_dish(const std::vector<DishDescription>& library, const std::string& style) {
+  const auto found = find_dishes({style}, library);
+  if (found.ok()) return found->front();
   std::string list;
-  for (const std::string& style : styles) list += (list.empty() ? "" : ", ") + style;
-  throw UsageError("the plan's dish: the station has no dish " + printable(dish) + "; it knows " + list);
+  for (const DishDescription& dish : library) list += (list.empty() ? "" : ", ") + dish.style;
+  throw UsageError("the plan's dish: the station has no dish " + printable(style) + "; it knows " + list);
 }
 
 }  // namespace
@@ -56,10 +57,10 @@ VerifyRecord run_verify_station(const VerifyRunOptions& options, const VerifyPla
                                 const std::atomic<bool>& stop, std::ostream& out, std::ostream& log) {
   const StationFile station_file = read_station_file(options.station);
   require_geometry(station_file);
-  SiteScene scene(station_file, read_station_dishes(station_file.file));
-  require_dish(scene, plan.dish);
+  const std::vector<DishDescription> library = read_station_dishes(station_file.file);
   VerifyHeader header = begin_verify_header(options, plan);
-  add_station_conditions(station_file, header);
+  add_station_conditions(station_file, find_station_dish(library, plan.dish), header);
+  SiteScene scene(station_file, library);
   VerifyLog record(options.out, header);
   VerifyGuide guide(record, out);
   if (guide.next() == nullptr) return record.record();

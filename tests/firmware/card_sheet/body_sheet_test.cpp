@@ -146,34 +146,32 @@ TEST(BodySheet, EachPageHasARulerOf100Mm) {
 
 // Cut lines and squares stand where the net says, which folds to the body.
 TEST(BodySheet, NetsArePrintedInTheirSize) {
-  for (const SheetPaper& paper : {kLetterPaper}) {
-    const PrintedBodies sheets(paper);
-    int number = -1;
-    cv::Mat1b page;
-    for (const PlacedPiece& placed : lay_out_bodies(paper)) {
-      if (placed.page != number) page = sheets.page(number = placed.page);
-      for (const NetPolygon& cut : placed.piece.cuts) {
-        for (const NetPoint& corner : cut)
-          EXPECT_LT(darkest_near(page, placed.on_page(corner)), 170) << placed.body->id;
-      }
-      if (!placed.piece.is_textured) continue;
-      // Middles of squares well inside of a face.
-      int squares = 0;
-      for (const NetFace& face : placed.piece.faces) {
-        NetPoint middle = NetPoint::Zero();
-        for (const NetPoint& corner : face.net) middle += corner / static_cast<double>(face.net.size());
-        if (placed.body->kind == BodyKind::cone && placed.number == 0) middle = {0.0, 60.0};
-        for (int step = -2; step <= 2; ++step) {
-          const int column = static_cast<int>(std::floor(middle.x() / kBodyCellMm)) + step;
-          const int row = static_cast<int>(std::floor(middle.y() / kBodyCellMm));
-          const PagePoint at = placed.on_page({kBodyCellMm * (column + 0.5), kBodyCellMm * (row + 0.5)});
-          EXPECT_NEAR(page(pixel(at)), body_cell_gray(placed.body->id, placed.number, column, row), 3)
-              << placed.body->id;
-          ++squares;
-        }
-      }
-      EXPECT_GT(squares, 0);
+  const PrintedBodies sheets(kLetterPaper);
+  int number = -1;
+  cv::Mat1b page;
+  for (const PlacedPiece& placed : lay_out_bodies(kLetterPaper)) {
+    if (placed.page != number) page = sheets.page(number = placed.page);
+    for (const NetPolygon& cut : placed.piece.cuts) {
+      for (const NetPoint& corner : cut)
+        EXPECT_LT(darkest_near(page, placed.on_page(corner)), 170) << placed.body->id;
     }
+    if (!placed.piece.is_textured) continue;
+    // Middles of squares well inside of a face.
+    int squares = 0;
+    for (const NetFace& face : placed.piece.faces) {
+      NetPoint middle = NetPoint::Zero();
+      for (const NetPoint& corner : face.net) middle += corner / static_cast<double>(face.net.size());
+      if (placed.body->kind == BodyKind::cone && placed.number == 0) middle = {0.0, 60.0};
+      for (int step = -2; step <= 2; ++step) {
+        const int column = static_cast<int>(std::floor(middle.x() / kBodyCellMm)) + step;
+        const int row = static_cast<int>(std::floor(middle.y() / kBodyCellMm));
+        const PagePoint at = placed.on_page({kBodyCellMm * (column + 0.5), kBodyCellMm * (row + 0.5)});
+        EXPECT_NEAR(page(pixel(at)), body_cell_gray(placed.body->id, placed.number, column, row), 3)
+            << placed.body->id;
+        ++squares;
+      }
+    }
+    EXPECT_GT(squares, 0);
   }
 }
 
