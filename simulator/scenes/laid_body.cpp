@@ -20,8 +20,8 @@ constexpr double kMaxGapMm = 0.01;  // between a corner and the bottom that it s
 
 class PrintedPaper : public Material {
  public:
-  PrintedPaper(const ProofBody& body, const Eigen::Isometry3d& body_from_world)
-      : surface_(body), body_from_world_(body_from_world) {
+  PrintedPaper(const ProofBody& body, Eigen::Isometry3d body_from_world)
+      : surface_(body), body_from_world_(std::move(body_from_world)) {
     for (std::uint32_t gray = 0; gray < linear_.size(); ++gray)
       linear_[gray] = linear_colour(gray << 16U | gray << 8U | gray);
   }
