@@ -124,24 +124,20 @@ std::string list_refusals(const VerifyRecord& record) {
 }
 
 constexpr std::string_view kExplanation =
-    "An interval is of 95 %: Student's for means, chi-squared for the CV, Clopper and Pearson's for shares. "
-    "It speaks of\n"
-    "further scans of these bodies at these places, not of other shapes or foods. Each body weighs the same. "
-    "The wider\n"
-    "interval adds two standard deviations of the bodies' own volumes, as if all were wrong to the same "
-    "side. A volume lies\n"
-    "within sigma where it differs from the body's by less than the two standard deviations together. "
-    "Repeats count for the CV\n"
-    "and the refusals alone.\n\n"
-    "A class is reached where the end of the wider interval keeps each limit, and the bias of each body its "
-    "own. A, for\n"
-    "portions and nutrients: the volume is then surer than the density of most foods. B, for portions: two "
-    "portions that\n"
-    "differ by a tenth are told apart. C, for consumption and waste in the mean. The limits are Traygauge's "
-    "own. OIML R 129\n"
-    "is about instruments that measure the smallest box around an object, to charge for freight: none of its "
-    "classes is\n"
-    "claimed here.\n";
+    "An interval is of 95 %: Student's for means, chi-squared for the CV, Clopper and Pearson's for\n"
+    "shares. It speaks of further scans of these bodies at these places, not of other shapes or\n"
+    "foods. Shares are treated as if each scan were independent; scans of one body resemble each\n"
+    "other, so their true intervals are wider. Each body weighs the same.\n\n"
+    "The wider interval adds two standard deviations of the bodies' own volumes, as if all were wrong\n"
+    "to the same side. A volume lies within sigma where it differs from the body's by no more than\n"
+    "the root of the sum of the squares of the scan's standard deviation and the body's. Repeats\n"
+    "count for the CV and the refusals alone.\n\n"
+    "A class is reached where the end of the wider interval keeps each limit, and the bias of each\n"
+    "body its own. A, for portions and nutrients: the volume is then surer than the density of most\n"
+    "foods. B, for portions: two portions that differ by a tenth are told apart. C, for consumption\n"
+    "and waste in the mean. The limits are Traygauge's own. OIML R 129 is about instruments that\n"
+    "measure the smallest box around an object, to charge for freight: none of its classes is claimed\n"
+    "here.\n";
 
 }  // namespace
 
