@@ -31,7 +31,8 @@ void for_each_square_sum(int width, int height, int radius, std::span<RowSum> ro
     }
   }
   const std::span<std::int32_t> columns = column_sums.first(static_cast<std::size_t>(width));
-  std::fill(columns.begin(), columns.end(), 0);
+  // Not std::fill: GCC 14 takes the width for negative and warns of a size beyond all memory.
+  for (int x = 0; x < width; ++x) columns[static_cast<std::size_t>(x)] = 0;
   const auto add_row = [&](int y, int sign) {
     const RowSum* sums = row_of(std::clamp(y, 0, height - 1));
     for (int x = 0; x < width; ++x) columns[static_cast<std::size_t>(x)] += sign * sums[x];
