@@ -26,6 +26,9 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL GNU AND CMAKE_CXX_COMPILER_VERSION VERSION_GRE
   target_compile_options(traygauge_options INTERFACE -fno-ipa-modref)
 endif()
 target_include_directories(traygauge_options INTERFACE ${TRAYGAUGE_ROOT})
+# Wherever the checkout lies, the programs are the same, and do not tell where it lay.
+target_compile_options(traygauge_options INTERFACE
+  -ffile-prefix-map=${TRAYGAUGE_ROOT}=. -ffile-prefix-map=${CMAKE_BINARY_DIR}=build)
 if(NOT TRAYGAUGE_SANITIZERS)
   # A program holds no function that it does not use, however sources are merged.
   target_compile_options(traygauge_options INTERFACE -ffunction-sections -fdata-sections)

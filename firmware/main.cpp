@@ -1,10 +1,13 @@
 #include <iostream>
 #include <string_view>
 
+#include "firmware/base/build_info.hpp"
+#include "firmware/built_commit.hpp"
 #include "firmware/command/command_line.hpp"
 #include "firmware/command/sibling_program.hpp"
 
 int main(int argument_count, char** arguments) {
+  traygauge::set_built_commit(traygauge::kCommit);
   // The same command without what other commands load. Where that program was not installed, this one does
   // it.
   if (argument_count > 1 && std::string_view(arguments[1]) == "station")

@@ -23,6 +23,7 @@ struct SiteFacts {
   std::string name;       // for people; empty: none
   std::string time_zone;  // such as "Europe/Berlin"; empty: it has no name
   std::string program_version;
+  std::string commit;                 // that it was built from; empty: not known
   std::string configuration_problem;  // empty: the configuration is the one that somebody wrote
 };
 

@@ -10,6 +10,7 @@ HttpResponse answer_site(const SiteFacts& facts) {
   return json_answer({{"name", text_or_null(facts.name)},
                       {"time_zone", text_or_null(facts.time_zone)},
                       {"program", facts.program_version},
+                      {"commit", text_or_null(facts.commit)},
                       {"configuration_problem", text_or_null(facts.configuration_problem)}});
 }
 

@@ -4,6 +4,7 @@
 #include <system_error>
 #include <utility>
 
+#include "firmware/base/build_info.hpp"
 #include "firmware/handover/hub_link.hpp"
 #include "firmware/handover/kept_results.hpp"
 #include "firmware/handover/scan_handover.hpp"
@@ -35,7 +36,7 @@ HubLinkParams link_params(const HandoverConfig& config) {
   HubLinkParams params;
   params.socket = config.socket;
   params.station = config.name;
-  params.program_version = TRAYGAUGE_VERSION;
+  params.program_version = program_version();
   return params;
 }
 

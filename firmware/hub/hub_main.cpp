@@ -1,6 +1,8 @@
 // `traygauge hub` as a program of its own: it holds no device and nothing of the measurement.
 #include <iostream>
 
+#include "firmware/base/build_info.hpp"
+#include "firmware/built_commit.hpp"
 #include "firmware/command/confinement.hpp"
 #include "firmware/command/program.hpp"
 #include "firmware/command/stop_signal.hpp"
@@ -8,6 +10,7 @@
 
 // NOLINTNEXTLINE(bugprone-exception-escape): options that contradict each other end the program at once
 int main(int argument_count, char** arguments) {
+  traygauge::set_built_commit(traygauge::kCommit);
   traygauge::Program program("Stores what stations measure.", "traygauge");
   traygauge::HubCommand command;
   traygauge::add_hub_options(program, command);

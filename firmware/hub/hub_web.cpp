@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "firmware/base/build_info.hpp"
 #include "firmware/base/time_zone.hpp"
 #include "firmware/hub/page_files.hpp"
 #include "firmware/web/login.hpp"
@@ -65,7 +66,8 @@ Expected<HubWeb::Parts> HubWeb::parts_of(const WebConfig& config) {
   SiteFacts facts;
   facts.name = config.site_name;
   facts.time_zone = config.time_zone.empty() ? machine_time_zone() : config.time_zone;
-  facts.program_version = TRAYGAUGE_VERSION;
+  facts.program_version = program_version();
+  facts.commit = built_commit();
   return Parts{
       std::move(*access), {config.host_names, std::move(*base)}, std::move(*addresses), std::move(facts)};
 }

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "firmware/base/build_info.hpp"
 #include "firmware/base/exit_status.hpp"
 #include "firmware/base/text.hpp"
 #include "firmware/card/card_drawing.hpp"
@@ -141,7 +142,7 @@ void add_plan(Program& program, RenderOptions& options) {
 
 int run_simulate(int argument_count, const char* const* arguments, std::ostream& out, std::ostream& error) {
   Program program("Renders scenes of trays into captures with exact truth.", "traygauge-simulate");
-  program.add_version(TRAYGAUGE_VERSION);
+  program.add_version(describe_build("traygauge-simulate"));
   RenderOptions options;
   add_render(program, options);
   add_plan(program, options);

@@ -1,6 +1,8 @@
 #include <iostream>
 
+#include "firmware/base/build_info.hpp"
 #include "firmware/base/exit_status.hpp"
+#include "firmware/built_commit.hpp"
 #include "firmware/simulate/simulate_command.hpp"
 
 namespace {
@@ -17,6 +19,7 @@ bool has_processor_all() {
 }  // namespace
 
 int main(int argument_count, char** arguments) {
+  traygauge::set_built_commit(traygauge::kCommit);
   if (!has_processor_all()) {
     std::cerr << "traygauge-simulate: this processor lacks AVX2, which the renderer was built for; run it on "
                  "one from 2015 or later, or build it with -DTRAYGAUGE_AVX2=OFF\n";

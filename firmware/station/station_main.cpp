@@ -3,6 +3,8 @@
 
 #include <iostream>
 
+#include "firmware/base/build_info.hpp"
+#include "firmware/built_commit.hpp"
 #include "firmware/command/confinement.hpp"
 #include "firmware/command/program.hpp"
 #include "firmware/command/stop_signal.hpp"
@@ -20,6 +22,7 @@ constexpr int kOwnPagesFrom_bytes = 128 * 1024;
 
 // NOLINTNEXTLINE(bugprone-exception-escape): options that contradict each other end the program at once
 int main(int argument_count, char** arguments) {
+  traygauge::set_built_commit(traygauge::kCommit);
   mallopt(M_MMAP_THRESHOLD, kOwnPagesFrom_bytes);
   traygauge::Program program("Waits for the button, measures the tray, reports; again.", "traygauge");
   traygauge::StationCommand command;

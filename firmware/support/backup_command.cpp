@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "firmware/base/build_info.hpp"
 #include "firmware/base/exit_status.hpp"
 #include "firmware/base/wall_clock.hpp"
 #include "firmware/command/program.hpp"
@@ -31,7 +32,7 @@ std::string archive_name(const fs::path& folder, const fs::path& file) {
 class Backup {
  public:
   Backup(const StationValues& station, bool with_secrets) : station_(station), with_secrets_(with_secrets) {
-    manifest_.program = TRAYGAUGE_VERSION;
+    manifest_.program = program_version();
     manifest_.made_at = utc_text(read_wall_clock().unix_ms);
     manifest_.station = station.file.filename().string();
     take(station.file, false);

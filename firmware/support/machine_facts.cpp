@@ -9,6 +9,7 @@
 #include <fstream>
 #include <set>
 
+#include "firmware/base/build_info.hpp"
 #include "firmware/base/text.hpp"
 #include "firmware/base/wall_clock.hpp"
 
@@ -118,7 +119,7 @@ std::string describe_disk(fs::path folder) {
 std::string describe_versions() {
   utsname kernel{};
   ::uname(&kernel);
-  std::string text = "traygauge " TRAYGAUGE_VERSION "\n";
+  std::string text = describe_build("traygauge") + "\n";
   text.append("made at ").append(utc_text(read_wall_clock().unix_ms));
   text.append(read_wall_clock().synchronised ? ", the clock is synchronised\n"
                                              : ", the clock is not synchronised\n");
