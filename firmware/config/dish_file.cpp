@@ -23,7 +23,7 @@ std::string pair(double first, double second) {
 
 std::string compose_dish_file(const DishDescription& dish) {
   std::ostringstream text;
-  text << "# Lengths in mm, heights above the table.\n";
+  text << "# Lengths in mm, heights above the table.\nversion = 1\n";
   if (!dish.style.empty()) text << "style = " << toml_text(dish.style) << '\n';
   text << "outer_size_mm = " << pair(dish.outer_size_mm[0], dish.outer_size_mm[1]) << '\n';
   text << "rim_height_mm = " << toml_number(dish.rim_height_mm) << '\n';

@@ -11,6 +11,7 @@ namespace traygauge {
 namespace {
 
 constexpr std::size_t kMaxFileBytes = std::size_t{1} << 16U;
+constexpr int kStationFileVersion = 1;
 constexpr int kMaxMib = 1024;
 constexpr int kMaxFreeMib = 1024 * 1024;
 constexpr int kMaxDays = 36'500;
@@ -117,9 +118,14 @@ OnBadConfig read_on_bad_config(const JsonNode& root) {
   node->fail(R"("keep" or "stop")", "correct the value");
 }
 
+void check_station_version(const JsonNode& root) {
+  check_file_version(root, kStationFileVersion, "station file");
+}
+
 HubFile read_hub_file(const std::filesystem::path& file, const std::filesystem::path& content) {
   const JsonDocument document = read_toml(content, kMaxFileBytes, "a station in TOML");
   const JsonNode root = document.root();
+  check_station_version(root);
   const std::filesystem::path folder = file.parent_path();
   return {read_on_bad_config(root), read_handover_table(root.member("station"), folder).socket,
           read_hub_table(root.member("hub"), folder)};

@@ -67,6 +67,10 @@ HubConfig read_hub_table(const JsonNode& table, const std::filesystem::path& fol
 // The key of a file that says what becomes of the program when the next one is bad.
 OnBadConfig read_on_bad_config(const JsonNode& root);
 
+// A station file may say `version = 1`; one that does not is of version 1. Throws InputError for every other:
+// a later version would be understood by halves.
+void check_station_version(const JsonNode& root);
+
 // What a hub needs of a station file.
 struct HubFile {
   OnBadConfig on_bad_config = OnBadConfig::keep;

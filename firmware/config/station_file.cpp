@@ -279,8 +279,9 @@ void read_trays(const JsonNode& table, const fs::path& folder, StationFile& stat
 StationFile read_station_file(const fs::path& file, const fs::path& content) {
   const JsonDocument document = read_toml(content, kMaxFileBytes, "a station in TOML");
   const JsonNode root = document.root();
-  expect(root, {"camera", "second_camera", "button", "lamp", "arm", "arm_geometry", "lens", "second_lens",
-                "card", "trays", "station", "hub", "on_bad_config"});
+  check_station_version(root);
+  expect(root, {"version", "camera", "second_camera", "button", "lamp", "arm", "arm_geometry", "lens",
+                "second_lens", "card", "trays", "station", "hub", "on_bad_config"});
   const fs::path folder = file.parent_path();
   StationFile station;
   station.file = file;

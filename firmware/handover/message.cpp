@@ -26,6 +26,16 @@ std::size_t length_at(std::string_view bytes, std::size_t at) {
   return length;
 }
 
+// What does not begin as our messages do.
+std::string describe_foreign(std::string_view beginning) {
+  const std::string expected = "expected a message of Traygauge's format 1, found ";
+  const std::string_view without_version = kMagic.substr(0, kMagic.size() - 1);
+  if (beginning.size() == kMagic.size() && beginning.starts_with(without_version) &&
+      beginning.back() >= '0' && beginning.back() <= '9')
+    return expected + "format " + beginning.back() + ": install station and hub of one version";
+  return expected + "something else";
+}
+
 }  // namespace
 
 const char* name(MessageType type) {
@@ -45,8 +55,7 @@ std::string encode(const Message& message) {
 
 Expected<std::optional<Message>> MessageReader::next() {
   const std::string_view compared = std::string_view(received_).substr(0, kMagic.size());
-  if (compared != kMagic.substr(0, compared.size()))
-    return Failure{"expected a message of Traygauge's format 1, found something else"};
+  if (compared != kMagic.substr(0, compared.size())) return Failure{describe_foreign(compared)};
   if (received_.size() < kHeaderBytes) return std::optional<Message>();
   const auto type = static_cast<unsigned char>(received_[kMagic.size()]);
   if (type >= kNames.size())

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -58,6 +59,17 @@ JsonDocument read_toml(const std::filesystem::path& file, std::size_t max_bytes,
     throw InputError(InputProblem{file, "", expected, std::string(error.description()),
                                   "correct line " + std::to_string(line), line});
   }
+}
+
+void check_file_version(const JsonNode& root, int newest, const char* what) {
+  const auto version = root.find("version");
+  if (!version) return;
+  const int found = version->integer(1, std::numeric_limits<int>::max());
+  if (found <= newest) return;
+  const std::string known = newest == 1 ? "version 1" : "version 1 to " + std::to_string(newest);
+  version->fail(
+      known + " of a " + what + ", which this program knows",
+      "a newer program wrote this file: install that one again, or write the file as this one knows it");
 }
 
 void expect_keys(const JsonNode& table, std::span<const std::string_view> keys) {

@@ -14,6 +14,11 @@ namespace traygauge {
 // Throws InputError: absent, unreadable, larger than `max_bytes`, not TOML.
 JsonDocument read_toml(const std::filesystem::path& file, std::size_t max_bytes, const char* expected);
 
+// The key `version` of a file that people edit. Without it the file is of version 1. Throws InputError unless
+// it is from 1 to `newest`; `what` names such a file: "station file". Read it before other keys, which a
+// later version may have.
+void check_file_version(const JsonNode& root, int newest, const char* what);
+
 // Throws InputError for a key of this table that is none of `keys`: it is a typing mistake.
 void expect_keys(const JsonNode& table, std::span<const std::string_view> keys);
 

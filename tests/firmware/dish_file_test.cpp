@@ -110,6 +110,27 @@ TEST(DishFile, WhatCannotBeWrittenIsNamed) {
   EXPECT_EQ(std::distance(fs::directory_iterator(folder.path()), fs::directory_iterator()), 1);
 }
 
+TEST(DishFile, OfAnotherVersionIsRefused) {
+  const TemporaryFolder folder;
+  const fs::path file = folder.path() / "dish.toml";
+  const std::string text = compose_dish_file({1, "small", {100.0, 100.0}, 20.0, 4.0, {}});
+  const std::string line = "version = 1\n";
+  const std::size_t place = text.find(line);
+  ASSERT_NE(place, std::string::npos) << text;
+  std::string other = text;
+  write_text(file, other.erase(place, line.size()));
+  EXPECT_EQ(read_dish_file(file).style, "small") << "of version 1, as are all that do not say it";
+  for (const char* const version : {"version = 2\nnew_key = 3\n", "version = 0\n"}) {
+    write_text(file, version + other);
+    try {
+      read_dish_file(file);
+      ADD_FAILURE() << version;
+    } catch (const InputError& error) {
+      EXPECT_EQ(error.problem().key, "version") << error.what();
+    }
+  }
+}
+
 TEST(DishFile, ProfilesBeyondTheLimitAreRefused) {
   const TemporaryFolder folder;
   DishDescription dish{1, "deep", {300.0, 300.0}, 64.0, 0.0, {}};

@@ -87,6 +87,11 @@ sed -i 's/"bowl"/"soup"/' "$file"
 expect 1 'ok    trays: dishes soup' "$program" check "$file"
 write '= 3'
 check 2 'station.toml:24: '
+write ''
+sed -i '1i version = 1' "$file"
+check 0 'as expected for a hub'
+sed -i 's/^version = 1/version = 2/; s/^line = /lin = /' "$file"
+check 2 'station.toml:1: version: expected version 1 of a station file, .* a newer program wrote this file'
 rm "$file"
 check 2 'No such file'
 

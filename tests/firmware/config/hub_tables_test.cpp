@@ -66,5 +66,24 @@ TEST_F(HubTables, BlamesTheKey) {
             "station.name");
 }
 
+TEST_F(HubTables, OfAnotherVersionAreRefused) {
+  const std::string tables = std::string(kStation) + kHub;
+  EXPECT_EQ(blamed(tables), "nothing") << "of version 1, as are all that do not say it";
+  EXPECT_EQ(blamed("version = 1\n" + tables), "nothing");
+  EXPECT_EQ(blamed("version = 0\n" + tables), "version");
+  EXPECT_EQ(blamed("version = \"1\"\n" + tables), "version");
+  // What else a newer file has is not what is wrong with it.
+  EXPECT_EQ(blamed("version = 2\n[hub]\nunknown = 3\n"), "version");
+  try {
+    read("version = 2\n" + tables);
+    ADD_FAILURE() << "it was read";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("version 1 of a station file"), std::string::npos)
+        << error.what();
+    EXPECT_NE(std::string(error.what()).find("a newer program wrote this file"), std::string::npos)
+        << error.what();
+  }
+}
+
 }  // namespace
 }  // namespace traygauge::test

@@ -87,6 +87,20 @@ TEST(MessageReader, RefusesLengthsBeyondTheLimits) {
   EXPECT_EQ(**next, largest);
 }
 
+TEST(MessageReader, NamesAnotherVersionOfTheFormat) {
+  for (const auto& [beginning, found] :
+       {std::pair{"TGM2", "found format 2: install station and hub of one version"},
+        std::pair{"TGMx", "found something else"}, std::pair{"GET ", "found something else"}}) {
+    std::string other = encode({MessageType::scan, "{}", {}});
+    other.replace(0, 4, beginning);
+    MessageReader reader;
+    reader.append(other);
+    const auto next = reader.next();
+    ASSERT_FALSE(next.ok()) << beginning;
+    EXPECT_NE(next.failure().find(found), std::string::npos) << next.failure();
+  }
+}
+
 TEST(MessageReader, NeverCrashesOnDamage) {
   std::mt19937 random(random_seed());
   int refused = 0;
