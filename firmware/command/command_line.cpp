@@ -3,8 +3,10 @@
 #include <string>
 #include <vector>
 
+#include "firmware/base/build_info.hpp"
 #include "firmware/check/check_command.hpp"
 #include "firmware/check/config_check.hpp"
+#include "firmware/check/self_check.hpp"
 #include "firmware/command/program.hpp"
 #include "firmware/command/sibling_program.hpp"
 #include "firmware/command/stop_signal.hpp"
@@ -33,6 +35,7 @@ struct Options {
   StationCommand station;
   CheckOptions check;
   ConfigCheckOptions config_check;
+  SelfCheckOptions self_check;
   RecordOptions record;
   SupportOptions support;
   BackupOptions backup;
@@ -68,6 +71,7 @@ int run_command(const Program& program, const Options& options, std::ostream& ou
     return run_station(options.station, open_recorded_captures, stop_on_signals(), out, error);
   }
   if (command == "check") return run_check(options.check, out);
+  if (command == "self-check") return run_self_check(options.self_check, out);
   if (command == "config check") return run_config_check(options.config_check, out);
   if (command == "calibrate") {
     return run_sibling_program("traygauge-calibrate", program.remaining());
@@ -98,7 +102,7 @@ int run_command(const Program& program, const Options& options, std::ostream& ou
 int run_command_line(int argument_count, const char* const* arguments, std::ostream& out,
                      std::ostream& error) {
   Program program("Traygauge measures the volume of the food on a tray from two pictures.", "traygauge");
-  program.add_version(TRAYGAUGE_VERSION);
+  program.add_version(describe_build("traygauge"));
   Options options;
   add_measure_command(program, options.measure);
   add_evaluate_command(program, options.evaluate);
@@ -108,6 +112,7 @@ int run_command_line(int argument_count, const char* const* arguments, std::ostr
   add_station_command(program, options.station);
   add_check_command(program, options.check);
   add_config_command(program, options.config_check);
+  add_self_check_command(program, options.self_check);
   add_record_command(program, options.record);
   add_support_command(program, options.support);
   add_backup_command(program, options.backup);

@@ -5,6 +5,7 @@
 #include <exception>
 #include <new>
 #include <ostream>
+#include <string_view>
 
 #include "firmware/base/exit_status.hpp"
 #include "firmware/command/similar_word.hpp"
@@ -14,6 +15,43 @@ namespace traygauge {
 namespace {
 
 constexpr const char* kNotWritten = "the result could not be written to standard output";
+constexpr const char* kDescribe = "--describe";
+
+// A line for each option: its command's words, its names, what it takes, whether it has to be given, its
+// default, its variable, its sentence; tabs between.
+void describe_options(const CLI::App& app, const std::string& words, std::ostream& out) {
+  for (const CLI::Option* const option : app.get_options({})) {
+    const bool is_argument = option->get_positional();
+    const bool is_flag = option->get_items_expected_max() == 0;
+    out << "option\t" << words << '\t';
+    if (is_argument) {
+      out << option->get_single_name();
+    } else {
+      const char* separator = "";
+      for (const std::string& name : option->get_snames()) {
+        out << separator << '-' << name;
+        separator = ",";
+      }
+      for (const std::string& name : option->get_lnames()) {
+        out << separator << "--" << name;
+        separator = ",";
+      }
+    }
+    out << '\t'
+        << (is_argument ? "argument"
+            : is_flag   ? "flag"
+                        : "value")
+        << '\t' << (option->get_required() ? "required" : "optional") << '\t' << option->get_default_str()
+        << '\t' << option->get_envname() << '\t' << option->get_description() << '\n';
+  }
+}
+
+void describe_commands(const CLI::App& app, const std::string& words, std::ostream& out) {
+  out << "command\t" << words << '\t' << app.get_description() << '\n';
+  describe_options(app, words, out);
+  for (const CLI::App* const command : app.get_subcommands([](const CLI::App*) { return true; }))
+    describe_commands(*command, words + (words.empty() ? "" : " ") + command->get_name(), out);
+}
 
 }  // namespace
 
@@ -132,6 +170,11 @@ int Program::run(int argument_count, const char* const* arguments, const std::fu
     return kExitWrongUse;
   };
   try {
+    if (argument_count == 2 && std::string_view(arguments[1]) == kDescribe) {
+      describe_commands(*app_, "", out);
+      out.flush();
+      return out ? kExitMeasured : fail(kNotWritten);
+    }
     app_->parse(argument_count, arguments);
     const int status = action();
     out.flush();

@@ -79,6 +79,8 @@ class Program {
   Command whole();
   void take_options_after_commands();
 
+  // `--describe` alone, which no help tells, prints commands and options for firmware/manual, which makes the
+  // manual page and the shell's completion of them. Else:
   // Parses the arguments, calls `action` and returns the exit status, which is the action's. Exceptions of
   // either, and output that could not be written, become a line that begins with the name, and status 2.
   int run(int argument_count, const char* const* arguments, const std::function<int()>& action,

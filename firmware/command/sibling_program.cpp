@@ -11,17 +11,14 @@
 #include "firmware/base/exit_status.hpp"
 
 namespace traygauge {
-namespace {
 
-std::string find_sibling(const std::string& name) {
+std::string sibling_path(const std::string& name) {
   std::error_code ignored;
   return (std::filesystem::read_symlink("/proc/self/exe", ignored).parent_path() / name).string();
 }
 
-}  // namespace
-
 int run_sibling_program(const std::string& name, const std::vector<std::string>& arguments) {
-  const std::string program = find_sibling(name);
+  const std::string program = sibling_path(name);
   std::vector<std::string> texts = {program};
   texts.insert(texts.end(), arguments.begin(), arguments.end());
   std::vector<char*> pointers;
@@ -41,7 +38,7 @@ int run_sibling_program(const std::string& name, const std::vector<std::string>&
 }
 
 void become_sibling_program(const std::string& name, char* const* arguments) {
-  execv(find_sibling(name).c_str(), arguments);
+  execv(sibling_path(name).c_str(), arguments);
 }
 
 }  // namespace traygauge

@@ -6,6 +6,9 @@
 
 namespace traygauge {
 
+// Where it lies, if it is there.
+std::string sibling_path(const std::string& name);
+
 // Runs it with these arguments, on this program's streams, and returns its exit status. Throws UsageError
 // when it is not there.
 int run_sibling_program(const std::string& name, const std::vector<std::string>& arguments);

@@ -30,14 +30,14 @@ Expected<std::uint64_t> largest_number(Journal& journal, std::string_view statio
 
 Expected<KeptResults> KeptResults::open(FileSystem& file_system, const Params& params) {
   JournalOptions options;
-  options.path = params.folder / "waiting";
+  options.path = journal_file(params.folder);
   options.file_bytes = params.journal_bytes;
   Expected<std::unique_ptr<Journal>> journal = Journal::open(file_system, options);
   if (!journal.ok()) return Failure{journal.failure()};
   const Expected<std::uint64_t> largest = largest_number(**journal, params.station);
   if (!largest.ok()) return Failure{largest.failure()};
   Expected<std::unique_ptr<ScanCounter>> counter =
-      ScanCounter::open(file_system, params.folder / "last_scan", *largest);
+      ScanCounter::open(file_system, counter_file(params.folder), *largest);
   if (!counter.ok()) return Failure{counter.failure()};
   KeptResults kept(params.station, std::move(*journal), std::move(*counter));
   if (!kept.counter_->notice().empty()) kept.notices_.push_back(kept.counter_->notice());

@@ -30,6 +30,13 @@ class KeptResults {
     std::string station;
     std::uint64_t journal_bytes = JournalOptions().file_bytes;
   };
+  // Its two files in that folder.
+  static std::filesystem::path journal_file(const std::filesystem::path& folder) {
+    return folder / "waiting";
+  }
+  static std::filesystem::path counter_file(const std::filesystem::path& folder) {
+    return folder / "last_scan";
+  }
   static Expected<KeptResults> open(FileSystem& file_system, const Params& params);
 
   Expected<ScanId> next_id();

@@ -1,8 +1,13 @@
 #include "firmware/hub/hub_command.hpp"
 
+#include <unistd.h>
+
+#include <cerrno>
 #include <chrono>
+#include <cstdint>
 #include <filesystem>
 #include <ostream>
+#include <string>
 #include <utility>
 
 #include "firmware/base/exit_status.hpp"
@@ -11,6 +16,7 @@
 #include "firmware/config/hub_tables.hpp"
 #include "firmware/hub/hub.hpp"
 #include "firmware/hub/page_files.hpp"
+#include "firmware/store/schema.hpp"
 
 namespace traygauge {
 namespace {
@@ -55,6 +61,15 @@ HubParams params_of(const HubFile& file) {
   return params;
 }
 
+// Who may not look at the store is not told of it: the file of a station is checked by others, too.
+std::string describe_store(const std::filesystem::path& file) {
+  if (::access(file.c_str(), R_OK) != 0)
+    return errno == ENOENT ? ", which does not exist yet" : ", which this user may not look at";
+  const Expected<std::int64_t> version = peek_store_version(file);
+  if (!version.ok()) throw UsageError(version.failure());
+  return *version == 0 ? ", which is empty yet" : ", a store of version " + std::to_string(*version);
+}
+
 }  // namespace
 
 void add_hub_options(Program& program, HubCommand& command) {
@@ -67,7 +82,7 @@ void add_hub_options(Program& program, HubCommand& command) {
   hub.add_option("--last-good", command.last_good,
                  "Where a copy of the station file is kept, which counts where a later one is bad "
                  "(on_bad_config in the file)");
-  hub.add_flag("--check", command.only_check, "Only say whether the configuration is as expected");
+  hub.add_flag("--check", command.only_check, "Only say whether configuration and store are as expected");
 }
 
 int run_hub(const HubCommand& command, const std::atomic<bool>& stop, std::ostream& out, std::ostream& log) {
@@ -75,8 +90,8 @@ int run_hub(const HubCommand& command, const std::atomic<bool>& stop, std::ostre
   const HubFile& file = chosen.config;
   if (!chosen.problem.empty()) log << chosen.problem << std::endl;
   if (command.only_check) {
-    out << command.config << ": as expected for a hub; results go to " << file.hub.store.string() << "."
-        << std::endl;
+    const std::string store = file.hub.store.string() + describe_store(file.hub.store);
+    out << command.config << ": as expected for a hub; results go to " << store << "." << std::endl;
     return kExitMeasured;
   }
   const auto write = [&log](const std::string& sentence) { log << sentence << std::endl; };

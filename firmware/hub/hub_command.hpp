@@ -15,7 +15,7 @@ struct HubCommand {
   std::string socket;
   std::string store;
   std::string last_good;    // where the last good station file is kept; empty: nowhere
-  bool only_check = false;  // says whether the configuration is as expected, and ends
+  bool only_check = false;  // says whether configuration and store are as expected
   std::vector<std::string> listen;
 };
 

@@ -20,7 +20,7 @@ constexpr const char* kThreeModule = "three/three.module.js";
 std::optional<fs::path> find_page_folder() {
   std::error_code ignored;
   const fs::path program = fs::read_symlink("/proc/self/exe", ignored).parent_path();
-  for (const char* place : {"page", "../firmware/page", "../share/traygauge/page"}) {
+  for (const char* place : {"page", "../firmware/page", "../../../share/traygauge/page"}) {
     fs::path folder = (program / place).lexically_normal();
     if (fs::is_regular_file(folder / "index.html", ignored)) return folder;
   }

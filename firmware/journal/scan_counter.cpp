@@ -53,10 +53,7 @@ Slot encode_slot(const Reservation& content) {
 void read_slot(File& file, std::uint64_t index, FoundSlots& found) {
   Slot slot{};
   const auto read = file.read_at(index * kSlotBytes, slot);
-  if (load_little_endian<std::uint64_t>(slot, 0) == kMagic &&
-      load_little_endian<std::uint32_t>(slot, kVersionOffset) > kCounterVersion) {
-    found.is_newer_version = true;
-  }
+  if (ScanCounter::is_newer(slot)) found.is_newer_version = true;
   const Reservation content{load_little_endian<std::uint64_t>(slot, kGenerationOffset),
                             load_little_endian<std::uint64_t>(slot, kReservedOffset)};
   const bool intact =
@@ -81,6 +78,11 @@ std::uint64_t plus(std::uint64_t number, std::uint64_t more) {
 }
 
 }  // namespace
+
+bool ScanCounter::is_newer(std::span<const std::byte> slot) {
+  return load_little_endian<std::uint64_t>(slot, 0) == kMagic &&
+         load_little_endian<std::uint32_t>(slot, kVersionOffset) > kCounterVersion;
+}
 
 Expected<std::unique_ptr<ScanCounter>> ScanCounter::open(FileSystem& file_system, const std::string& path,
                                                          std::uint64_t largest_known) {

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <string>
 #include <system_error>
 #include <utility>
@@ -37,6 +38,9 @@ class ScanCounter {
 
   // What opening met, for people; empty where all was well.
   const std::string& notice() const { return notice_; }
+
+  // Whether a newer program wrote this block of such a file; it may be damaged. At least 16 bytes.
+  static bool is_newer(std::span<const std::byte> block);
 
   // What a block of the file says.
   struct Reservation {

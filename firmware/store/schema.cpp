@@ -2,10 +2,16 @@
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
 #include <memory>
 #include <set>
 #include <string>
+#include <string_view>
 
 namespace traygauge {
 namespace {
@@ -98,6 +104,30 @@ CREATE INDEX deliveries_of_corrections ON deliveries (seq) WHERE correction > 0;
 
 constexpr auto kSteps = std::to_array<const char*>({kVersion1, kVersion2});
 
+// Where SQLite's file format has them.
+constexpr std::string_view kSqliteMagic = "SQLite format 3";
+constexpr std::size_t kSqliteHeaderBytes = 100;
+constexpr std::size_t kUserVersionAt = 60;
+constexpr std::size_t kApplicationIdAt = 68;
+
+std::int64_t big_endian_at(std::span<const char> bytes, std::size_t at) {
+  std::uint32_t value = 0;
+  for (const char byte : bytes.subspan(at, sizeof value))
+    value = value << 8 | static_cast<unsigned char>(byte);
+  return static_cast<std::int32_t>(value);
+}
+
+Failure of_another_program(const std::filesystem::path& file) {
+  return {file.string() + ": this is a database of another program. Name another file for the hub's store."};
+}
+
+Failure of_another_version(const std::filesystem::path& file, std::int64_t version,
+                           std::span<const char* const> steps) {
+  return {file.string() + ": the store has version " + std::to_string(version) +
+          ", this program knows versions up to " + std::to_string(steps.size()) +
+          ". Install the newer program again, or name another file for the hub's store."};
+}
+
 constexpr const char* kReadingTables = "the store's tables cannot be read";
 
 Expected<void> run_step(Database& database, const char* step, std::int64_t version) {
@@ -127,6 +157,25 @@ std::span<const char* const> schema_steps() {
   return kSteps;
 }
 
+Expected<std::int64_t> peek_store_version(const std::filesystem::path& file,
+                                          std::span<const char* const> steps) {
+  std::array<char, kSqliteHeaderBytes> header{};
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream) {
+    if (errno == ENOENT) return std::int64_t{0};
+    return Failure{file.string() + ": the store cannot be opened: " + std::strerror(errno)};
+  }
+  stream.read(header.data(), header.size());
+  if (stream.gcount() == 0) return std::int64_t{0};
+  if (stream.gcount() < static_cast<std::streamsize>(header.size()) ||
+      std::string_view(header.data(), kSqliteMagic.size()) != kSqliteMagic)
+    return of_another_program(file);
+  const std::int64_t version = big_endian_at(header, kUserVersionAt);
+  if (big_endian_at(header, kApplicationIdAt) != kStoreApplicationId) return of_another_program(file);
+  if (version >= 0 && version <= static_cast<std::int64_t>(steps.size())) return version;
+  return of_another_version(file, version, steps);
+}
+
 Expected<void> check_schema(Database& database, std::span<const char* const> steps) {
   // The marks are read first: they need not understand tables that a newer program made.
   const auto application = database.integer(kReadingTables, "PRAGMA application_id");
@@ -137,13 +186,10 @@ Expected<void> check_schema(Database& database, std::span<const char* const> ste
     const auto tables = database.integer(kReadingTables, "SELECT count(*) FROM sqlite_schema");
     if (!tables.ok()) return Failure{tables.failure()};
     if (*application == 0 && *version == 0 && *tables == 0) return {};
-    return Failure{database.file().string() +
-                   ": this is a database of another program. Name another file for the hub's store."};
+    return of_another_program(database.file());
   }
   if (*version >= 0 && *version <= static_cast<std::int64_t>(steps.size())) return {};
-  return Failure{database.file().string() + ": the store has version " + std::to_string(*version) +
-                 ", this program knows versions up to " + std::to_string(steps.size()) +
-                 ". Install the newer program again, or name another file for the hub's store."};
+  return of_another_version(database.file(), *version, steps);
 }
 
 Expected<void> check_tables(Database& database, std::span<const char* const> steps) {

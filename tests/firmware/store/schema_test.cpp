@@ -131,6 +131,45 @@ TEST_F(SchemaTest, ANewerStoreIsRefusedAndLeft) {
   EXPECT_NE(open_or_fail(options_), nullptr);
 }
 
+TEST_F(SchemaTest, AFileTellsItsVersionWithoutSqlite) {
+  for (std::size_t version = 1; version <= schema_steps().size(); ++version) {
+    const fs::path file = folder_.path() / ("version_" + std::to_string(version) + ".db");
+    restore(frozen(version), file);
+    const Expected<std::int64_t> told = peek_store_version(file);
+    ASSERT_TRUE(told.ok()) << told.failure();
+    EXPECT_EQ(*told, static_cast<std::int64_t>(version));
+  }
+  const std::unique_ptr<Store> store = open_or_fail(options_);
+  const Expected<std::int64_t> told = peek_store_version(options_.file);
+  ASSERT_TRUE(told.ok()) << "while it is in use: " << told.failure();
+  EXPECT_EQ(*told, static_cast<std::int64_t>(schema_steps().size()));
+}
+
+TEST_F(SchemaTest, AFileTellsThatItIsNewerOrNoStore) {
+  EXPECT_EQ(*peek_store_version(options_.file), 0) << "there is none";
+  std::ofstream{options_.file};
+  EXPECT_EQ(*peek_store_version(options_.file), 0) << "it is empty";
+  std::ofstream(options_.file) << std::string(5000, 'x');
+  EXPECT_NE(peek_store_version(options_.file).failure().find("a database of another program"),
+            std::string::npos);
+  fs::remove(options_.file);
+  restore(frozen(1), options_.file);
+  const auto run = [&](const char* sql) {
+    sqlite3* handle = nullptr;
+    EXPECT_EQ(sqlite3_open(options_.file.c_str(), &handle), SQLITE_OK);
+    EXPECT_EQ(sqlite3_exec(handle, sql, nullptr, nullptr, nullptr), SQLITE_OK);
+    sqlite3_close(handle);
+  };
+  run("PRAGMA user_version = 1000");
+  // As the hub that opens it says it.
+  const Expected<OpenedStore> opened = open_store(options_, at(kMorningMs));
+  ASSERT_FALSE(opened.ok());
+  EXPECT_EQ(peek_store_version(options_.file).failure(), opened.failure());
+  run("PRAGMA user_version = 1; PRAGMA application_id = 7");
+  EXPECT_NE(peek_store_version(options_.file).failure().find("a database of another program"),
+            std::string::npos);
+}
+
 // Steps of a later program, of which one does not work.
 TEST_F(SchemaTest, EachStepIsDoneWholeOrNotAtAll) {
   std::vector<const char*> steps(schema_steps().begin(), schema_steps().end());
