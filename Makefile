@@ -5,6 +5,8 @@
 # make arm-test: cross-builds for 64-bit ARM, runs tests and compares volumes under user-mode emulation.
 # make test-debian13: builds and tests in a Debian 13, whatever this machine is.
 # make soak: the long runs of station and hub: power cuts, kills, fuzzing, trays in a row; two to three hours. Sizes: SOAK_….
+# make package: Debian packages for this machine's release, in build-package; BOARD=arm64 cross-builds them.
+# make package-debian13: the same in a Debian 13. make package-test: packages of both releases, each tried in a fresh system.
 # make lint | format | sanitize: further checks; lint takes a quarter of an hour. CI=true adds to `make test` clang-tidy on what
 # the last commit changed, the sanitizers, ARM, and the drivers on a real kernel.
 
@@ -26,7 +28,7 @@ say = @echo "== $$(date +%T) $(1)"
 sources = git ls-files '*.cpp' '*.hpp'
 ctest = ctest --output-on-failure --no-tests=error -j $(JOBS) -LE '^bench$$'
 
-.PHONY: configure build build-all demo verify-demo test test-programs golden bench board-test board-packages board-guest arm-sysroot board-programs board-drivers board-gpiod-2 board-station board-systemd board-power-cuts arm-test test-debian13 lint lint-changed format check-format check-captures sanitize asan-ubsan tsan soak soak-cuts soak-kills fuzz soak-trays packages page-packages clean
+.PHONY: configure build build-all demo verify-demo test test-programs golden bench board-test board-packages board-guest arm-sysroot board-programs board-drivers board-gpiod-2 board-station board-systemd board-power-cuts arm-test test-debian13 lint lint-changed format check-format check-captures sanitize asan-ubsan tsan soak soak-cuts soak-kills fuzz soak-trays packages page-packages package package-debian13 package-test clean
 
 configure: packages
 	cmake --preset release $(options)
@@ -163,6 +165,30 @@ arm-test: build arm-sysroot
 	  env TRAYGAUGE_CAPTURES= sh -c '$(in_arm) "$$(find build-aarch64/tests -type f -name TEST)" --gtest_brief=1 --gtest_filter=-CardAlignment*'
 	RUN_B='$(in_arm)' LIMIT_ML=0.01 tests/captures/compare_builds.sh build build-aarch64 simulator/demo/*_and_*
 
+# The packages stay in build-package/ARCHITECTURE/packages. A commit's packages are the same whenever they are made.
+SOURCE_DATE_EPOCH ?= $(shell git log -1 --format=%ct 2>/dev/null || echo 0)
+package_build = build-package/$(BOARD)
+package_preset = $(if $(filter arm64,$(BOARD)),package-arm64,package)
+package_targets = traygauge traygauge-simulate traygauge-manual
+package: export SOURCE_DATE_EPOCH := $(SOURCE_DATE_EPOCH)
+package: packages $(if $(filter arm64,$(BOARD)),arm-sysroot)
+	cmake --preset $(package_preset) $(options)
+	cmake --build $(package_build) -j $(JOBS) --target $(package_targets)
+	$(if $(filter arm64,$(BOARD)),cmake/find_depends.py $(package_build))
+	rm -rf $(package_build)/packages
+	cd $(package_build) && umask 022 && cpack
+
+# Its root is that of test-debian13.
+package-debian13: packages
+	config/install_packages.sh tests/debian13/packages.txt
+	OPTIONS='$(OPTIONS)' COMMIT="$$(git describe --always --exclude='*' --abbrev=12 --dirty=+changes)" \
+	  SOURCE_DATE_EPOCH=$(SOURCE_DATE_EPOCH) tests/package/package_debian13.sh build-debian13 build-package/debian13
+
+package-test: package package-debian13
+	config/install_packages.sh tests/package/packages.txt
+	tests/package/test_packages.sh build-package/roots bookworm build-package/amd64/packages
+	tests/package/test_packages.sh build-package/roots trixie build-package/debian13
+
 # Each part is a target of its own; a failure ends it. Fuzzing builds with clang, sanitizers on, and goes on from the corpora
 # of the last run in build-fuzz/fuzz.
 SOAK_CRASH_POINTS ?= 100000
@@ -251,4 +277,4 @@ tsan: packages
 	printf '%s\n' $(TSAN_TESTS) | xargs -P $(JOBS) -I TEST sh -c '"$$(find build-tsan -type f -name TEST)" --gtest_brief=1'
 
 clean:
-	rm -rf build build-debug build-lint build-asan-ubsan build-tsan build-aarch64 build-gpiod-2 build-board build-debian13 build-fuzz
+	rm -rf build build-debug build-lint build-asan-ubsan build-tsan build-aarch64 build-gpiod-2 build-board build-debian13 build-fuzz build-package

@@ -1,7 +1,7 @@
 #!/bin/sh
 # A hub and a station on simulated devices: prints the page's address, and each tray's volumes as they come.
-# Usage: run_demo.sh BUILD_FOLDER. DEMO_SCANS=2 ends after two trays, else Ctrl-C does; DEMO_LISTEN=127.0.0.1:9000 is another
-# address for the page. Results are stored in a folder that is removed at the end.
+# Usage: run_demo.sh BUILD_FOLDER; the package's traygauge-demo calls it. DEMO_SCANS=2 ends after two trays, else Ctrl-C does;
+# DEMO_LISTEN=127.0.0.1:9000 is another address for the page. Results are stored in a folder that is removed at the end.
 set -eu
 program=$1/traygauge
 folder=$(mktemp -d)

@@ -18,7 +18,7 @@ bool is_folder(const fs::path& path) {
 fs::path find_beside_program(const char* part, const char* expected) {
   std::error_code ignored;
   const fs::path program = fs::read_symlink("/proc/self/exe", ignored).parent_path();
-  for (const char* place : {"config", "../config", "../share/traygauge/config"}) {
+  for (const char* place : {"config", "../config", "../../../share/traygauge/config"}) {
     fs::path folder = (program / place).lexically_normal();
     if (is_folder(folder / part)) return folder;
   }

@@ -2,7 +2,10 @@
 # stay as they are. BOARD_NO_MODULES=1 leaves modules-load.conf out.
 . ./environment
 set -e
-mv traygauge traygauge-station traygauge-hub /usr/bin
+mkdir -p /usr/libexec/traygauge/programs
+mv traygauge traygauge-station traygauge-hub /usr/libexec/traygauge/programs
+ln -s programs /usr/libexec/traygauge/active
+ln -s ../libexec/traygauge/programs/traygauge /usr/bin/traygauge
 mkdir -p /usr/lib/modules-load.d
 cp systemd/*.service /usr/lib/systemd/system
 cp systemd/sysusers.conf /usr/lib/sysusers.d/traygauge.conf

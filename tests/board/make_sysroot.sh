@@ -5,7 +5,7 @@ set -euo pipefail
 
 folder=$1
 # The libraries of config/packages.txt; the compiler and the tools are this machine's.
-wanted=$(sed 's/#.*//' "$(dirname "$0")/../../config/packages.txt" | grep -E '^lib.*-dev$|-dev$')
+wanted=$(sed 's/#.*//' "$(dirname "$0")/../../config/packages.txt" | grep -e '-dev$' | grep -vx dpkg-dev)
 [ "$(cat "$folder/done" 2>/dev/null || true)" = "$wanted" ] && exit 0
 rm -rf "$folder"
 mkdir -p "$folder/usr/lib" "$folder/usr/bin" "$folder/usr/sbin"

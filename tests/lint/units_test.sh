@@ -13,7 +13,7 @@ work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 status=0
 check() { # NAME MOST_TENTHS
-  sed "s#/usr/bin/traygauge#$build/traygauge#" "$units/traygauge-$1.service" >"$work/traygauge-$1.service"
+  sed "s#/usr/libexec/traygauge/active/traygauge#$build/traygauge#" "$units/traygauge-$1.service" >"$work/traygauge-$1.service"
   # A unit that it does not understand is also said on standard error, with status 0.
   systemd-analyze verify --man=no "$work/traygauge-$1.service" >"$work/said" 2>&1 && ! grep "traygauge-$1" "$work/said" || {
     cat "$work/said"
