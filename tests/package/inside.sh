@@ -160,6 +160,10 @@ expect "it says what failed" grep -q 'fails here what the previous one passes: p
 expect "the old programs are in use" in_use previous
 expect "they work" "$active/traygauge" self-check "$station"
 
+expect_not "one that dpkg refuses, after it: the installation fails" install /packages/refused.deb
+expect "the old programs are in use" in_use previous
+expect "they work" "$active/traygauge" self-check "$station"
+
 begin "a power cut between unpacking and configuring"
 expect "good again" install /packages/good.deb
 expect "unpacked" dpkg --unpack /packages/no_hub.deb

@@ -11,7 +11,7 @@ expect() { # PATTERN FILE
 for program in traygauge traygauge-simulate; do
   "$1/$program" --version >"$folder/said"
   expect "$program $version" "$folder/said"
-  expect 'build: Release, .* [0-9.]*, .*, with\(out\)\? profile paper' "$folder/said"
+  expect 'build: [A-Z][A-Za-z]*, .* [0-9.]*, .*, with\(out\)\? profile paper' "$folder/said"
   expect 'built with: Eigen 3[0-9.]*, OpenCV 4[0-9.]*, SQLite 3[0-9.]*, .*' "$folder/said"
   expect 'commit: \([0-9a-f]*\(+changes\)\?\|not known, .*\)' "$folder/said"
 done
