@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
 """Writes the dependencies of cross-built packages, which dpkg-shlibdeps cannot find: find_depends.py BUILD_FOLDER
 
-BUILD_FOLDER/depends.cmake is read by CPack. The packages that hold a library are called alike for every architecture, so the
-libraries that the programs load are looked up in this machine's packages, which have to be of the same release. Where
-dpkg-shlibdeps finds the least version that has all symbols that are used, this asks for what the package says of the library,
-or for the version that this release has.
+BUILD_FOLDER/depends.cmake is read by CPack. The packages that hold a library are called alike for every architecture and have
+the same symbols, so the libraries that the programs load are looked up in this machine's packages, which have to be of the same
+release: as dpkg-shlibdeps does, by the least version that has all symbols that are used, or by what the package says.
 """
+import functools
 import pathlib
 import re
 import subprocess
@@ -27,37 +27,72 @@ def loaded_libraries(program):
     return re.findall(r"\(NEEDED\).*\[(.*)\]", run("readelf", "--dynamic", "--wide", str(program)))
 
 
-def package_of(soname):
+def used_symbols(program):
+    """name@VERSION, or name@Base where it has none, as packages write them."""
+    found = re.findall(r" UND (\S+)", run("readelf", "--dyn-syms", "--wide", str(program)))
+    return {name.replace("@@", "@") if "@" in name else name + "@Base" for name in found}
+
+
+def package_of(soname, multiarch):
     if soname.startswith("ld-linux-"):
         return "libc6"
-    found = subprocess.run(["dpkg-query", "--search", f"*/{soname}"], capture_output=True, text=True)
-    packages = sorted({line.split(":")[0] for line in found.stdout.splitlines() if line.endswith("/" + soname)})
-    if not packages:
-        raise SystemExit(f"find_depends.py: no installed package has {soname}; make installs what is missing")
-    return packages[0]
+    for place in (f"*/{multiarch}/{soname}", f"*/{soname}"):
+        found = subprocess.run(["dpkg-query", "--search", place], capture_output=True, text=True)
+        packages = sorted({line.split(":")[0] for line in found.stdout.splitlines()})
+        if packages:
+            return packages[0]
+    raise SystemExit(f"find_depends.py: no installed package has {soname}; make installs what is missing")
 
 
-def dependency_on(soname):
-    package = package_of(soname)
-    architecture = run("dpkg", "--print-architecture").strip()
+def is_newer(first, second):
+    return subprocess.run(["dpkg", "--compare-versions", first, "gt", second]).returncode == 0
+
+
+def least_version(symbols_file, soname, used):
+    """Of the package, so that the library has all symbols that are used; None where the file does not tell."""
+    section, versions = False, set()
+    for line in symbols_file.read_text().splitlines():
+        if not line.startswith((" ", "|", "*")):
+            section = line.split(" ")[0] == soname
+        elif section and line.startswith(" "):
+            symbol, version = line.split()[:2]
+            if symbol in used:
+                versions.add(version)
+    return functools.reduce(lambda a, b: a if is_newer(a, b) else b, versions) if versions else None
+
+
+def dependency_on(soname, used, architecture, multiarch):
+    package = package_of(soname, multiarch)
+    info = f"/var/lib/dpkg/info/{package}:{architecture}"
+    if (symbols := pathlib.Path(info + ".symbols")).exists():
+        if version := least_version(symbols, soname, used):
+            return package, version
     name, _, version = soname.partition(".so.")
-    shlibs = pathlib.Path(f"/var/lib/dpkg/info/{package}:{architecture}.shlibs")
-    if shlibs.exists():
+    if (shlibs := pathlib.Path(info + ".shlibs")).exists():
         for line in shlibs.read_text().splitlines():
             fields = line.split(None, 2)
-            if len(fields) == 3 and [name, version] == fields[:2]:
-                return fields[2]
-    released = run("dpkg-query", "--show", "--showformat=${Version}", package)
-    return f"{package} (>= {re.sub(r'[-+][^-+]*$', '', released.split('+')[0])})"
+            if fields[:2] == [name, version]:
+                asked = re.fullmatch(r"(\S+)(?: \(>= (.*)\))?", fields[2])
+                if asked:
+                    return asked.group(1), asked.group(2) or ""
+    return package, ""
 
 
 def main():
     build = pathlib.Path(sys.argv[1])
     version = re.search(r'CPACK_DEBIAN_PACKAGE_VERSION "(.*)"', (build / "CPackConfig.cmake").read_text()).group(1)
+    architecture = run("dpkg", "--print-architecture").strip()
+    multiarch = run("dpkg-architecture", "--query", "DEB_HOST_MULTIARCH").strip()
     lines = []
     for component, programs in PROGRAMS.items():
-        sonames = {soname for program in programs for soname in loaded_libraries(build / program)}
-        depends = sorted({dependency_on(soname) for soname in sonames})
+        least = {}
+        for program in programs:
+            used = used_symbols(build / program)
+            for soname in loaded_libraries(build / program):
+                package, asked = dependency_on(soname, used, architecture, multiarch)
+                if package not in least or (asked and is_newer(asked, least[package])):
+                    least[package] = asked
+        depends = [f"{name} (>= {asked})" if asked else name for name, asked in sorted(least.items())]
         depends += [text.format(version=version) for text in FURTHER[component]]
         lines.append(f'set(CPACK_DEBIAN_{component}_PACKAGE_DEPENDS "{", ".join(depends)}")')
     (build / "depends.cmake").write_text("\n".join(lines) + "\n")
