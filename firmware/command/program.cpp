@@ -211,6 +211,7 @@ std::string Program::name_unknown_command(int argument_count, const char* const*
   }
   if (commands.empty() || at == argument_count || arguments[at][0] == '-') return {};
   std::vector<std::string> names;
+  names.reserve(commands.size());
   for (const CLI::App* const command : commands) names.push_back(command->get_name());
   const std::string word = arguments[at];
   if (const std::string meant = find_similar(word, names); !meant.empty())
