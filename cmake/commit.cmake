@@ -1,4 +1,4 @@
-# Writes OUTPUT, a header with the commit that ROOT is at: cmake -DROOT=… -DOUTPUT=… [-DCOMMIT=…] -P commit.cmake
+# Writes OUTPUT, a source with the commit that ROOT is at (firmware/built_commit.hpp): cmake -DROOT=… -DOUTPUT=… [-DCOMMIT=…] -P commit.cmake
 # COMMIT counts where git does not know: a source archive, or a checkout whose history is elsewhere. The file is touched only
 # where it changes.
 if(NOT COMMIT AND EXISTS ${ROOT}/.git)
@@ -13,12 +13,11 @@ if(NOT COMMIT MATCHES "^[0-9a-f]+([+]changes)?$")
   set(COMMIT "")
 endif()
 file(CONFIGURE OUTPUT ${OUTPUT} @ONLY CONTENT [[
-// The commit that this was built from; empty: not known. Written by cmake/commit.cmake.
-#pragma once
+#include "firmware/built_commit.hpp"
 
 namespace traygauge {
 
-inline constexpr const char* kCommit = "@COMMIT@";
+const char* const kCommit = "@COMMIT@";
 
 }  // namespace traygauge
 ]])
