@@ -43,6 +43,9 @@ in_use() { [ "$(readlink "$active")" = "$1" ]; }
 # By the line of its unit that systemd would start.
 start_hub() {
   line=$(sed -n '/^ExecStart=/,/[^\\]$/p' "$units/traygauge-hub.service" | sed 's/^ExecStart=//; s/\\$//' | tr -d '\n')
+  # Not the words of the one before.
+  rm -f /tmp/hub.log
+  touch /tmp/hub.log
   # shellcheck disable=SC2086 # words of a command
   setpriv --reuid=traygauge-hub --regid=traygauge --init-groups $line >/tmp/hub.log 2>&1 &
   hub=$!
