@@ -6,7 +6,7 @@
 #include <tuple>
 #include <utility>
 
-#include "firmware/journal/crc32c.hpp"
+#include "core/base/crc32c.hpp"
 #include "firmware/journal/io_failure.hpp"
 #include "firmware/journal/journal_block.hpp"
 #include "firmware/journal/lock_file.hpp"

@@ -4,8 +4,8 @@
 #include <array>
 #include <cassert>
 
-#include "firmware/journal/crc32c.hpp"
-#include "firmware/journal/little_endian.hpp"
+#include "core/base/crc32c.hpp"
+#include "core/base/little_endian.hpp"
 
 namespace traygauge {
 namespace {

@@ -4,7 +4,7 @@
 #include <array>
 #include <utility>
 
-#include "firmware/journal/crc32c.hpp"
+#include "core/base/crc32c.hpp"
 
 namespace traygauge {
 namespace {

@@ -9,9 +9,9 @@
 #include <tuple>
 #include <utility>
 
-#include "firmware/journal/crc32c.hpp"
+#include "core/base/crc32c.hpp"
 #include "firmware/journal/io_failure.hpp"
-#include "firmware/journal/little_endian.hpp"
+#include "core/base/little_endian.hpp"
 #include "firmware/journal/lock_file.hpp"
 
 namespace traygauge {

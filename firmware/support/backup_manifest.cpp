@@ -5,7 +5,7 @@
 #include <span>
 #include <utility>
 
-#include "firmware/journal/crc32c.hpp"
+#include "core/base/crc32c.hpp"
 #include "simulator/capture/input_error.hpp"
 
 namespace traygauge {

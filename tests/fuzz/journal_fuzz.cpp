@@ -10,9 +10,9 @@
 #include <string_view>
 #include <vector>
 
-#include "firmware/journal/crc32c.hpp"
+#include "core/base/crc32c.hpp"
 #include "firmware/journal/journal.hpp"
-#include "firmware/journal/little_endian.hpp"
+#include "core/base/little_endian.hpp"
 #include "firmware/journal/scan_counter.hpp"
 #include "tests/fuzz/fuzz_target.hpp"
 #include "tests/support/recorded_file_system.hpp"

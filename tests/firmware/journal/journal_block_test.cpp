@@ -6,8 +6,8 @@
 #include <random>
 #include <vector>
 
-#include "firmware/journal/crc32c.hpp"
-#include "firmware/journal/little_endian.hpp"
+#include "core/base/crc32c.hpp"
+#include "core/base/little_endian.hpp"
 #include "tests/support/random_seed.hpp"
 
 namespace traygauge::test {

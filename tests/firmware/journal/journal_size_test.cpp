@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "firmware/journal/journal_creation.hpp"
-#include "firmware/journal/little_endian.hpp"
+#include "core/base/little_endian.hpp"
 #include "tests/firmware/journal/journal_disk.hpp"
 
 namespace traygauge::test {

@@ -5,7 +5,7 @@
 #include <limits>
 #include <tuple>
 
-#include "firmware/journal/little_endian.hpp"
+#include "core/base/little_endian.hpp"
 #include "firmware/journal/posix_file_system.hpp"
 #include "tests/firmware/journal/journal_disk.hpp"
 #include "tests/support/power_cut.hpp"

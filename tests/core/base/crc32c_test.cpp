@@ -1,4 +1,4 @@
-#include "firmware/journal/crc32c.hpp"
+#include "core/base/crc32c.hpp"
 
 #include <gtest/gtest.h>
 
