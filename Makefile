@@ -154,7 +154,7 @@ board-power-cuts: board-guest
 # The cross-build under user-mode emulation: tests of the core without captures, the drivers' tests, and the volumes of the
 # demo beside this machine's. Not the alignment of the card, which takes minutes: the volumes depend on the card's place.
 # On CI those of the core whose results show in the demo's volumes are left out.
-ARM_TESTS = base_test geometry_test image_test features_test tracking_test pixels_test v4l2_test gpio_test serial_test drivers_test \
+ARM_TESTS = base_test geometry_test image_test network_test features_test tracking_test pixels_test v4l2_test gpio_test serial_test drivers_test \
   $(if $(filter true,$(CI)),,card_test adjustment_test dish_test segmentation_test stereo_test paper_sparse_test)
 arm_libraries = /usr/lib/aarch64-linux-gnu
 in_arm = qemu-aarch64-static -L $(arm_sysroot) -E LD_LIBRARY_PATH=$(arm_libraries)/blas:$(arm_libraries)/lapack

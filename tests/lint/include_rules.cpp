@@ -16,7 +16,7 @@ constexpr auto kFolders = std::to_array<std::string_view>({"core", "drivers", "s
 // Folders of core in the order in which the data flows: each knows itself and those before it.
 constexpr auto kCoreOrder = std::to_array<std::string_view>(
     {"image_view", "base", "geometry", "image", "labels", "quality", "features", "card", "dish", "tracking",
-     "adjustment", "stereo", "volume", "segmentation", "pipeline", "enrolment", "paper"});
+     "adjustment", "stereo", "volume", "network", "segmentation", "pipeline", "enrolment", "paper"});
 
 // The part of the standard library that neither allocates nor does input or output.
 constexpr auto kCoreHeaders = std::to_array<std::string_view>(

@@ -1,0 +1,24 @@
+// A camera's frame made a network's picture.
+#pragma once
+
+#include "core/image_view/image_view.hpp"
+
+namespace traygauge {
+
+// Where the frame lies in a network's picture: as large as fits, in the middle; the rest is kFillingGray.
+struct InputPlacement {
+  int left = 0;
+  int top = 0;
+  int width = 0;
+  int height = 0;
+};
+
+inline constexpr std::uint8_t kFillingGray = 128;
+
+InputPlacement place_input(int frame_width, int frame_height, int input_width, int input_height);
+
+// Averages the area that each pixel of `input` covers exactly, rounded, halves upward. `input` has three
+// bytes a pixel: red, green, blue. Grey frames fill all three. Frames have at most 8192 pixels a side.
+InputPlacement fill_input(const FrameView& frame, ImageView<std::uint8_t> input);
+
+}  // namespace traygauge
