@@ -12,7 +12,8 @@ seeds=$(dirname "$0")/seeds
 if [ -d /dev/shm ]; then export TMPDIR=/dev/shm; fi
 # Percent of the runs, and the longest input in bytes: targets that write files or use sockets are slow.
 targets='web_request 18 600
-message 40 600
+message 30 600
+network_file 10 2500
 scan_document 25 1500
 station_file 8 1200
 journal 2 1200
