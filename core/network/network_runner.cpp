@@ -76,4 +76,9 @@ TensorView NetworkRunner::output(NetworkRole role) const {
   return tensor(static_cast<std::size_t>(layer - network_.layers.data()) + 1);
 }
 
+float NetworkRunner::step(NetworkRole role) const {
+  const NetworkLayer* layer = network_.find(role);
+  return layer == nullptr || role == NetworkRole::none ? 0.0F : layer->step;
+}
+
 }  // namespace traygauge

@@ -30,6 +30,8 @@ class NetworkRunner {
   void run();
   // Of the last run, up to the next filling of the input. Empty where the network has no such output.
   TensorView output(NetworkRole role) const;
+  // The real value of one unit of that output; 0 where the network has none.
+  float step(NetworkRole role) const;
 
  private:
   void pack(std::size_t layer);

@@ -14,6 +14,7 @@
 #include "firmware/evaluate/evaluate_command.hpp"
 #include "firmware/measure/measure_command.hpp"
 #include "firmware/memory/memory_command.hpp"
+#include "firmware/network/network_command.hpp"
 #include "firmware/record/record_command.hpp"
 #include "firmware/segment/segment_command.hpp"
 #include "firmware/station/open_captures.hpp"
@@ -31,6 +32,7 @@ struct Options {
   EvaluateOptions evaluate;
   EnrolOptions enrol;
   MemoryOptions memory;
+  NetworkOptions network;
   SegmentOptions segment;
   StationCommand station;
   CheckOptions check;
@@ -67,6 +69,7 @@ int run_command(const Program& program, const Options& options, std::ostream& ou
   if (command == "evaluate") return run_evaluate(options.evaluate, out, error);
   if (command == "enrol-dish") return run_enrol(options.enrol, out);
   if (command == "segment") return run_segment(options.segment, out);
+  if (command == "network") return run_network(options.network, out);
   if (command == "station") {
     return run_station(options.station, open_recorded_captures, stop_on_signals(), out, error);
   }
@@ -109,6 +112,7 @@ int run_command_line(int argument_count, const char* const* arguments, std::ostr
   add_segment_command(program, options.segment);
   add_enrol_command(program, options.enrol);
   add_memory_command(program, options.memory);
+  add_network_command(program, options.network);
   add_station_command(program, options.station);
   add_check_command(program, options.check);
   add_config_command(program, options.config_check);
