@@ -7,6 +7,7 @@
 # make soak: the long runs of station and hub: power cuts, kills, fuzzing, trays in a row; two to three hours. Sizes: SOAK_….
 # make package: Debian packages for this machine's release, in build-package; BOARD=arm64 cross-builds them.
 # make package-debian13: the same in a Debian 13. make package-test: packages of both releases, each tried in a fresh system.
+# make train: renders, trains and writes the network for food (simulator/training/README.md); up to three hours.
 # make lint | format | sanitize: further checks; lint takes a quarter of an hour. CI=true adds to `make test` clang-tidy on what
 # the last commit changed, the sanitizers, ARM, and the drivers on a real kernel.
 
@@ -28,7 +29,7 @@ say = @echo "== $$(date +%T) $(1)"
 sources = git ls-files '*.cpp' '*.hpp'
 ctest = ctest --output-on-failure --no-tests=error -j $(JOBS) -LE '^bench$$'
 
-.PHONY: configure build build-all demo verify-demo test test-programs golden bench board-test board-packages board-guest arm-sysroot board-programs board-drivers board-gpiod-2 board-station board-systemd board-power-cuts arm-test test-debian13 lint lint-changed format check-format check-captures sanitize asan-ubsan tsan soak soak-cuts soak-kills fuzz soak-trays packages page-packages package package-debian13 package-test clean
+.PHONY: configure build build-all demo verify-demo test test-programs golden bench board-test board-packages board-guest arm-sysroot board-programs board-drivers board-gpiod-2 board-station board-systemd board-power-cuts arm-test test-debian13 lint lint-changed format check-format check-captures sanitize asan-ubsan tsan soak soak-cuts soak-kills fuzz soak-trays packages page-packages package package-debian13 package-test train train-packages clean
 
 configure: packages
 	cmake --preset release $(options)
@@ -58,7 +59,7 @@ verify-demo: configure
 	build/traygauge verify report $(VERIFY_OUT)/results.jsonl -o $(VERIFY_OUT)/certificate
 
 # On CI what the board and ARM need is fetched beside the build.
-test-programs: page-packages
+test-programs: page-packages train-packages
 	$(call say,building: some ten minutes on two cores when all is new)
 ifeq ($(CI),true)
 	$(MAKE) -j 3 build-all board-guest arm-sysroot
@@ -235,6 +236,18 @@ page-packages: packages
 	@config/install_packages.sh tests/page/packages.txt
 	@tests/firmware/api/get_promtool.sh build/promtool
 
+# Torch, for the training and for the test that trains a toy.
+train-packages: packages
+	@config/install_packages.sh simulator/training/packages.txt
+
+# Stopped, it goes on where it was. TRAIN_OPTIONS='--photographs FOLDER' also measures on photographs.
+TRAIN_OUT ?= config/network/food.tgn
+train: configure train-packages
+	cmake --build --preset release -j $(JOBS) --target traygauge-simulate
+	mkdir -p build-train $(dir $(TRAIN_OUT))
+	/usr/bin/python3 simulator/training/train.py --work build-train --out $(TRAIN_OUT) --renderer build/traygauge-simulate \
+	  $(TRAIN_OPTIONS)
+
 check-captures:
 ifeq ($(CI),true)
 	@test -d '$(TRAYGAUGE_CAPTURES)' || { echo 'No captures in $(TRAYGAUGE_CAPTURES): their tests would be skipped.' >&2; exit 1; }
@@ -277,4 +290,4 @@ tsan: packages
 	printf '%s\n' $(TSAN_TESTS) | xargs -P $(JOBS) -I TEST sh -c '"$$(find build-tsan -type f -name TEST)" --gtest_brief=1'
 
 clean:
-	rm -rf build build-debug build-lint build-asan-ubsan build-tsan build-aarch64 build-gpiod-2 build-board build-debian13 build-fuzz build-package
+	rm -rf build build-debug build-lint build-asan-ubsan build-tsan build-aarch64 build-gpiod-2 build-board build-debian13 build-fuzz build-package build-train

@@ -1,0 +1,108 @@
+"""Samples turned, scaled, lit and coloured otherwise at each step, by draws of that step alone: a run that is
+stopped and taken up again sees what it would have seen."""
+
+from dataclasses import dataclass
+
+import numpy as np
+import torch
+import torch.nn.functional as F
+
+from fitting import fit_picture
+
+# Ranges in which trays and cameras differ; those of the experiment that carried over to real trays.
+SCALE = (0.75, 1.25)
+SHIFT = 0.15  # of the picture's sides
+GAMMA = (0.7, 1.45)
+CAST = 0.10
+LIGHT = 0.30  # of smooth fields
+SWAPPED = 0.15  # share of pictures
+PATCH_CELLS = 4  # columns and rows of numbers from which a field of light is enlarged
+CELL_PX = 2  # of the picture, of a cell of classes and borders
+
+
+@dataclass
+class Batch:
+    picture: torch.Tensor  # N x 3 x H x W, 0 to 1, of the 256 values that bytes have
+    allowed: torch.Tensor  # N x H/2 x W/2
+    items: torch.Tensor  # N x H/2 x W/2
+    foods: list  # of each picture: label -> what the food is called; a picture in other colours has other foods
+
+
+def draw_geometry(rng, sample, width, height):
+    """Places in the sample, as grid_sample counts them, of the corners of the picture's cells: a function."""
+    rows, columns = sample.allowed.shape
+    angle = rng.uniform(0.0, 2.0 * np.pi)
+    scale = rng.uniform(*SCALE)
+    mirror = -1.0 if rng.random() < 0.5 else 1.0
+    shift = rng.uniform(-SHIFT, SHIFT, 2) * (columns, rows)
+    step = min(columns / width, rows / height) / scale  # pixels of the sample, of one of the picture
+
+    def grid(side_px):
+        u = (np.arange(0, width, side_px) + 0.5 * side_px - 0.5 * width) * step * mirror
+        v = (np.arange(0, height, side_px) + 0.5 * side_px - 0.5 * height) * step
+        x = np.cos(angle) * u[None, :] - np.sin(angle) * v[:, None] + shift[0]
+        y = np.sin(angle) * u[None, :] + np.cos(angle) * v[:, None] + shift[1]
+        return torch.from_numpy(np.stack([2.0 * x / columns, 2.0 * y / rows], 2)).float()[None]
+
+    return grid
+
+
+def sample_at(values, grid, mode):
+    tensor = torch.from_numpy(np.array(values, np.float32))
+    tensor = tensor.permute(2, 0, 1)[None] if tensor.dim() == 3 else tensor[None, None]
+    return F.grid_sample(tensor, grid, mode, padding_mode="reflection", align_corners=False)[0]
+
+
+def light_field(rng, width, height):
+    small = 1.0 + rng.uniform(-LIGHT, LIGHT, (1, 1, PATCH_CELLS, PATCH_CELLS))
+    small = small * (1.0 + rng.uniform(-0.3, 0.3, (1, 3, 1, 1)) * (small - 1.0))
+    field = F.interpolate(torch.from_numpy(small).float(), (height, width), mode="bicubic", align_corners=False)
+    return field[0].clamp_min(0.2)
+
+
+def change_colours(rng, picture):
+    """Returns the picture and whether its channels were exchanged."""
+    picture = picture.clamp(0.0, 1.0) ** rng.uniform(*GAMMA)
+    picture = picture * torch.from_numpy(1.0 + rng.uniform(-CAST, CAST, (3, 1, 1))).float()
+    if rng.random() < 0.6:
+        picture = picture * light_field(rng, picture.shape[2], picture.shape[1])
+    if rng.random() < 0.2:
+        grey = picture.mean(0, keepdim=True)
+        picture = grey + (picture - grey) * rng.uniform(0.3, 0.9)
+    order = rng.permutation(3) if rng.random() < SWAPPED else np.arange(3)
+    picture = picture[torch.from_numpy(order)]
+    if rng.random() < 0.3:
+        picture = F.avg_pool2d(F.pad(picture[None], (1, 1, 1, 1), mode="reflect"), 3, 1)[0]
+    noise = torch.from_numpy(rng.standard_normal(picture.shape)).float()
+    picture = picture + rng.uniform(0.0, 0.03) * noise
+    return torch.floor(picture.clamp(0.0, 1.0) * 255.0 + 0.5) / 255.0, tuple(order)
+
+
+def draw_batch(samples, count, width, height, seed, step):
+    rng = np.random.default_rng([seed, step])
+    pictures, allowed, items, foods = [], [], [], []
+    for index in rng.integers(0, len(samples), count):
+        sample = samples[index]
+        grid = draw_geometry(rng, sample, width, height)
+        picture = sample_at(sample.picture, grid(1), "bilinear") / 255.0
+        picture, order = change_colours(rng, picture)
+        pictures.append(picture)
+        allowed.append(sample_at(sample.allowed, grid(CELL_PX), "nearest")[0].long())
+        items.append(sample_at(sample.items, grid(CELL_PX), "nearest")[0].long())
+        foods.append({label: f"{name} {order}" for label, name in sample.foods.items()})
+    return Batch(torch.stack(pictures), torch.stack(allowed), torch.stack(items), foods)
+
+
+def whole_picture(sample, width, height):
+    """The sample as it is, reduced: a batch of one."""
+    picture = torch.from_numpy(fit_picture(sample.picture, width, height)[0]).permute(2, 0, 1).float() / 255.0
+    rows, columns = sample.allowed.shape
+    y = ((np.arange(height // CELL_PX) + 0.5) * rows / (height // CELL_PX)).astype(int)
+    x = ((np.arange(width // CELL_PX) + 0.5) * columns / (width // CELL_PX)).astype(int)
+    pick = np.ix_(y, x)
+    return Batch(
+        picture[None],
+        torch.from_numpy(sample.allowed[pick].astype(np.int64))[None],
+        torch.from_numpy(sample.items[pick].astype(np.int64))[None],
+        [dict(sample.foods)],
+    )
