@@ -38,6 +38,7 @@ struct RenderOptions {
   int pairs = 0;  // of each scene; 0: all
   bool is_reduced = false;
   std::string config;  // of a plan's dish
+  CaptureExtras extras;
 };
 
 bool is_set(const std::string& name) {
@@ -74,7 +75,7 @@ int render_scenes(std::vector<SceneDescription> scenes, const RenderOptions& opt
   const std::filesystem::path folder = options.out;
   const std::size_t all = scenes.size();
   std::erase_if(scenes, [&](const SceneDescription& scene) {
-    const CaptureState state = state_of_capture(folder / scene.name, scene, settings);
+    const CaptureState state = state_of_capture(folder / scene.name, scene, settings, options.extras);
     if (state == CaptureState::stale)
       error << scene.name << ": made from another description or by another program; rendered again\n";
     if (state == CaptureState::complete) update_description(folder / scene.name, scene);
@@ -88,9 +89,10 @@ int render_scenes(std::vector<SceneDescription> scenes, const RenderOptions& opt
     Progress progress(error, isatty(STDERR_FILENO) == 1, "pictures");
     for (const SceneDescription& scene : scenes) {
       const auto views = static_cast<double>(scene.views.size());
-      render_capture(scene, folder / scene.name, settings, [&](double share) {
+      const auto show = [&](double share) {
         progress.show(done + static_cast<std::size_t>(std::floor(share * views)), pictures);
-      });
+      };
+      render_capture(scene, folder / scene.name, settings, show, options.extras);
       done += scene.views.size();
     }
   }
@@ -125,6 +127,8 @@ void add_render(Program& program, RenderOptions& options) {
   command.add_option("--only", options.only, "the one scene of this name");
   command.add_option("--pairs", options.pairs, "of each scene, the first N; 0: all").range(0, 1000);
   command.add_flag("--reduced", options.is_reduced, "a few scenes of the set, in small pictures");
+  command.add_flag("--kinds", options.extras.has_kinds,
+                   "also write kinds_N.png: glaze, rim, cutlery and more, to train on");
 }
 
 void add_plan(Program& program, RenderOptions& options) {

@@ -3,11 +3,13 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <vector>
 
 #include "simulator/render/material.hpp"
 #include "simulator/render/mesh.hpp"
+#include "simulator/render/truth_kind.hpp"
 
 namespace traygauge {
 
@@ -15,6 +17,9 @@ struct SceneObject {
   TriangleMesh mesh;
   std::shared_ptr<const Material> material;
   std::uint8_t label = 0;  // as in labels_N.png
+  TruthKind kind = TruthKind::table;
+  // Of objects that are not the same everywhere: the kind at a point of the surface, instead of `kind`.
+  std::function<TruthKind(const Eigen::Vector3f& point_mm)> kind_at{};
 };
 
 // A parallelogram that shines to the side of edge_u × edge_v. Not visible to the camera itself, only in

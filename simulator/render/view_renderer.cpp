@@ -35,6 +35,7 @@ struct Canvas {
     view.height = height;
     view.radiance.resize(count);
     view.labels.resize(count);
+    view.kinds.resize(count);
     view.depth_mm.resize(count);
     indirect.resize(count);
     albedo.resize(count);
@@ -57,7 +58,9 @@ void fill_truth(const RayScene& scene, const CameraRays& camera_rays, int y, Can
   for (std::size_t i = 0; i < width; ++i) {
     if (hits[i].object == nullptr) continue;
     const std::size_t at = canvas.map.index(0, y) + i;
-    canvas.view.labels[at] = hits[i].object->label;
+    const SceneObject& object = *hits[i].object;
+    canvas.view.labels[at] = object.label;
+    canvas.view.kinds[at] = object.kind_at ? object.kind_at(hits[i].point_mm) : object.kind;
     canvas.view.depth_mm[at] = hits[i].distance;
     canvas.map.points_mm[at] = hits[i].point_mm;
     canvas.map.normals[at] = hits[i].normal;

@@ -66,6 +66,12 @@ void write_labels(const fs::path& file, const RenderedView& view) {
   write_png(file, {view.labels.data(), view.width, view.height, view.width, PixelFormat::gray8});
 }
 
+void write_kinds(const fs::path& file, const RenderedView& view) {
+  static_assert(sizeof(TruthKind) == 1);
+  const auto* pixels = reinterpret_cast<const std::uint8_t*>(view.kinds.data());
+  write_png(file, {pixels, view.width, view.height, view.width, PixelFormat::gray8});
+}
+
 void write_depth(const fs::path& file, const RenderedView& view) {
   DepthPicture depth{{view.width, view.height}, std::vector<std::uint16_t>(view.depth_mm.size())};
   std::transform(view.depth_mm.begin(), view.depth_mm.end(), depth.pixels.begin(), [](float depth_mm) {
@@ -136,13 +142,14 @@ SensorSettings sensor_of(const SceneDescription& scene, const Photograph& view, 
 }  // namespace
 
 CaptureState state_of_capture(const fs::path& folder, const SceneDescription& scene,
-                              const RenderSettings& settings) {
+                              const RenderSettings& settings, const CaptureExtras& extras) {
   std::error_code ignored;
   const auto has = [&](const std::string& name) { return fs::is_regular_file(folder / name, ignored); };
   if (!has("capture.json") || !has("truth.json") || !has("card.png") || !has("depth_0.png"))
     return CaptureState::absent;
   for (std::size_t i = 0; i < scene.views.size(); ++i) {
     if (!has(numbered("view", i, ".jpg")) || !has(numbered("labels", i, ".png"))) return CaptureState::absent;
+    if (extras.has_kinds && !has(numbered("kinds", i, ".png"))) return CaptureState::absent;
   }
   try {
     const JsonDocument document = read_json(folder / "truth.json");
@@ -168,7 +175,7 @@ void update_description(const fs::path& folder, const SceneDescription& scene) {
 }
 
 void render_capture(const SceneDescription& scene, const fs::path& folder, const RenderSettings& settings,
-                    const std::function<void(double share)>& progress) {
+                    const std::function<void(double share)>& progress, const CaptureExtras& extras) {
   const std::string digest = digest_of(scene, settings);
   LaidScene laid(scene, settings.threads);
   UnfinishedFolder unfinished(folder);
@@ -199,6 +206,7 @@ void render_capture(const SceneDescription& scene, const fs::path& folder, const
                                     Draws(scene.seed, numbered("noise", i, "")).seed(), settings.threads);
     write_jpeg(out / numbered("view", i, ".jpg"), picture, scene.photography.jpeg_quality);
     write_labels(out / numbered("labels", i, ".png"), view);
+    if (extras.has_kinds) write_kinds(out / numbered("kinds", i, ".png"), view);
     std::vector<std::size_t>& pixels = visible.emplace_back(256, 0);
     for (const std::uint8_t label : view.labels) ++pixels[label];
   }

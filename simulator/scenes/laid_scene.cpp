@@ -14,6 +14,7 @@ namespace traygauge {
 namespace {
 
 constexpr double kTableHalfMm = 1500.0;
+constexpr double kRimMm = 5.0;         // of a dish's edge, from outside: as far as its outline is seen as rim
 constexpr double kClearanceMm = 0.01;  // what lies on something does not share its surface
 
 // A pattern that goes with what it is on.
@@ -30,6 +31,13 @@ class DisplacedMaterial : public Material {
   std::shared_ptr<const Material> still_;
   Eigen::Isometry3f still_from_world_;
 };
+
+// Of a dish whose coordinates are `dish_from_world`.
+TruthKind kind_of_dish(const DishShell& shell, const Eigen::Isometry3f& dish_from_world,
+                       const Eigen::Vector3f& point_mm) {
+  const Eigen::Vector3d point = (dish_from_world * point_mm).cast<double>();
+  return shell.inset_mm(point.x(), point.y()) < kRimMm ? TruthKind::rim : TruthKind::glaze;
+}
 
 Eigen::Isometry3d moved(const Eigen::Isometry3d& pose, double x, double y, double z) {
   return pose * Eigen::Translation3d(x, y, z);
@@ -52,12 +60,15 @@ void LaidScene::add_dishes(int threads) {
     const LaidDish& dish = description_.dishes[i];
     const Eigen::Isometry3d pose = world_from_dish(dish);
     SceneObject object{shells_[i].mesh(), make_glaze(dish.glaze, shells_[i], dish.seed, pose.inverse()),
-                       static_cast<std::uint8_t>(dish.dish.label)};
+                       static_cast<std::uint8_t>(dish.dish.label), TruthKind::glaze};
+    object.kind_at = [shell = shells_[i], inverse = Eigen::Isometry3f(pose.inverse().cast<float>())](
+                         const Eigen::Vector3f& point_mm) { return kind_of_dish(shell, inverse, point_mm); };
     transform(object.mesh, moved(pose, 0.0, 0.0, kClearanceMm));
     scene_.objects.push_back(std::move(object));
     for (ServedFood& food :
          serve_foods(description_, static_cast<int>(i), shells_[i], kFirstItemLabel, threads)) {
       transform(food.object.mesh, moved(Eigen::Isometry3d::Identity(), 0.0, 0.0, kClearanceMm));
+      food.object.kind = TruthKind::food;
       scene_.objects.push_back(std::move(food.object));
       food.object = SceneObject{{}, nullptr, scene_.objects.back().label};
       foods_.push_back(std::move(food));
@@ -78,7 +89,7 @@ void LaidScene::add_card() {
   const Eigen::Isometry3d pose = world_from_card(card);
   SceneObject object{
       box_mesh({0.0, 0.0, 0.0}, {card.width_mm, card.height_mm, card.thickness_mm - kClearanceMm}),
-      make_card_material(print_, px_per_mm, pose.inverse()), kCardLabel};
+      make_card_material(print_, px_per_mm, pose.inverse()), kCardLabel, TruthKind::card};
   transform(object.mesh, pose);
   scene_.objects.push_back(std::move(object));
 }
@@ -94,7 +105,8 @@ void LaidScene::add_utensils() {
   for (const Utensil& utensil : description_.utensils) {
     const bool is_paper = utensil.kind == UtensilKind::napkin;
     SceneObject object{utensil_mesh(utensil.kind),
-                       is_paper ? make_plain(utensil.srgb, 0.0F, 0.9F) : make_metal(utensil.srgb, 0.22F), 0};
+                       is_paper ? make_plain(utensil.srgb, 0.0F, 0.9F) : make_metal(utensil.srgb, 0.22F), 0,
+                       is_paper ? TruthKind::napkin : TruthKind::cutlery};
     const Eigen::Vector3d at(utensil.centre_mm.x(), utensil.centre_mm.y(), utensil.base_mm + kClearanceMm);
     transform(object.mesh, placement(at, utensil.rotation_deg));
     scene_.objects.push_back(std::move(object));
@@ -150,6 +162,11 @@ void LaidScene::displace(const Displacement& displacement) {
     if (object.label != displacement.label && !lies_on_it(object.label)) continue;
     transform(object.mesh, motion);
     object.material = std::make_shared<DisplacedMaterial>(object.material, motion.inverse());
+    if (object.kind_at) {
+      object.kind_at = [still = object.kind_at,
+                        still_from_world = Eigen::Isometry3f(motion.inverse().cast<float>())](
+                           const Eigen::Vector3f& point_mm) { return still(still_from_world * point_mm); };
+    }
   }
 }
 

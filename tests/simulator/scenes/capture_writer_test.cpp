@@ -3,9 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <numbers>
 #include <stdexcept>
 #include <string>
 
@@ -13,6 +15,7 @@
 #include "simulator/capture/picture_file.hpp"
 #include "simulator/capture/png_writer.hpp"
 #include "simulator/capture/truth.hpp"
+#include "simulator/render/truth_kind.hpp"
 #include "simulator/scenes/scene_parts.hpp"
 #include "simulator/scenes/scene_poses.hpp"
 #include "simulator/scenes/scene_views.hpp"
@@ -146,6 +149,54 @@ SceneDescription scanned_scene(const std::filesystem::path& file) {
     scene.foods.push_back(food);
   }
   return scene;
+}
+
+// Finer than labels: the rim of a dish, and what has no label.
+TEST(CaptureWriter, WritesTheKindOfEachPixel) {
+  const TemporaryFolder folder;
+  SceneDescription scene = small_scene();
+  scene.views.resize(1);
+  scene.pairs.clear();
+  Photograph& view = scene.views[0];
+  view = Photograph();
+  view.distance_mm = 600.0;
+  scene.card.centre_mm = {185.0, 0.0};
+  scene.utensils.push_back({UtensilKind::fork, {-170.0, 0.0}, 90.0, 0.0, 0xC8C8C8});
+  scene.utensils.push_back({UtensilKind::napkin, {0.0, -200.0}, 0.0, 0.0, 0xF0F0F0});
+  const std::filesystem::path out = folder.path() / scene.name;
+  render_capture(scene, out, {}, [](double) {});
+  EXPECT_FALSE(std::filesystem::exists(out / "kinds_0.png"));
+  const CaptureExtras extras{true};
+  EXPECT_EQ(state_of_capture(out, scene, {}), CaptureState::complete);
+  EXPECT_EQ(state_of_capture(out, scene, {}, extras), CaptureState::absent);
+  render_capture(
+      scene, out, {}, [](double) {}, extras);
+  EXPECT_EQ(state_of_capture(out, scene, {}, extras), CaptureState::complete);
+
+  const PictureSize size = scene.photography.camera.size;
+  const Picture labels = read_label_picture({out / "labels_0.png", ""}, size);
+  const Picture kinds = read_label_picture({out / "kinds_0.png", ""}, size);
+  std::array<int, 8> counts{};
+  for (std::size_t i = 0; i < kinds.pixels.size(); ++i) {
+    const auto kind = static_cast<TruthKind>(kinds.pixels[i]);
+    const int label = labels.pixels[i];
+    ASSERT_LT(kinds.pixels[i], counts.size());
+    ++counts[kinds.pixels[i]];
+    EXPECT_EQ(kind == TruthKind::food, label >= 2 && label < 200) << i;
+    EXPECT_EQ(kind == TruthKind::card, label == kCardLabel) << i;
+    EXPECT_EQ(kind == TruthKind::glaze || kind == TruthKind::rim, label == 1) << i;
+  }
+  const auto count = [&](TruthKind kind) { return counts[static_cast<std::size_t>(kind)]; };
+  EXPECT_GT(count(TruthKind::cutlery), 20);
+  EXPECT_GT(count(TruthKind::napkin), 100);
+  EXPECT_GT(count(TruthKind::table), 5000);
+  EXPECT_EQ(count(TruthKind::none), 0);
+  // A ring of 5 mm inside the dish's edge, seen from above.
+  const DishDescription& dish = scene.dishes[0].dish;
+  const double radius_mm = 0.5 * dish.outer_size_mm[0];
+  const double px_per_mm = scene.photography.camera.fx_px / (view.distance_mm - dish.rim_height_mm);
+  const double ring_px = std::numbers::pi * (2.0 * radius_mm - 5.0) * 5.0 * px_per_mm * px_per_mm;
+  EXPECT_NEAR(count(TruthKind::rim), ring_px, 0.15 * ring_px);
 }
 
 // From the mesh file to truth, labels and depth.
