@@ -79,12 +79,12 @@ class Convolution {
     return workspace_.rows[static_cast<std::size_t>((y + kRows) % kRows)].data();
   }
 
-  // What each cell of the tile reads, one cell after the other.
+  // What each cell of the tile reads, one cell after the other. Beyond a cell's taps anything may stand: the
+  // weights there are 0.
   void collect_patch(int x, int y, int count) {
     const int reach = layer_.kernel / 2;
     const auto run =
         static_cast<std::size_t>(layer_.kernel) * static_cast<std::size_t>(layer_.input.channels);
-    const std::size_t filling = taps_ - layer_.taps();
     for (int i = 0; i < count; ++i) {
       std::int16_t* to = workspace_.patch.data() + static_cast<std::size_t>(i) * taps_;
       // A row's first cell is the one beside the input's left end.
@@ -93,7 +93,6 @@ class Convolution {
         const std::int16_t* from = ring_row(y * layer_.stride - reach + k) + column * layer_.input.channels;
         std::memcpy(to, from, run * sizeof(std::int16_t));
       }
-      std::fill_n(to, filling, std::int16_t{0});
     }
   }
 

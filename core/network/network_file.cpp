@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::int32_t kMaxBias = std::int32_t{1} << 30U;
 // A sum holds a bias and this many products of a byte and a weight.
-constexpr std::int64_t kMaxTaps = 9 * static_cast<int>(kMaxLayerSources) * kMaxNetworkChannels;
+constexpr auto kMaxTaps = std::int64_t{9} * kMaxLayerSources * kMaxNetworkChannels;
 static_assert(kMaxBias + kMaxTaps * 255 * 128 < std::int64_t{1} << 31U);
 
 // Takes one part after the other off the file; what the file lacks makes it fail, and reads as 0.
@@ -234,7 +234,7 @@ class Parser {
     for (std::size_t i = 0; i < network_.layer_count; ++i) {
       if (!is_used[i + 1] && network_.layers[i].role == NetworkRole::none) return false;
     }
-    return is_used[0] && network_.find(NetworkRole::classes) != nullptr;
+    return network_.find(NetworkRole::classes) != nullptr;
   }
 
   Reader reader_;

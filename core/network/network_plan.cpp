@@ -57,22 +57,17 @@ class TensorPlacer {
   // shorter.
   bool place_over_source(std::size_t layer) {
     const NetworkLayer& reading = network_.layers[layer];
-    for (const LayerSource& source : reading.used_sources()) {
-      const auto tensor = static_cast<std::size_t>(source.tensor);
-      const std::size_t row_bytes = network_.tensor_shape(tensor).row_bytes();
-      const bool is_last = !is_output_[tensor] && last_use_[tensor] == layer;
-      if (!is_last || is_read_twice(reading) || source.enlargement != Enlargement::none ||
-          reading.output.row_bytes() > row_bytes) {
-        continue;
-      }
-      settle(layer + 1, plan_.tensor_at[tensor]);
-      return true;
-    }
-    return false;
-  }
-
-  static bool is_read_twice(const NetworkLayer& layer) {
-    return layer.source_count == 2 && layer.sources[0].tensor == layer.sources[1].tensor;
+    const std::span<const LayerSource> sources = reading.used_sources();
+    const auto* const source =
+        std::find_if(sources.data(), sources.data() + sources.size(), [&](const LayerSource& one) {
+          const auto tensor = static_cast<std::size_t>(one.tensor);
+          const bool is_last = !is_output_[tensor] && last_use_[tensor] == layer;
+          return is_last && one.enlargement == Enlargement::none &&
+                 reading.output.row_bytes() <= network_.tensor_shape(tensor).row_bytes();
+        });
+    if (source == sources.data() + sources.size()) return false;
+    settle(layer + 1, plan_.tensor_at[static_cast<std::size_t>(source->tensor)]);
+    return true;
   }
 
   void settle(std::size_t tensor, std::size_t at) {

@@ -3,6 +3,7 @@
 #include <cassert>
 
 #include "core/base/little_endian.hpp"
+#include "core/network/rescaling.hpp"
 
 namespace traygauge {
 namespace {
@@ -39,7 +40,7 @@ void NetworkRunner::pack(std::size_t layer) {
     workspace_.shifts[at] = std::to_integer<std::uint8_t>(from.shifts[c]);
     const std::span<std::int16_t> weights = workspace_.weights.subspan(plan_.weights_at[layer] + c * padded);
     for (std::size_t k = 0; k < from.taps(); ++k) {
-      weights[k] = std::to_integer<std::int8_t>(from.weights[c * from.taps() + k]);
+      weights[k] = signed_value(std::to_integer<std::uint8_t>(from.weights[c * from.taps() + k]));
     }
   }
 }

@@ -24,4 +24,9 @@ constexpr std::uint8_t saturate(std::int64_t value, bool has_relu) {
   return static_cast<std::uint8_t>(std::clamp(value, low, low + 255));
 }
 
+// A byte as two's complement has it.
+constexpr std::int16_t signed_value(std::uint8_t byte) {
+  return static_cast<std::int16_t>(byte < 128 ? byte : byte - 256);
+}
+
 }  // namespace traygauge

@@ -24,31 +24,41 @@ struct JoinedCells {
   int channels = 0;  // of all sources: from one cell to the next
 };
 
+// How a byte of the source is read.
+struct AsUnsigned {
+  std::int16_t operator()(std::uint8_t byte) const { return byte; }
+};
+struct AsSigned {
+  std::int16_t operator()(std::uint8_t byte) const { return signed_value(byte); }
+};
+
 template <class Value>
 void copy_cells(const TensorView& source, int y, bool is_enlarged, const JoinedCells& cells) {
-  const auto* from = reinterpret_cast<const Value*>(source.row(is_enlarged ? y / 2 : y));
+  constexpr Value kValue;
+  const std::uint8_t* from = source.row(is_enlarged ? y / 2 : y);
   const int own = source.shape.channels;
   for (int x = 0; x < cells.count; ++x) {
-    const Value* cell = from + (is_enlarged ? x / 2 : x) * own;
-    std::int16_t* to = cells.first + x * cells.channels;
-    for (int c = 0; c < own; ++c) to[c] = cell[c];
+    const std::uint8_t* cell = from + std::ptrdiff_t{is_enlarged ? x / 2 : x} * own;
+    std::int16_t* to = cells.first + std::ptrdiff_t{x} * cells.channels;
+    for (int c = 0; c < own; ++c) to[c] = kValue(cell[c]);
   }
 }
 
 template <class Value>
 void enlarge_cells(const TensorView& source, int y, const JoinedCells& cells) {
+  constexpr Value kValue;
   const Neighbours rows = neighbours_of(y, source.shape.height);
-  const auto* near_row = reinterpret_cast<const Value*>(source.row(rows.near));
-  const auto* far_row = reinterpret_cast<const Value*>(source.row(rows.far));
+  const std::uint8_t* near_row = source.row(rows.near);
+  const std::uint8_t* far_row = source.row(rows.far);
   const int own = source.shape.channels;
   for (int x = 0; x < cells.count; ++x) {
     const Neighbours columns = neighbours_of(x, source.shape.width);
     const int near = columns.near * own;
     const int far = columns.far * own;
-    std::int16_t* to = cells.first + x * cells.channels;
+    std::int16_t* to = cells.first + std::ptrdiff_t{x} * cells.channels;
     for (int c = 0; c < own; ++c) {
-      const int sum =
-          9 * near_row[near + c] + 3 * near_row[far + c] + 3 * far_row[near + c] + far_row[far + c];
+      const int sum = 9 * kValue(near_row[near + c]) + 3 * kValue(near_row[far + c]) +
+                      3 * kValue(far_row[near + c]) + kValue(far_row[far + c]);
       to[c] = static_cast<std::int16_t>((sum + 8) >> 4);
     }
   }
@@ -70,19 +80,19 @@ void gather_row(const NetworkLayer& layer, const std::array<TensorView, kMaxLaye
   const int channels = layer.input.channels;
   const int width = layer.input.width;
   if (y < 0 || y >= layer.input.height) {
-    std::fill_n(row, (width + 2) * channels, std::int16_t{0});
+    std::fill_n(row, std::ptrdiff_t{width + 2} * channels, std::int16_t{0});
     return;
   }
   std::fill_n(row, channels, std::int16_t{0});
-  std::fill_n(row + (width + 1) * channels, channels, std::int16_t{0});
+  std::fill_n(row + std::ptrdiff_t{width + 1} * channels, channels, std::int16_t{0});
   JoinedCells cells{row + channels, width, channels};
   for (std::size_t i = 0; i < static_cast<std::size_t>(layer.source_count); ++i) {
     const TensorView& source = sources[i];
     const Enlargement enlargement = layer.sources[i].enlargement;
     if (source.is_signed) {
-      write_source<std::int8_t>(source, enlargement, y, cells);
+      write_source<AsSigned>(source, enlargement, y, cells);
     } else {
-      write_source<std::uint8_t>(source, enlargement, y, cells);
+      write_source<AsUnsigned>(source, enlargement, y, cells);
     }
     cells.first += source.shape.channels;
   }

@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "core/network/network.hpp"
+#include "core/network/rescaling.hpp"
 
 namespace traygauge {
 
@@ -17,7 +18,7 @@ struct TensorView {
   const std::uint8_t* row(int y) const { return data + static_cast<std::ptrdiff_t>(shape.row_bytes()) * y; }
   int at(int x, int y, int channel) const {
     const std::uint8_t value = row(y)[x * shape.channels + channel];
-    return is_signed ? static_cast<std::int8_t>(value) : value;
+    return is_signed ? signed_value(value) : value;
   }
 };
 

@@ -37,9 +37,9 @@ const char* const kCopyAgain = "copy it from the release again, or train it anew
 
 }  // namespace
 
-LoadedNetwork::LoadedNetwork(const std::filesystem::path& path) {
+LoadedNetwork::LoadedNetwork(const std::filesystem::path& path)
+    : bytes_(read_bytes({path, ""}, kMaxNetworkFileBytes, kExpected)) {
   const InputFile file{path, ""};
-  bytes_ = read_bytes(file, kMaxNetworkFileBytes, kExpected);
   const std::span<const std::byte> bytes = std::as_bytes(std::span(bytes_));
   const NetworkFileStatus status = parse_network(bytes, network_);
   if (status != NetworkFileStatus::ok) refuse(file, status, bytes);

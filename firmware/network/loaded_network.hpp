@@ -17,7 +17,7 @@ class LoadedNetwork {
  public:
   // Throws InputError where the file is absent, damaged, foreign, newer or too large, and where the network
   // does not compute what its test vector says.
-  explicit LoadedNetwork(const std::filesystem::path& file);
+  explicit LoadedNetwork(const std::filesystem::path& path);
   LoadedNetwork(const LoadedNetwork&) = delete;
   LoadedNetwork& operator=(const LoadedNetwork&) = delete;
 

@@ -37,7 +37,8 @@ std::string sources_text(const NetworkLayer& layer) {
   std::string text;
   for (const LayerSource& source : layer.used_sources()) {
     if (!text.empty()) text += " + ";
-    text += std::to_string(source.tensor) + kEnlargements[static_cast<std::size_t>(source.enlargement)];
+    text += std::to_string(source.tensor);
+    text += kEnlargements[static_cast<std::size_t>(source.enlargement)];
   }
   return text;
 }

@@ -212,8 +212,12 @@ def main():
     except (PlanError, OSError, ValueError, subprocess.CalledProcessError) as problem:
         sys.stderr.write(f"train.py: {problem}\n")
         return 2
-    if run.finish():
-        write_results(run, held_out, plan, arguments)
+    try:
+        if run.finish():
+            write_results(run, held_out, plan, arguments)
+    except KeyboardInterrupt:
+        sys.stderr.write(f"\ntrain.py: stopped at step {run.step}; the next call goes on from the last checkpoint\n")
+        return 130
     return 0
 
 

@@ -210,6 +210,10 @@ ComposedNetwork draw_network(std::uint32_t seed) {
     layer.role = NetworkRole::embedding;
     has_embedding = true;
   }
+  // An output may be read by other layers, too.
+  if (!has_embedding && draw(0, 1) == 0) {
+    network.layers[static_cast<std::size_t>(draw(1, count)) - 1].role = NetworkRole::embedding;
+  }
   draw_numbers(seed, network);
   return network;
 }

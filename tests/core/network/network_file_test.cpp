@@ -121,11 +121,35 @@ TEST(NetworkFile, IsRefusedWhereItStatesWhatCannotBe) {
       {"a role of 4", [](Made& n) { n.layers[0].role = static_cast<NetworkRole>(4); }},
       {"no source", [](Made& n) { n.layers[0].sources.clear(); }},
       {"its own output as source", [](Made& n) { n.layers[0].sources = {{1}}; }},
+      {"its own output as source, of no channels",
+       [](Made& n) {
+         n.layers[3].sources = {{4}};
+         n.layers[3].weights.clear();
+       }},
       {"a source that no layer makes", [](Made& n) { n.layers[5].sources = {{6}}; }},
       {"a tensor of 40000", [](Made& n) { n.layers[1].sources = {{40000}}; }},
       {"an enlargement of 3",
        [](Made& n) { n.layers[2].sources[0].enlargement = static_cast<Enlargement>(3); }},
       {"sources of other sizes", [](Made& n) { n.layers[2].sources[0].enlargement = Enlargement::none; }},
+      {"a source that exceeds the other by two",
+       [](Made& n) {
+         n.layers.resize(2);  // 17 x 9, 9 x 5
+         const auto add = [&](std::vector<ComposedSource> sources, int channels) {
+           n.layers.emplace_back();
+           n.layers.back().sources = std::move(sources);
+           n.layers.back().channels = channels;
+         };
+         add({{2, Enlargement::nearest}}, 1);       // 18 x 10
+         add({{1, Enlargement::nearest}}, 1);       // 34 x 18
+         add({{3, Enlargement::nearest}, {4}}, 2);  // 36 x 20 and 34 x 18
+         n.layers.back().role = NetworkRole::classes;
+         for (ComposedLayer& layer : n.layers) {
+           layer.biases.clear();
+           layer.multipliers.clear();
+           layer.shifts.clear();
+         }
+         draw_numbers(1, n);
+       }},
       {"sources that are too small", [](Made& n) { n.layers[2].sources[1] = {0}; }},
       {"no channels", [](Made& n) { n.layers[0].channels = 0; }},
       {"257 channels", [](Made& n) { n.layers[0].channels = 257; }, NetworkFileStatus::too_large},
@@ -162,6 +186,21 @@ TEST(NetworkFile, IsRefusedWhereItStatesWhatCannotBe) {
     ComposedNetwork network = small_network();
     contradiction.make(network);
     EXPECT_EQ(status_of(compose_network(network)), contradiction.expected) << contradiction.what;
+  }
+}
+
+// What is 0 in a file of this version stays free for others.
+TEST(NetworkFile, IsRefusedWhereABlankIsFilled) {
+  const ComposedNetwork network = small_network();
+  const std::vector<std::byte> whole = compose_network(network);
+  const std::size_t layer =
+      kNetworkHeaderBytes + kNetworkNameBytes * network.classes.size() + network.provenance.size();
+  for (const std::size_t blank : {6, 7, 10, 11, 14, 15}) {
+    std::vector<std::byte> file = whole;
+    ASSERT_EQ(file[layer + blank], std::byte{0});
+    file[layer + blank] = std::byte{1};
+    mend_checksum(file);
+    EXPECT_EQ(status_of(file), NetworkFileStatus::contradictory) << blank;
   }
 }
 
