@@ -43,18 +43,26 @@ std::string sources_text(const NetworkLayer& layer) {
   return text;
 }
 
+// "3 x 3, stride 2, ReLU".
+std::string convolution_text(const NetworkLayer& layer) {
+  std::string text = std::to_string(layer.kernel);
+  text += " x ";
+  text += std::to_string(layer.kernel);
+  text += ", stride ";
+  text += std::to_string(layer.stride);
+  if (layer.has_relu) text += ", ReLU";
+  return text;
+}
+
 void print_layers(const Network& network, std::ostream& out) {
   out << pad_left("tensor", 6) << "  " << pad_right("of tensors", 20) << pad_right("convolution", 24)
       << pad_right("size", 18) << "role\n";
   out << pad_left("0", 6) << "  " << pad_right("", 44) << shape_text(network.tensor_shape(0)) << "\n";
   for (std::size_t i = 0; i < network.layer_count; ++i) {
     const NetworkLayer& layer = network.layers[i];
-    const std::string kernel = std::to_string(layer.kernel);
-    const std::string convolution = kernel + " x " + kernel + ", stride " + std::to_string(layer.stride) +
-                                    (layer.has_relu ? ", ReLU" : "");
     out << pad_left(std::to_string(i + 1), 6) << "  " << pad_right(sources_text(layer), 20)
-        << pad_right(convolution, 24) << pad_right(shape_text(layer.output), 18) << role_text(layer.role)
-        << "\n";
+        << pad_right(convolution_text(layer), 24) << pad_right(shape_text(layer.output), 18)
+        << role_text(layer.role) << "\n";
   }
 }
 
