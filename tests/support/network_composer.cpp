@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <optional>
 #include <random>
-#include <stdexcept>
 
 #include "core/base/crc32c.hpp"
 #include "core/base/little_endian.hpp"
@@ -60,6 +60,91 @@ void add_scale(ComposedNetwork& network, int channels) {
   network.layers.push_back({3, 2, true, NetworkRole::none, {{from}}, channels});
   network.layers.push_back({3, 1, true, NetworkRole::none, {{from + 1}}, channels});
 }
+
+using Size = std::array<int, 2>;  // width, height
+
+// One after the other, layers whose sources fit each other.
+class NetworkDraw {
+ public:
+  explicit NetworkDraw(std::uint32_t seed) : engine_(seed) {}
+
+  std::optional<ComposedNetwork> draw() {
+    network_.width = between(kMinNetworkSide, 45);
+    network_.height = between(kMinNetworkSide, 40);
+    sizes_ = {{network_.width, network_.height}};
+    const int count = between(3, 10);
+    for (int i = 0; i < count; ++i) add_layer();
+    network_.layers.push_back({1, 1, false, NetworkRole::classes, {{count}}, 2});
+    if (!give_role(count)) return std::nullopt;
+    return network_;
+  }
+
+ private:
+  int between(int low, int high) { return std::uniform_int_distribution<int>(low, high)(engine_); }
+
+  Size size_of(const ComposedSource& source) const {
+    const Size size = sizes_[static_cast<std::size_t>(source.tensor)];
+    const int times = source.enlargement == Enlargement::none ? 1 : 2;
+    return {times * size[0], times * size[1]};
+  }
+
+  // Mostly the newest tensor; not enlarged beyond what is computed quickly.
+  ComposedSource draw_source() {
+    const int newest = static_cast<int>(sizes_.size()) - 1;
+    const int tensor = between(0, 2) == 0 ? between(0, newest) : newest;
+    const bool may_grow = sizes_[static_cast<std::size_t>(tensor)][0] <= 48;
+    return {tensor, may_grow ? static_cast<Enlargement>(between(0, 2)) : Enlargement::none};
+  }
+
+  // Of one size; or the one that is enlarged exceeds the other by one at most.
+  bool may_join(const ComposedSource& first, const ComposedSource& second) const {
+    const auto exceeds = [&](const ComposedSource& large, const ComposedSource& small) {
+      if (large.enlargement == Enlargement::none || small.enlargement != Enlargement::none) return false;
+      const Size a = size_of(large);
+      const Size b = size_of(small);
+      return a[0] - b[0] >= 0 && a[0] - b[0] <= 1 && a[1] - b[1] >= 0 && a[1] - b[1] <= 1;
+    };
+    return size_of(first) == size_of(second) || exceeds(first, second) || exceeds(second, first);
+  }
+
+  void add_layer() {
+    ComposedLayer layer{between(0, 2) == 0 ? 1 : 3, between(1, 2),   between(0, 3) > 0,
+                        NetworkRole::none,          {draw_source()}, between(1, 19)};
+    for (int tries = 0; tries < 40 && layer.sources.size() == 1; ++tries) {
+      const ComposedSource other = draw_source();
+      if (may_join(layer.sources[0], other)) layer.sources.push_back(other);
+    }
+    Size size = size_of(layer.sources[0]);
+    if (layer.sources.back().enlargement == Enlargement::none) size = size_of(layer.sources.back());
+    const auto strided = [&](int side) { return (side + layer.stride - 1) / layer.stride; };
+    sizes_.push_back({strided(size[0]), strided(size[1])});
+    network_.layers.push_back(layer);
+  }
+
+  // What nobody reads is the embedding. Without such a layer, on some draws one that others read as well is:
+  // of the layers before the head, which are `count`. False where there are several that nobody reads.
+  bool give_role(int count) {
+    std::vector<bool> is_read(network_.layers.size() + 1, false);
+    for (const ComposedLayer& layer : network_.layers) {
+      for (const ComposedSource& source : layer.sources)
+        is_read[static_cast<std::size_t>(source.tensor)] = true;
+    }
+    int embedding = 0;
+    for (int tensor = 1; tensor < count; ++tensor) {
+      if (is_read[static_cast<std::size_t>(tensor)]) continue;
+      if (embedding != 0) return false;
+      embedding = tensor;
+    }
+    if (embedding == 0 && between(0, 1) == 0) embedding = between(1, count);
+    if (embedding != 0)
+      network_.layers[static_cast<std::size_t>(embedding) - 1].role = NetworkRole::embedding;
+    return true;
+  }
+
+  std::mt19937 engine_;
+  ComposedNetwork network_;
+  std::vector<Size> sizes_;
+};
 
 }  // namespace
 
@@ -145,77 +230,12 @@ ComposedNetwork food_layers(int width, int height) {
 }
 
 ComposedNetwork draw_network(std::uint32_t seed) {
-  std::mt19937 engine(seed);
-  const auto draw = [&](int low, int high) { return std::uniform_int_distribution<int>(low, high)(engine); };
-  ComposedNetwork network;
-  network.width = draw(kMinNetworkSide, 45);
-  network.height = draw(kMinNetworkSide, 40);
-  std::vector<std::array<int, 2>> sizes{{network.width, network.height}};
-  const auto enlarged = [&](const ComposedSource& source) {
-    const std::array<int, 2> size = sizes[static_cast<std::size_t>(source.tensor)];
-    const int times = source.enlargement == Enlargement::none ? 1 : 2;
-    return std::array<int, 2>{times * size[0], times * size[1]};
-  };
-  const auto draw_source = [&] {
-    const int newest = static_cast<int>(sizes.size()) - 1;
-    const int tensor = draw(0, 2) == 0 ? draw(0, newest) : newest;
-    const bool may_grow = sizes[static_cast<std::size_t>(tensor)][0] <= 48;
-    return ComposedSource{tensor, may_grow ? static_cast<Enlargement>(draw(0, 2)) : Enlargement::none};
-  };
-  const int count = draw(3, 10);
-  for (int i = 0; i < count; ++i) {
-    ComposedLayer layer{draw(0, 2) == 0 ? 1 : 3, draw(1, 2), draw(0, 3) > 0,
-                        NetworkRole::none,       {},         draw(1, 19)};
-    if (i == 0) {
-      layer.sources = {{0}};
-    } else {
-      layer.sources = {draw_source()};
-      std::array<int, 2> size = enlarged(layer.sources[0]);
-      for (int tries = 0; tries < 40 && layer.sources.size() == 1; ++tries) {
-        const ComposedSource other = draw_source();
-        const std::array<int, 2> further = enlarged(other);
-        const bool first_is_exact = layer.sources[0].enlargement == Enlargement::none;
-        const bool is_exact = other.enlargement == Enlargement::none;
-        const auto exceeds = [](std::array<int, 2> large, std::array<int, 2> small) {
-          return large[0] - small[0] >= 0 && large[0] - small[0] <= 1 && large[1] - small[1] >= 0 &&
-                 large[1] - small[1] <= 1;
-        };
-        if (further == size || (first_is_exact && !is_exact && exceeds(further, size)) ||
-            (!first_is_exact && is_exact && exceeds(size, further))) {
-          layer.sources.push_back(other);
-          if (is_exact) size = further;
-        }
-      }
-    }
-    std::array<int, 2> size = enlarged(layer.sources[0]);
-    if (layer.sources.size() == 2 && layer.sources[1].enlargement == Enlargement::none) {
-      size = enlarged(layer.sources[1]);
-    }
-    sizes.push_back(
-        {(size[0] + layer.stride - 1) / layer.stride, (size[1] + layer.stride - 1) / layer.stride});
-    network.layers.push_back(layer);
+  for (;; seed += 0x9e3779b9U) {
+    std::optional<ComposedNetwork> network = NetworkDraw(seed).draw();
+    if (!network) continue;  // more than one layer that nobody reads
+    draw_numbers(seed, *network);
+    return *network;
   }
-  // What nobody reads becomes a source of the heads, or a head.
-  network.layers.push_back({1, 1, false, NetworkRole::classes, {{count}}, 2});
-  std::vector<bool> is_read(network.layers.size() + 1, false);
-  for (const ComposedLayer& layer : network.layers) {
-    for (const ComposedSource& source : layer.sources)
-      is_read[static_cast<std::size_t>(source.tensor)] = true;
-  }
-  bool has_embedding = false;
-  for (int tensor = count - 1; tensor >= 1; --tensor) {
-    if (is_read[static_cast<std::size_t>(tensor)]) continue;
-    ComposedLayer& layer = network.layers[static_cast<std::size_t>(tensor) - 1];
-    if (has_embedding) return draw_network(seed + 0x9e3779b9U);
-    layer.role = NetworkRole::embedding;
-    has_embedding = true;
-  }
-  // An output may be read by other layers, too.
-  if (!has_embedding && draw(0, 1) == 0) {
-    network.layers[static_cast<std::size_t>(draw(1, count)) - 1].role = NetworkRole::embedding;
-  }
-  draw_numbers(seed, network);
-  return network;
 }
 
 void add_test_vector(ComposedNetwork& network) {

@@ -195,7 +195,7 @@ TEST(NetworkFile, IsRefusedWhereABlankIsFilled) {
   const std::vector<std::byte> whole = compose_network(network);
   const std::size_t layer =
       kNetworkHeaderBytes + kNetworkNameBytes * network.classes.size() + network.provenance.size();
-  for (const std::size_t blank : {6, 7, 10, 11, 14, 15}) {
+  for (const std::size_t blank : {6U, 7U, 10U, 11U, 14U, 15U}) {
     std::vector<std::byte> file = whole;
     ASSERT_EQ(file[layer + blank], std::byte{0});
     file[layer + blank] = std::byte{1};
