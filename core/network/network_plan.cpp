@@ -52,9 +52,9 @@ class TensorPlacer {
     return true;
   }
 
-  // A convolution reads the rows of its input once, in order, before it writes the row that they end at. So
-  // it may write over a source that nobody needs afterwards, unless the source is enlarged, or its rows
-  // shorter.
+  // A convolution reads each row of its input once, in order, and before it writes the output's row of that
+  // number. So it may write over a source that nobody needs afterwards, unless the source is enlarged or has
+  // shorter rows than the output.
   bool place_over_source(std::size_t layer) {
     const NetworkLayer& reading = network_.layers[layer];
     const std::span<const LayerSource> sources = reading.used_sources();

@@ -108,4 +108,6 @@ def measure_photographs(run, folder, width, height):
         seen = found[np.ix_(y.astype(int), x.astype(int))]
         group = file[:-4].partition("_")[2] or file[:-4]
         groups.setdefault(group, []).append(ratio((seen & food).sum(), (seen | food).sum()))
-    return {f"photographs, IoU food, {group} ({len(own)})": float(np.mean(own)) for group, own in sorted(groups.items())}
+    return {
+        f"photographs, IoU food, {group} ({len(own)})": float(np.mean(own)) for group, own in sorted(groups.items())
+    }

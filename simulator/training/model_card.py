@@ -50,25 +50,29 @@ def compose_card(plan, counts, file_name, file_bytes, weights, figures_by_kind, 
     faults = list(plan.faults)
     faults += [f"`{name}` is found badly on held-out pictures, or is not on them." for name in weak_classes(rounded)]
     faults.append("Cups, glasses, hands and other things are no class: the renderer draws none of them.")
+    classes = f"{', '.join(CLASS_NAMES[:-1])} and {CLASS_NAMES[-1]}"
     lines = [
         f"# Model card: {file_name}",
         "",
-        f"A U-Net of {weights} weights of 8 bits ({file_bytes} bytes) for pictures of {plan.width} x {plan.height}. It tells"
-        f" {', '.join(CLASS_NAMES[:-1])} and {CLASS_NAMES[-1]} apart, borders between items, and gives {plan.embedding} numbers a"
-        " cell that are alike within portions of one food.",
+        f"A U-Net of {weights} weights of 8 bits ({file_bytes} bytes) for pictures of {plan.width} x {plan.height}. It"
+        f" tells {classes} apart, borders between items, and gives {plan.embedding} numbers a cell that are alike"
+        " within portions of one food.",
         "",
         "## Training",
         "",
-        f"- Plan {plan.digest}, seed {plan.seed}: {plan.steps} steps in floats, {plan.rounded_steps} with rounding, batches of"
-        f" {plan.batch}.",
-        f"- Trained on {counts['train']} pictures: {set_names(plan.train)}; further folders of captures: {counts['further']}.",
-        f"- Held out {counts['held_out']} pictures: {set_names(plan.held_out)}. No photograph was trained on.",
+        f"- Plan {plan.digest}, seed {plan.seed}: {plan.steps} steps in floats, {plan.rounded_steps} with rounding,"
+        f" batches of {plan.batch}.",
+        f"- Trained on {counts['train']} pictures: {set_names(plan.train)}; further folders of captures:"
+        f" {counts['further']}.",
+        f"- Held out {counts['held_out']} pictures: {set_names(plan.held_out)}; further folders:"
+        f" {counts['held_out_further']}. No photograph was trained on.",
         "",
         "## Figures, on pictures never trained on",
         "",
         *figure_rows(figures_by_kind),
         "",
-        f"Cells of the held-out pictures to which integers give the class that the rounded network gives in floats: {figure_text(same_class)}.",
+        "Cells of the held-out pictures to which integers give the class that the rounded network gives in floats:"
+        f" {figure_text(same_class)}.",
         "",
         "## Known faults",
         "",

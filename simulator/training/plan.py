@@ -66,5 +66,6 @@ def read_plan(path):
     if set(plan.train) & set(plan.held_out):
         raise PlanError(f"{path}: expected held-out sets that are not trained on, found one that is")
     if len(plan.up) != len(plan.down) - 1:
-        raise PlanError(f"{path}: expected one number less in `up` than in `down`, found {len(plan.up)} and {len(plan.down)}")
+        found = f"{len(plan.up)} and {len(plan.down)}"
+        raise PlanError(f"{path}: expected one number less in `up` than in `down`, found {found}")
     return plan

@@ -187,7 +187,10 @@ def write_results(run, held_out, plan, arguments):
         figures["floats"].update(measure_photographs(by_floats, arguments.photographs, *size))
         figures["8 bits"].update(measure_photographs(by_integers, arguments.photographs, *size))
     same_class = agreement(float_outputs(run.rounded), by_integers, held_out, *size)
-    counts = {"train": len(run.samples), "held_out": len(held_out), "further": len(arguments.captures)}
+    counts = {
+        "train": len(run.samples), "further": len(arguments.captures),
+        "held_out": len(held_out), "held_out_further": len(arguments.held_out),
+    }
     text = provenance(plan, counts, figures["8 bits"])
     content = compose(run.layers, numbers, *size, CLASS_NAMES, text, TEST_SEED)
     weights = sum(own.weights.size for own in numbers)
