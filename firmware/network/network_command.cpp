@@ -60,9 +60,10 @@ void print_layers(const Network& network, std::ostream& out) {
   out << pad_left("0", 6) << "  " << pad_right("", 44) << shape_text(network.tensor_shape(0)) << "\n";
   for (std::size_t i = 0; i < network.layer_count; ++i) {
     const NetworkLayer& layer = network.layers[i];
+    const std::string role = role_text(layer.role);
     out << pad_left(std::to_string(i + 1), 6) << "  " << pad_right(sources_text(layer), 20)
-        << pad_right(convolution_text(layer), 24) << pad_right(shape_text(layer.output), 18)
-        << role_text(layer.role) << "\n";
+        << pad_right(convolution_text(layer), 24)
+        << (role.empty() ? shape_text(layer.output) : pad_right(shape_text(layer.output), 18) + role) << "\n";
   }
 }
 

@@ -5,8 +5,10 @@ import torch.nn.functional as F
 
 from layers import BORDER, CLASS_NAMES, CLASSES, EMBEDDING, FOOD
 
-BORDER_REACH = 1  # cells from a cell to the other item, on its border
-BORDER_WEIGHT = 6.0  # borders are few
+# Of each class in the sum over cells: what is small on a tray counts more. The order is that of CLASS_NAMES.
+CLASS_WEIGHTS = (0.5, 1.0, 1.0, 2.0, 4.0, 4.0, 2.0)
+BORDER_REACH = 2  # cells from a cell to the other item, on its border
+BORDER_WEIGHT = 20.0  # borders are few
 PULL_WITHIN = 0.3  # no pull on what lies so near its item's middle
 PUSH_WITHIN = 1.5  # middles of different foods at least twice as far from each other
 MIN_ITEM_CELLS = 4
@@ -23,11 +25,14 @@ def allowed_mask(allowed):
 def class_loss(logits, allowed):
     """Minus the logarithm of the probability of what a cell may be, and dice of food."""
     probability = F.softmax(logits, 1)
-    likely = (probability * allowed_mask(allowed)).sum(1).clamp_min(1e-6)
+    mask = allowed_mask(allowed)
+    likely = (probability * mask).sum(1).clamp_min(1e-6)
+    # Of several that a cell may be, the least counts.
+    weights = torch.tensor(CLASS_WEIGHTS)[None, :, None, None].masked_fill(mask == 0, max(CLASS_WEIGHTS)).amin(1)
     food = (allowed == 1 << FOOD).float()
     predicted = probability[:, FOOD]
     dice = 1.0 - (2.0 * (food * predicted).sum() + 1.0) / (food.sum() + predicted.sum() + 1.0)
-    return -torch.log(likely).mean() + dice
+    return -(weights * torch.log(likely)).sum() / weights.sum() + dice
 
 
 def border_cells(items):

@@ -38,7 +38,7 @@ from captures import read_captures  # noqa: E402
 from fitting import fit_picture  # noqa: E402
 from integers import IntegerLayer, fixed_point, run_integers, to_integers  # noqa: E402
 from layers import CLASSES, CLASS_NAMES, food_layers, shared_scales, tensor_channels  # noqa: E402
-from losses import border_cells, embedding_loss  # noqa: E402
+from losses import BORDER_REACH, border_cells, embedding_loss  # noqa: E402
 from measuring import agreement, float_outputs  # noqa: E402
 from model import FloatNetwork, RoundedNetwork  # noqa: E402
 from tgn_file import crc32c  # noqa: E402
@@ -229,11 +229,11 @@ class Parts(unittest.TestCase):
 
     def test_border_lies_between_items_alone(self):
         items = torch.zeros(1, 6, 8, dtype=torch.long)
-        items[0, 1:5, 1:4] = 2
-        items[0, 1:5, 4:7] = 3
+        items[0, 1:5, 0:4] = 2
+        items[0, 1:5, 4:8] = 3
         border = border_cells(items)[0, 0]
-        self.assertEqual(border.sum(), 8)
-        self.assertEqual(border[1:5, 3:5].sum(), 8)
+        self.assertEqual(border.sum(), 4 * 2 * BORDER_REACH)
+        self.assertEqual(border[1:5, 4 - BORDER_REACH : 4 + BORDER_REACH].sum(), 4 * 2 * BORDER_REACH)
 
     def test_embedding_pulls_one_food_and_pushes_others(self):
         samples = read_captures([os.path.join(DEMO, "mash_and_meatballs")])
