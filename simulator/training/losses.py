@@ -8,7 +8,7 @@ from layers import BORDER, CLASS_NAMES, CLASSES, EMBEDDING, FOOD
 # Of each class in the sum over cells: what is small on a tray counts more. The order is that of CLASS_NAMES.
 CLASS_WEIGHTS = (0.5, 1.0, 1.0, 2.0, 4.0, 4.0, 2.0)
 BORDER_REACH = 2  # cells from a cell to the other item, on its border
-BORDER_WEIGHT = 20.0  # borders are few
+BORDER_WEIGHT = 10.0  # borders are few
 PULL_WITHIN = 0.3  # no pull on what lies so near its item's middle
 PUSH_WITHIN = 1.5  # middles of different foods at least twice as far from each other
 MIN_ITEM_CELLS = 4
