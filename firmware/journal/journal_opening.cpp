@@ -8,8 +8,8 @@
 #include <tuple>
 #include <utility>
 
-#include "firmware/base/text.hpp"
 #include "core/base/crc32c.hpp"
+#include "firmware/base/text.hpp"
 #include "firmware/journal/io_failure.hpp"
 #include "firmware/journal/journal_block.hpp"
 #include "firmware/journal/journal_creation.hpp"

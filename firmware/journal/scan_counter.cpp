@@ -10,8 +10,8 @@
 #include <utility>
 
 #include "core/base/crc32c.hpp"
-#include "firmware/journal/io_failure.hpp"
 #include "core/base/little_endian.hpp"
+#include "firmware/journal/io_failure.hpp"
 #include "firmware/journal/lock_file.hpp"
 
 namespace traygauge {

@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "core/base/crc32c.hpp"
-#include "firmware/journal/journal.hpp"
 #include "core/base/little_endian.hpp"
+#include "firmware/journal/journal.hpp"
 #include "firmware/journal/scan_counter.hpp"
 #include "tests/fuzz/fuzz_target.hpp"
 #include "tests/support/recorded_file_system.hpp"

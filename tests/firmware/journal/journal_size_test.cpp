@@ -1,8 +1,8 @@
 // Journals of another size than configured, and files that are none.
 #include <gtest/gtest.h>
 
-#include "firmware/journal/journal_creation.hpp"
 #include "core/base/little_endian.hpp"
+#include "firmware/journal/journal_creation.hpp"
 #include "tests/firmware/journal/journal_disk.hpp"
 
 namespace traygauge::test {
