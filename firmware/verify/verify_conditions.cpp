@@ -1,5 +1,6 @@
 #include "firmware/verify/verify_conditions.hpp"
 
+#include "firmware/base/build_info.hpp"
 #include "firmware/base/text.hpp"
 #include "firmware/base/toml_text.hpp"
 #include "firmware/base/wall_clock.hpp"
@@ -32,7 +33,8 @@ std::string digest_of_lens(const CameraDescription& camera) {
 
 VerifyHeader begin_verify_header(const VerifyRunOptions& options, const VerifyPlan& plan) {
   VerifyHeader header;
-  header.program = TRAYGAUGE_VERSION;
+  const std::string commit = built_commit();
+  header.program = program_version() + (commit.empty() ? std::string() : " (" + commit + ")");
   header.started = utc_text(read_wall_clock().unix_ms);
   header.plan = plan;
   header.conditions = {{"tester", or_not_stated(options.tester)},
