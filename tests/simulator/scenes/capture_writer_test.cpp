@@ -248,7 +248,7 @@ TEST(CaptureWriter, ScannedFoodsThatShareAPlaceAreRefused) {
   EXPECT_NE(problem_of().find("left and right share"), std::string::npos) << problem_of();
   EXPECT_FALSE(std::filesystem::exists(folder.path() / "scan"));
   const FoodKind& mash = *find_food_kind("mash");
-  scene.foods[1] = {"mash", "mash", 0, {-20.0, 5.0}, 0.0, mash.size, 3, 0.0, {}};
+  scene.foods[1] = {"mash", "mash", 0, {-20.0, 5.0}, 0.0, mash.size, 3, 0.0, {}, {}};
   EXPECT_NE(problem_of().find("left and mash share"), std::string::npos) << problem_of();
 }
 
