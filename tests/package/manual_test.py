@@ -20,7 +20,7 @@ def say(*command):
 
 
 def listed(help_text):
-    """Commands, and long options, of a help."""
+    """Commands and options of a help."""
     commands = []
     section = ""
     for line in help_text.splitlines():
@@ -30,7 +30,7 @@ def listed(help_text):
         if found and section.startswith("subcommands"):
             commands.append(found.group(1))
     names = [name for line in re.findall(r"(?m)^  (-\S+)", help_text) for name in line.split(",")]
-    return commands, sorted(name for name in names if name.startswith("--"))
+    return commands, sorted(names)
 
 
 def walk(program, words=()):
@@ -69,7 +69,7 @@ def check(program):
         completed, completed_options = complete(program, *words)
         if commands and sorted(completed) != sorted(commands):
             problems.append(f"{program} {words}: completed as {completed}, there are {commands}")
-        if set(completed_options) - {"-h"} != set(options):
+        if set(completed_options) != set(options):
             problems.append(f"{program} {words}: options completed as {completed_options}, there are {options}")
         if commands:
             continue
@@ -77,8 +77,8 @@ def check(program):
         if section is None:
             problems.append(f"{program}.1 has no section on {' '.join(words)}")
             continue
-        for option in options:
-            if not re.search(rf"^(.*, )?{option}( |$)", section, re.MULTILINE):
+        for option in set(options) - {"-h"}:
+            if not re.search(rf"^(.*, )?{option}(,| |$)", section, re.MULTILINE):
                 problems.append(f"{program}.1 does not tell {' '.join(words)} {option}")
     return count
 
