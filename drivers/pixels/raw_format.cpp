@@ -5,16 +5,12 @@
 namespace traygauge {
 namespace {
 
-#define TRAYGAUGE_NAME(encoding, text) text,
-constexpr std::array<const char*, kRawEncodingCount> kEncodingNames = {
-    TRAYGAUGE_RAW_ENCODINGS(TRAYGAUGE_NAME)};
-#undef TRAYGAUGE_NAME
 constexpr auto kPatternNames = std::to_array<const char*>({"RGGB", "GRBG", "GBRG", "BGGR"});
 
 std::size_t packed_samples(int samples, int bits) {
-  const int group = bits == 10 ? 4 : 2;
-  const int group_bytes = bits == 10 ? 5 : 3;
-  return static_cast<std::size_t>((samples + group - 1) / group * group_bytes);
+  const std::size_t group = bits == 10 ? 4 : 2;
+  const std::size_t group_bytes = bits == 10 ? 5 : 3;
+  return (static_cast<std::size_t>(samples) + group - 1) / group * group_bytes;
 }
 
 // In rows of the grey ones' stride.
@@ -36,7 +32,8 @@ int rows_with_colours(const RawFormat& format, int height) {
 }  // namespace
 
 std::string name(const RawFormat& format) {
-  if (format.encoding != RawEncoding::bayer) return kEncodingNames[static_cast<std::size_t>(format.encoding)];
+  if (format.encoding != RawEncoding::bayer)
+    return kRawEncodingNames[static_cast<std::size_t>(format.encoding)];
   return kPatternNames[static_cast<std::size_t>(format.pattern)] + std::to_string(format.bits) +
          (format.is_packed ? "P" : "");
 }

@@ -1,6 +1,7 @@
 // What cameras deliver before it is a picture.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -24,9 +25,11 @@ namespace traygauge {
 enum class RawEncoding : std::uint8_t { TRAYGAUGE_RAW_ENCODINGS(TRAYGAUGE_ENUMERATOR) };
 #undef TRAYGAUGE_ENUMERATOR
 
-#define TRAYGAUGE_ONE(encoding, text) +1
-inline constexpr int kRawEncodingCount = TRAYGAUGE_RAW_ENCODINGS(TRAYGAUGE_ONE);
-#undef TRAYGAUGE_ONE
+#define TRAYGAUGE_NAME(encoding, text) text,
+inline constexpr auto kRawEncodingNames =
+    std::to_array<const char*>({TRAYGAUGE_RAW_ENCODINGS(TRAYGAUGE_NAME)});
+#undef TRAYGAUGE_NAME
+inline constexpr int kRawEncodingCount = static_cast<int>(kRawEncodingNames.size());
 
 // The two first pixels of the two first rows.
 enum class BayerPattern : std::uint8_t { rggb, grbg, gbrg, bggr };
