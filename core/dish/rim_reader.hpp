@@ -9,44 +9,10 @@
 #include <span>
 
 #include "core/dish/dish_search.hpp"
-#include "core/image/gray_weights.hpp"
+#include "core/geometry/parabola.hpp"
+#include "core/image/gray_sampler.hpp"
 
 namespace traygauge {
-
-// Grey values of a frame between its pixels.
-class GraySampler {
- public:
-  explicit GraySampler(const FrameView& frame)
-      : frame_(frame), weights_(gray_weights(frame.format)), bytes_(bytes_per_pixel(frame.format)) {}
-
-  bool sample(const Vec2& pixel, float& gray) const {
-    if (!(pixel.x() >= 0.0 && pixel.y() >= 0.0 && pixel.x() < frame_.width - 1 &&
-          pixel.y() < frame_.height - 1))
-      return false;
-    const int x = static_cast<int>(pixel.x());
-    const int y = static_cast<int>(pixel.y());
-    const auto fx = static_cast<float>(pixel.x() - x);
-    const auto fy = static_cast<float>(pixel.y() - y);
-    const std::uint8_t* at = frame_.data + y * frame_.stride_bytes + static_cast<std::ptrdiff_t>(x) * bytes_;
-    const std::uint8_t* below = at + frame_.stride_bytes;
-    const float upper = value(at) * (1.0F - fx) + value(at + bytes_) * fx;
-    const float lower = value(below) * (1.0F - fx) + value(below + bytes_) * fx;
-    gray = upper * (1.0F - fy) + lower * fy;
-    return true;
-  }
-
- private:
-  float value(const std::uint8_t* pixel) const {
-    if (bytes_ == 1) return pixel[0];
-    return static_cast<float>(weights_.first * pixel[0] + weights_.second * pixel[1] +
-                              weights_.third * pixel[2]) /
-           static_cast<float>(kGrayOne);
-  }
-
-  FrameView frame_;
-  GrayWeights weights_;
-  int bytes_;
-};
 
 // Where the dish's edge shows in one view, looking across the rim that `place` predicts.
 class RimReader {
@@ -78,12 +44,11 @@ class RimReader {
       if (!(in_camera.z() > 0.0)) return false;
       pixels[k] = view_.lens.pixel(in_camera.hnormalized());
     }
-    const Vec2 slope = 0.5 * (pixels[2] - pixels[0]);
-    const Vec2 bend = 0.5 * (pixels[2] + pixels[0]) - pixels[1];
+    const PixelParabola line(pixels);
     for (std::size_t i = 0; i < size; ++i) {
       float gray = 0.0F;
       const double t = 2.0 * static_cast<double>(i) / static_cast<double>(size - 1) - 1.0;
-      if (!gray_.sample(pixels[1] + t * slope + t * t * bend, gray)) return false;
+      if (!gray_.sample(line.at(t), gray)) return false;
       sums[i + 1] = sums[i] + gray;
     }
     for (std::size_t i = 0; i < steps.size(); ++i) {

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "core/dish/rim_votes.hpp"
+#include "core/geometry/parabola.hpp"
 
 namespace traygauge {
 namespace {
@@ -12,9 +13,8 @@ namespace {
 // Where the values peak between the samples about `best`, by a parabola.
 float refined(std::span<const float> steps, std::size_t best, double& index) {
   index = static_cast<double>(best);
-  if (best == 0 || best + 1 == steps.size()) return steps[best];
-  const float bend = steps[best - 1] - 2.0F * steps[best] + steps[best + 1];
-  if (bend < 0.0F) index += 0.5 * static_cast<double>((steps[best - 1] - steps[best + 1]) / bend);
+  if (best > 0 && best + 1 < steps.size())
+    index += parabola_top(steps[best - 1], steps[best], steps[best + 1]);
   return steps[best];
 }
 

@@ -49,30 +49,31 @@ std::array<AgreedHeight, kGlazeBands> find_glaze(const ViewPair& views, const Ta
                                                  std::uint8_t dish, const BareCheckParams& params) {
   const SurfaceView first = surface_view(*views[0], cameras[0]);
   const SurfaceView second = surface_view(*views[1], cameras[1]);
-  const auto for_each_bare = [&](int step, const auto& action) {
-    for (int y = 0; y < grid.labels.height; y += step) {
-      for (int x = 0; x < grid.labels.width; x += step) {
+  const auto for_each_bare = [&](const auto& action) {
+    for (int y = 0; y < grid.labels.height; ++y) {
+      for (int x = 0; x < grid.labels.width; ++x) {
         if (grid.labels.at(x, y) != kDishLabel || grid.evidence.at(x, y) != SurfaceEvidence::both) continue;
-        const SurfacePoint& point = grid.points.at(x, y);
-        action(band_of(point.z_mm, inner.profile), Vec3(point.x_mm, point.y_mm, point.z_mm));
+        action(x, y, band_of(grid.points.at(x, y).z_mm, inner.profile));
       }
     }
   };
   std::array<std::size_t, kGlazeBands> counts{};
-  for_each_bare(1, [&](std::size_t band, const Vec3&) { ++counts[band]; });
-  std::array<AgreedHeight, kGlazeBands> heights;
-  const Vec2& centre = inner.place.centre_mm;
-  for (std::size_t band = 0; band < kGlazeBands; ++band) {
+  for_each_bare([&](int, int, std::size_t band) { ++counts[band]; });
+  const auto step_of = [&](std::size_t band) {
     const double share = static_cast<double>(counts[band]) / static_cast<double>(params.max_glaze_samples);
-    SurfaceAgreement glaze(first, second, dish, {centre.x(), centre.y(), inner.profile.bottom_height_mm()},
-                           params.agreement);
-    for_each_bare(std::max(1, static_cast<int>(std::ceil(std::sqrt(share)))),
-                  [&](std::size_t of, const Vec3& place_mm) {
-                    if (of == band) glaze.add(place_mm);
-                  });
-    heights[band] = glaze.solve();
-  }
-  return heights;
+    return std::max(1, static_cast<int>(std::ceil(std::sqrt(share))));
+  };
+  const std::array<int, kGlazeBands> steps{step_of(0), step_of(1), step_of(2)};
+  const Vec2& centre = inner.place.centre_mm;
+  const SurfaceAgreement none(first, second, dish, {centre.x(), centre.y(), inner.profile.bottom_height_mm()},
+                              params.agreement);
+  std::array<SurfaceAgreement, kGlazeBands> bands{none, none, none};
+  for_each_bare([&](int x, int y, std::size_t band) {
+    if (x % steps[band] != 0 || y % steps[band] != 0) return;
+    const SurfacePoint& point = grid.points.at(x, y);
+    bands[band].add({point.x_mm, point.y_mm, point.z_mm});
+  });
+  return {bands[0].solve(), bands[1].solve(), bands[2].solve()};
 }
 
 }  // namespace traygauge

@@ -40,35 +40,54 @@ bool are_known(const Sightings& sightings) {
   return sightings[0].is_known && sightings[1].is_known;
 }
 
+// Beyond its own errors.
+bool is_significant(const AgreedHeight& height, const TrayCheckParams& params) {
+  return height.is_known && std::abs(height.offset_mm) > params.max_glaze_sigmas * height.sigma_mm;
+}
+
+bool is_where_it_belongs(const AgreedHeight& height, const TrayCheckParams& params) {
+  return height.is_known && std::abs(height.offset_mm) <= params.height_warning_mm;
+}
+
+bool is_height(const Check& check) {
+  return check.kind == CheckKind::dish_height_mm || check.kind == CheckKind::glaze_height_mm;
+}
+
 struct Finding {
   Verdict verdict = Verdict::passed;
   DishFault fault = DishFault::slip;
 };
 
-Check check_of(const DishConsistency& dish, DishFault fault, std::uint8_t label,
-               const TrayCheckParams& params) {
-  if (fault == DishFault::slip)
-    return {CheckKind::dish_slip_mm, label, dish.slip_mm.norm(), dish.slip_sigma_mm, params.slip_warning_mm};
-  if (fault == DishFault::scale)
-    return {CheckKind::scale_percent, label, 100.0 * dish.scale, 100.0 * dish.scale_sigma,
-            100.0 * params.scale_warning};
-  return {CheckKind::dish_height_mm, label, dish.height_mm, dish.height_sigma_mm, params.height_warning_mm};
-}
+// One fault of a dish, and when it is told.
+struct FaultCheck {
+  Check check;
+  double most = 0.0;       // beyond it, refused
+  double by_chance = 0.0;  // what it may explain
+};
 
-double most_of(DishFault fault, const TrayCheckParams& params) {
-  if (fault == DishFault::slip) return params.max_slip_mm;
-  return fault == DishFault::scale ? 100.0 * params.max_scale : params.max_height_mm;
+// In the order of DishFault.
+std::array<FaultCheck, kDishFaults> checks_of(const DishConsistency& dish, std::uint8_t label,
+                                              const TrayCheckParams& params) {
+  constexpr double kPercent = 100.0;
+  return {
+      {{{CheckKind::dish_slip_mm, label, dish.slip_mm.norm(), dish.slip_sigma_mm, params.slip_warning_mm},
+        params.max_slip_mm,
+        params.max_explained_by_slip},
+       {{CheckKind::scale_percent, label, kPercent * dish.scale, kPercent * dish.scale_sigma,
+         kPercent * params.scale_warning},
+        kPercent * params.max_scale,
+        params.max_explained_by_size},
+       {{CheckKind::dish_height_mm, label, dish.height_mm, dish.height_sigma_mm, params.height_warning_mm},
+        params.max_height_mm,
+        params.max_explained_by_size}}};
 }
 
 // The fault that explains most, of those that are more than chance and too large.
-Finding find_fault(const DishConsistency& dish, const std::array<Check, kDishFaults>& checks,
-                   const TrayCheckParams& params) {
+Finding find_fault(const DishConsistency& dish, const std::array<FaultCheck, kDishFaults>& faults) {
   for (const DishFault fault : dish.best_first()) {
-    const double by_chance =
-        fault == DishFault::slip ? params.max_explained_by_slip : params.max_explained_by_size;
-    if (dish.explained_by(fault) <= by_chance) continue;
-    const Check& check = checks[static_cast<std::size_t>(fault)];
-    const Verdict verdict = judge(check.value, check.limit, most_of(fault, params));
+    const FaultCheck& of_fault = faults[static_cast<std::size_t>(fault)];
+    if (dish.explained_by(fault) <= of_fault.by_chance) continue;
+    const Verdict verdict = judge(of_fault.check.value, of_fault.check.limit, of_fault.most);
     if (verdict != Verdict::passed) return {verdict, fault};
   }
   return {};
@@ -76,13 +95,21 @@ Finding find_fault(const DishConsistency& dish, const std::array<Check, kDishFau
 
 Finding add_checks(const DishConsistency& dish, std::uint8_t label, const TrayCheckParams& params,
                    CheckList& checks) {
-  std::array<Check, kDishFaults> of_dish{check_of(dish, DishFault::slip, label, params),
-                                         check_of(dish, DishFault::scale, label, params),
-                                         check_of(dish, DishFault::height, label, params)};
-  const Finding finding = find_fault(dish, of_dish, params);
-  of_dish[static_cast<std::size_t>(finding.fault)].verdict = finding.verdict;
-  for (const Check& check : of_dish) checks.add(check);
+  std::array<FaultCheck, kDishFaults> faults = checks_of(dish, label, params);
+  const Finding finding = find_fault(dish, faults);
+  faults[static_cast<std::size_t>(finding.fault)].check.verdict = finding.verdict;
+  for (const FaultCheck& of_fault : faults) checks.add(of_fault.check);
   return finding;
+}
+
+// A dish that lies elsewhere than described does so because the card does, but not where the table around the
+// card, or another part of the dish, lies where it belongs: `ruler`.
+Warning height_warning(const AgreedHeight& ruler, const TrayCheckParams& params) {
+  return is_where_it_belongs(ruler, params) ? Warning::dish_differs : Warning::card_lifted;
+}
+
+StatusCode height_status(const AgreedHeight& ruler, const TrayCheckParams& params) {
+  return is_where_it_belongs(ruler, params) ? StatusCode::dish_differs : StatusCode::card_lifted;
 }
 
 Warning warning_of(DishFault fault, const AgreedHeight& table, const TrayCheckParams& params) {
@@ -97,28 +124,7 @@ StatusCode status_of(DishFault fault, const AgreedHeight& table, const TrayCheck
   return StatusCode::dish_moved;
 }
 
-// Beyond its own errors.
-bool is_significant(const AgreedHeight& height, const TrayCheckParams& params) {
-  return height.is_known && std::abs(height.offset_mm) > params.max_glaze_sigmas * height.sigma_mm;
-}
-
-bool is_where_it_belongs(const AgreedHeight& height, const TrayCheckParams& params) {
-  return height.is_known && std::abs(height.offset_mm) <= params.height_warning_mm;
-}
-
-bool is_height(const Check& check) {
-  return check.kind == CheckKind::dish_height_mm || check.kind == CheckKind::glaze_height_mm;
-}
-
 }  // namespace
-
-Warning height_warning(const AgreedHeight& table, const TrayCheckParams& params) {
-  return is_where_it_belongs(table, params) ? Warning::dish_differs : Warning::card_lifted;
-}
-
-StatusCode height_status(const AgreedHeight& table, const TrayCheckParams& params) {
-  return is_where_it_belongs(table, params) ? StatusCode::dish_differs : StatusCode::card_lifted;
-}
 
 void check_dishes(const CheckedTray& tray, const SceneGeometryWorkspace& workspace,
                   const Configuration& configuration, SceneGeometry& geometry, CheckList& checks,
@@ -161,7 +167,6 @@ StatusCode check_glaze(std::span<const AgreedHeight> bands, std::uint8_t dish, c
   if (is_significant(worst, params))
     check.verdict = judge(worst.offset_mm, params.height_warning_mm, params.max_height_mm);
   checks.add(check);
-  // A card that lies on something puts all bands alike elsewhere.
   const auto right = std::ranges::find_if(
       bands, [&](const AgreedHeight& band) { return is_where_it_belongs(band, params); });
   const AgreedHeight& ruler = right == bands.end() ? table : *right;

@@ -14,11 +14,6 @@
 
 namespace traygauge {
 
-// Whether dishes that lie elsewhere than described do so because the card does: not where the table around it
-// lies where the card puts it.
-Warning height_warning(const AgreedHeight& table, const TrayCheckParams& params);
-StatusCode height_status(const AgreedHeight& table, const TrayCheckParams& params);
-
 // Where both views show a dish, and who looked.
 struct CheckedTray {
   ViewPair views;

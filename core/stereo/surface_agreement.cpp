@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/labels/label_regions.hpp"
+#include "core/geometry/parabola.hpp"
 
 namespace traygauge {
 namespace {
@@ -25,20 +25,6 @@ Vec2 on_ring(const std::array<double, 2>& direction, double radius_px) {
   return radius_px * Vec2(direction[0], direction[1]);
 }
 
-// False beside the picture.
-bool sample_bilinear(const ImageView<const std::uint8_t>& picture, const Vec2& at, double& value) {
-  if (!(at.x() >= 0.0 && at.y() >= 0.0 && at.x() < picture.width - 1 && at.y() < picture.height - 1))
-    return false;
-  const auto x = static_cast<int>(at.x());
-  const auto y = static_cast<int>(at.y());
-  const double u = at.x() - x;
-  const double v = at.y() - y;
-  const std::uint8_t* upper = picture.row(y) + x;
-  const std::uint8_t* lower = picture.row(y + 1) + x;
-  value = (1.0 - v) * ((1.0 - u) * upper[0] + u * upper[1]) + v * ((1.0 - u) * lower[0] + u * lower[1]);
-  return true;
-}
-
 }  // namespace
 
 SurfaceAgreement::SurfaceAgreement(const SurfaceView& first, const SurfaceView& second, std::uint8_t label,
@@ -57,7 +43,8 @@ SurfaceAgreement::Sampled SurfaceAgreement::sample(const SurfaceView& view, cons
   while (sampled.level + 1 < kPyramidLevels &&
          grain_px >= kPixelsAcrossGrain * static_cast<double>(2U << sampled.level))
     ++sampled.level;
-  sampled.picture = view.gray.levels[sampled.level];
+  const ImageView<const std::uint8_t>& picture = view.gray.levels[sampled.level];
+  sampled.picture = {picture.data, picture.width, picture.height, picture.stride, PixelFormat::gray8};
   sampled.ring_px = grain_px / static_cast<double>(1U << sampled.level);
   sampled.bare_px = grain_px + kBareMarginPx;
   return sampled;
@@ -79,14 +66,16 @@ bool SurfaceAgreement::is_bare(std::size_t view, const Vec2& pixel) const {
 bool SurfaceAgreement::contrast(std::size_t view, const Vec2& pixel, double& value) const {
   const Sampled& sampled = sampled_[view];
   const Vec2 at(to_level(pixel.x(), sampled.level), to_level(pixel.y(), sampled.level));
-  if (!sample_bilinear(sampled.picture, at, value)) return false;
+  const GraySampler picture(sampled.picture);
+  float gray = 0.0F;
+  if (!picture.sample(at, gray)) return false;
+  const double grain = gray;
   double around = 0.0;
   for (const auto& direction : kRing) {
-    double sample = 0.0;
-    if (!sample_bilinear(sampled.picture, at + on_ring(direction, sampled.ring_px), sample)) return false;
-    around += sample;
+    if (!picture.sample(at + on_ring(direction, sampled.ring_px), gray)) return false;
+    around += gray;
   }
-  value = std::clamp(value - around / static_cast<double>(kRing.size()), -params_.max_contrast,
+  value = std::clamp(grain - around / static_cast<double>(kRing.size()), -params_.max_contrast,
                      params_.max_contrast);
   return true;
 }
@@ -100,7 +89,7 @@ void SurfaceAgreement::add(const Vec3& place_mm) {
     pixel = views_[view]->lens.pixel(seen.hnormalized());
     return is_bare(view, pixel);
   };
-  // Where the line of sight of the first picture is seen in the second: a parabola of the height.
+  // The line of sight of the first picture, as the second sees it.
   Vec2 pixel;
   std::array<Vec2, 3> path;
   if (!pixel_in(0, place_mm, pixel)) return;
@@ -108,14 +97,13 @@ void SurfaceAgreement::add(const Vec3& place_mm) {
     const double height_mm = (static_cast<double>(i) - 1.0) * params_.reach_mm;
     if (!pixel_in(1, place_mm + sight * (height_mm / sight.z()), path[i])) return;
   }
-  const Vec2 slope = 0.5 * (path[2] - path[0]);
-  const Vec2 bend = 0.5 * (path[2] + path[0]) - path[1];
+  const PixelParabola line(path);
   double first = 0.0;
   std::array<double, kHeights> second{};
   if (!contrast(0, pixel, first)) return;
   for (std::size_t i = 0; i < kHeights; ++i) {
     const double height = static_cast<double>(i) / static_cast<double>(kHeightsUp) - 1.0;
-    if (!contrast(1, path[1] + height * (slope + height * bend), second[i])) return;
+    if (!contrast(1, line.at(height), second[i])) return;
   }
   const Vec2 offset = place_mm.head<2>() - middle_mm_;
   const double turns = std::atan2(offset.y(), offset.x()) / (2.0 * std::numbers::pi) + 0.5;
@@ -159,8 +147,7 @@ bool SurfaceAgreement::peak_mm(const Sums& sums, double& offset_mm, double& lead
     if (apart_mm >= params_.apart_mm) lead = std::min(lead, curve[best] - curve[i]);
   }
   if (best == 0 || best + 1 == kHeights) return false;
-  const double bend = curve[best - 1] - 2.0 * curve[best] + curve[best + 1];
-  const double shift = bend < 0.0 ? 0.5 * (curve[best - 1] - curve[best + 1]) / bend : 0.0;
+  const double shift = parabola_top(curve[best - 1], curve[best], curve[best + 1]);
   offset_mm = (static_cast<double>(best) - static_cast<double>(kHeightsUp) + shift) * step_mm;
   return true;
 }

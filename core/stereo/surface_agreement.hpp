@@ -12,6 +12,7 @@
 #include "core/geometry/camera.hpp"
 #include "core/geometry/table_frame.hpp"
 #include "core/image/gray_pyramid.hpp"
+#include "core/image/gray_sampler.hpp"
 #include "core/image_view/image_view.hpp"
 
 namespace traygauge {
@@ -72,7 +73,7 @@ class SurfaceAgreement {
   };
   // A picture at the level at which grains have some pixels.
   struct Sampled {
-    ImageView<const std::uint8_t> picture;
+    FrameView picture;
     std::size_t level = 0;
     double ring_px = 0.0;  // of the level, around a grain
     double bare_px = 0.0;  // of the stored picture: so far around it has to be bare
