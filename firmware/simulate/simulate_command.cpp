@@ -117,16 +117,22 @@ int run_list(std::ostream& out) {
   return kExitMeasured;
 }
 
+// Of whatever is rendered.
+void add_render_options(Command& command, RenderOptions& options, const std::string& seed,
+                        const std::string& reduced) {
+  command.add_option("--out", options.out, "folder of the captures; complete ones in it are kept").required();
+  command.add_option("--seed", options.seed, seed);
+  command.add_option("--jobs", options.jobs, "threads; 0: one a core").range(0, 256);
+  command.add_option("--samples", options.samples, "rays a pixel").range(8, 4096);
+  command.add_flag("--reduced", options.is_reduced, reduced);
+}
+
 void add_render(Program& program, RenderOptions& options) {
   Command command = program.add_command("render", "Render a set, or one scene, into capture folders.");
   command.add_option("what", options.what, "a set (see list) or a scene as .toml").required();
-  command.add_option("--out", options.out, "folder of the captures; complete ones in it are kept").required();
-  command.add_option("--seed", options.seed, "of the set's scenes");
-  command.add_option("--jobs", options.jobs, "threads; 0: one a core").range(0, 256);
-  command.add_option("--samples", options.samples, "rays a pixel").range(8, 4096);
+  add_render_options(command, options, "of the set's scenes", "a few scenes of the set, in small pictures");
   command.add_option("--only", options.only, "the one scene of this name");
   command.add_option("--pairs", options.pairs, "of each scene, the first N; 0: all").range(0, 1000);
-  command.add_flag("--reduced", options.is_reduced, "a few scenes of the set, in small pictures");
   command.add_flag("--kinds", options.extras.has_kinds,
                    "also write kinds_N.png: glaze, rim, cutlery and more, to train on");
 }
@@ -134,11 +140,8 @@ void add_render(Program& program, RenderOptions& options) {
 void add_plan(Program& program, RenderOptions& options) {
   Command command = program.add_command("verify", "Render each step of a plan of traygauge verify.");
   command.add_option("plan", options.what, "the plan; its bodies have to be folded ones").required();
-  command.add_option("--out", options.out, "folder of the captures; complete ones in it are kept").required();
-  command.add_option("--seed", options.seed, "of how exactly a person lays things");
-  command.add_option("--jobs", options.jobs, "threads; 0: one a core").range(0, 256);
-  command.add_option("--samples", options.samples, "rays a pixel").range(8, 4096);
-  command.add_flag("--reduced", options.is_reduced, "pictures of a quarter of the size");
+  add_render_options(command, options, "of how exactly a person lays things",
+                     "pictures of a quarter of the size");
   command.add_option("--config", options.config, "folder with dishes/").environment("TRAYGAUGE_CONFIG");
 }
 

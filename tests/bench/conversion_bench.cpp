@@ -1,15 +1,13 @@
 // Time to convert one frame of 1600 x 1200 as a camera delivers it, beside OpenCV's, against the budget: 5 ms
-// for YUYV and NV12, 25 ms for MJPEG. Time is the processor's, and the best of several rounds counts: other
-// programs only make it longer.
-#include <algorithm>
+// for YUYV and NV12, 25 ms for MJPEG.
 #include <cstdio>
-#include <ctime>
 #include <functional>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
 #include "drivers/pixels/frame_converter.hpp"
+#include "tests/bench/processor_time.hpp"
 
 namespace {
 
@@ -18,22 +16,6 @@ using namespace traygauge;
 constexpr int kWidth = 1600;
 constexpr int kHeight = 1200;
 constexpr int kRounds = 15;
-
-double processor_ms() {
-  timespec time{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
-  return 1e3 * static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_nsec);
-}
-
-double best_ms(const std::function<void()>& work) {
-  double best = 1e9;
-  for (int round = 0; round < kRounds; ++round) {
-    const double begun_ms = processor_ms();
-    work();
-    best = std::min(best, processor_ms() - begun_ms);
-  }
-  return best;
-}
 
 struct Case {
   RawFormat format;
@@ -75,9 +57,9 @@ bool meets_budget(const Case& wanted) {
                            static_cast<std::ptrdiff_t>(row_bytes(wanted.format, kWidth)));
   std::vector<std::uint8_t> out(std::size_t{kWidth} * kHeight * 3);
   cv::Mat theirs;
-  const double ours_ms = best_ms([&] { converter.convert(bytes, out.data()); });
-  const double peer_ms = best_ms([&] { wanted.peer(bytes, theirs); });
-  const double checks_ms = best_ms([&] {
+  const double ours_ms = test::best_ms(kRounds, [&] { converter.convert(bytes, out.data()); });
+  const double peer_ms = test::best_ms(kRounds, [&] { wanted.peer(bytes, theirs); });
+  const double checks_ms = test::best_ms(kRounds, [&] {
     if (!converter.is_whole(bytes) || converter.sharpness(bytes) < 0.0 || fingerprint(bytes) == 0)
       std::puts("");
   });

@@ -1,10 +1,6 @@
 // Time of the network for food on one picture of 320 x 240, beside OpenCV's dnn module with the same layers
-// in floats, on one thread; and of making that picture of a frame. Time is the processor's, and the best of
-// several rounds counts: other programs only make it longer.
-#include <algorithm>
+// in floats, on one thread; and of making that picture of a frame.
 #include <cstdio>
-#include <ctime>
-#include <functional>
 #include <memory>
 #include <new>
 #include <opencv2/dnn.hpp>
@@ -14,6 +10,7 @@
 #include "core/network/network_file.hpp"
 #include "core/network/network_input.hpp"
 #include "core/network/network_runner.hpp"
+#include "tests/bench/processor_time.hpp"
 #include "tests/support/network_composer.hpp"
 
 namespace {
@@ -22,22 +19,6 @@ using namespace traygauge;
 
 constexpr int kRounds = 25;
 constexpr double kBudgetMs = 15.0;
-
-double processor_ms() {
-  timespec time{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
-  return 1e3 * static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_nsec);
-}
-
-double best_ms(const std::function<void()>& work) {
-  double best = 1e9;
-  for (int round = 0; round < kRounds; ++round) {
-    const double begun_ms = processor_ms();
-    work();
-    best = std::min(best, processor_ms() - begun_ms);
-  }
-  return best;
-}
 
 cv::dnn::LayerParams convolution_params(const NetworkLayer& layer) {
   const std::vector<int> shape{layer.output.channels, layer.input.channels, layer.kernel, layer.kernel};
@@ -131,10 +112,10 @@ int main() {
   cv::randu(frame, 0, 256);
   const FrameView view{frame.data, frame.cols, frame.rows, static_cast<std::ptrdiff_t>(frame.step),
                        PixelFormat::bgr8};
-  const double input_ms = best_ms([&] { fill_input(view, runner.input()); });
-  const double ours_ms = best_ms([&] { runner.run(); });
+  const double input_ms = test::best_ms(kRounds, [&] { fill_input(view, runner.input()); });
+  const double ours_ms = test::best_ms(kRounds, [&] { runner.run(); });
   DnnNetwork dnn(network);
-  const double peer_ms = best_ms([&] { dnn.run(); });
+  const double peer_ms = test::best_ms(kRounds, [&] { dnn.run(); });
   const bool is_met = ours_ms <= kBudgetMs;
   std::printf("network  %6.1f million multiply-adds  %zu bytes of memory, file %zu bytes\n",
               1e-6 * static_cast<double>(network.multiply_adds()), bytes, file.size());

@@ -10,7 +10,7 @@ status=0
 cp "$demo/card.png" "$folder"
 cp -r "$2/config/dishes" "$folder"
 file=$folder/station.toml
-"$(dirname "$0")/write_station.sh" "$file" "$folder"
+"$(dirname "$0")/../support/write_station.sh" "$file" "$folder"
 
 expect() { # STATUS LINE…
   wanted=$1

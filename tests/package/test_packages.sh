@@ -23,7 +23,7 @@ cp -a "$folder/$release" "$root"
 mkdir -p "$root/packages"
 cp "$package" "$root/packages/first.deb"
 cp "$simulator" "$root/packages/simulator.deb"
-cp "$here"/*.sh "$root/packages"
+cp "$here"/*.sh "$here/../support/write_station.sh" "$root/packages"
 cp "$here/../../simulator/demo/fish_and_potatoes/card.png" "$root/packages"
 
 # Later versions: a good one, three that cannot take over, one that dpkg refuses, and one whose hub takes every store.

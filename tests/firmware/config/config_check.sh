@@ -11,32 +11,8 @@ file=$folder/station.toml
 status=0
 
 write() { # what stands in [hub] beside its store
-  cat >"$file" <<END
-[camera]
-device = "serial:A1"
-[button]
-line = "TRIGGER"
-[lens]
-width = 1600
-height = 1200
-fx = 1396.9
-fy = 1396.9
-cx = 801.9
-cy = 597.4
-distortion = [-0.095, 0.026, 0.0, 0.0, 0.0]
-[card]
-pattern = "card.png"
-width_mm = 85.60
-height_mm = 53.98
-thickness_mm = 0.8
-[station]
-name = "kitchen"
-socket = "hub"
-folder = "waiting"
-[hub]
-store = "results.db"
-$1
-END
+  "$(dirname "$0")/../../support/write_station.sh" "$file" .
+  printf '%s\n' "$1" >>"$file"
 }
 
 expect() { # STATUS TEXT PROGRAM ARGUMENTS…

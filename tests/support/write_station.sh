@@ -3,7 +3,6 @@
 # beside the file.
 set -eu
 cat >"$1" <<TOML
-version = 1
 [camera]
 device = "serial:A1"
 [button]
