@@ -37,7 +37,7 @@ class Crc32c {
   std::uint32_t remainder_ = ~std::uint32_t{0};
 };
 
-// Finds every change of up to 32 neighbouring bits, others but for one in 2^32.
+// Finds every change within 32 neighbouring bits, and of all others all but one in 2^32.
 inline std::uint32_t crc32c(std::span<const std::byte> bytes) {
   Crc32c checksum;
   checksum.add(bytes);

@@ -8,14 +8,14 @@
 
 namespace traygauge {
 
-template <std::unsigned_integral T>
+template <std::integral T>
 void store_little_endian(std::span<std::byte> bytes, std::size_t at, T number) {
   for (std::size_t i = 0; i < sizeof(T); ++i) {
-    bytes[at + i] = static_cast<std::byte>((std::uint64_t{number} >> (8 * i)) & 0xff);
+    bytes[at + i] = static_cast<std::byte>((static_cast<std::uint64_t>(number) >> (8 * i)) & 0xff);
   }
 }
 
-template <std::unsigned_integral T>
+template <std::integral T>
 T load_little_endian(std::span<const std::byte> bytes, std::size_t at) {
   std::uint64_t number = 0;
   for (std::size_t i = 0; i < sizeof(T); ++i) {

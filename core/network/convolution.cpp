@@ -12,7 +12,7 @@ namespace {
 // `taps` is a multiple of kTapBlock.
 void add_products(const std::int16_t* __restrict cells, const std::int16_t* __restrict weights,
                   std::size_t taps, std::int32_t* __restrict first, std::int32_t* __restrict second) {
-  static_assert(kOutputBlock == 4);
+  static_assert(kOutputBlock == 4 && kTileCells % 2 == 0);
   if (taps % kTapBlock != 0) __builtin_unreachable();
   const std::int16_t* __restrict a = cells;
   const std::int16_t* __restrict b = cells + taps;

@@ -15,13 +15,16 @@
 
 namespace traygauge {
 
-inline constexpr int kMinNetworkSide = 16;
+inline constexpr int kMinNetworkSide = 16;  // no food shows in less; no code depends on it
+// Up to these a tensor has 2^28 bytes, so that places in it fit an int, and a sum of products, of two sources
+// and 3×3, leaves half of 32 bits to the bias (network_file.cpp asserts it).
 inline constexpr int kMaxNetworkSide = 1024;
 inline constexpr int kMaxNetworkChannels = 256;  // of a tensor
+// Room in a Network, of which a station has one; the network for food has 16 layers.
 inline constexpr int kMaxNetworkClasses = 32;
 inline constexpr std::size_t kMaxNetworkLayers = 32;
 inline constexpr std::size_t kMaxNetworkTensors = kMaxNetworkLayers + 1;
-inline constexpr std::size_t kMaxLayerSources = 2;
+inline constexpr std::size_t kMaxLayerSources = 2;  // of a U-Net: what comes up, and what is handed across
 inline constexpr int kPictureChannels = 3;
 inline constexpr std::int64_t kMaxMultiplyAdds = 1'000'000'000;  // half a second on a small board
 
@@ -39,6 +42,7 @@ enum class Enlargement : std::uint8_t {
   nearest,   // twofold
   bilinear,  // twofold: 9, 3, 3 and 1 sixteenths of the four nearest cells, rounded
 };
+inline constexpr std::size_t kEnlargements = 3;
 
 struct TensorShape {
   int width = 0;
@@ -104,8 +108,9 @@ struct Network {
   NetworkTestVector test;
 
   std::span<const NetworkLayer> used_layers() const { return std::span(layers).first(layer_count); }
-  // The output of this role; null where the network has none.
+  // The output of this role; null where the network has none, and for no role.
   const NetworkLayer* find(NetworkRole role) const {
+    if (role == NetworkRole::none) return nullptr;
     for (const NetworkLayer& layer : used_layers()) {
       if (layer.role == role) return &layer;
     }

@@ -11,7 +11,7 @@
 namespace traygauge {
 namespace {
 
-constexpr std::int32_t kMaxBias = std::int32_t{1} << 30U;
+constexpr std::int32_t kMaxBias = std::int32_t{1} << 30U;  // half of what 32 bits hold
 // A sum holds a bias and this many products of a byte and a weight.
 constexpr auto kMaxTaps = std::int64_t{9} * kMaxLayerSources * kMaxNetworkChannels;
 static_assert(kMaxBias + kMaxTaps * 255 * 128 < std::int64_t{1} << 31U);
@@ -148,7 +148,7 @@ class Parser {
   bool read_sources(std::size_t index, NetworkLayer& layer) {
     layer.source_count = reader_.number<std::uint8_t>();
     for (LayerSource& source : layer.sources) {
-      if (!read_choice(reader_, 3, source.enlargement)) return false;
+      if (!read_choice(reader_, kEnlargements, source.enlargement)) return false;
     }
     if (reader_.number<std::uint8_t>() != 0) return false;
     for (LayerSource& source : layer.sources) source.tensor = reader_.number<std::uint16_t>();
@@ -200,10 +200,8 @@ class Parser {
     layer.weights = reader_.take(channels * layer.taps());
     if (reader_.failed()) return false;
     for (std::size_t c = 0; c < channels; ++c) {
-      const auto bias = static_cast<std::int32_t>(
-          load_little_endian<std::uint32_t>(layer.biases, c * sizeof(std::int32_t)));
-      const auto multiplier = static_cast<std::int32_t>(
-          load_little_endian<std::uint32_t>(layer.multipliers, c * sizeof(std::int32_t)));
+      const auto bias = load_little_endian<std::int32_t>(layer.biases, c * sizeof(std::int32_t));
+      const auto multiplier = load_little_endian<std::int32_t>(layer.multipliers, c * sizeof(std::int32_t));
       const auto shift = std::to_integer<int>(layer.shifts[c]);
       if (bias < -kMaxBias || bias > kMaxBias || multiplier < 1 || shift < kMinRescalingShift ||
           shift > kMaxRescalingShift) {
@@ -245,10 +243,8 @@ class Parser {
 }  // namespace
 
 NetworkFileStatus parse_network(std::span<const std::byte> bytes, Network& network) {
-  const auto is_same = [](std::byte a, std::uint8_t b) { return std::to_integer<std::uint8_t>(a) == b; };
-  if (bytes.size() < kNetworkSignature.size() ||
-      !std::equal(kNetworkSignature.begin(), kNetworkSignature.end(), bytes.begin(),
-                  [&](std::uint8_t a, std::byte b) { return is_same(b, a); })) {
+  const std::span signature = std::as_bytes(std::span(kNetworkSignature));
+  if (bytes.size() < signature.size() || !std::ranges::equal(signature, bytes.first(signature.size()))) {
     return NetworkFileStatus::foreign;
   }
   if (bytes.size() < kNetworkHeaderBytes ||

@@ -32,6 +32,7 @@
 namespace traygauge {
 
 inline constexpr std::uint16_t kNetworkFileVersion = 1;
+// Layers take no less memory than bytes in the file: a larger one does not fit into kMaxNetworkBytes.
 inline constexpr std::size_t kMaxNetworkFileBytes = std::size_t{1} << 20U;
 
 // Where the layout above has it; for those who write such files.
@@ -40,7 +41,6 @@ inline constexpr std::size_t kNetworkCheckedAt = 12;
 inline constexpr std::size_t kNetworkVersionAt = 16;
 inline constexpr std::size_t kNetworkHeaderBytes = 40;
 inline constexpr std::size_t kNetworkNameBytes = 24;
-inline constexpr std::size_t kNetworkLayerBytes = 20;
 inline constexpr auto kNetworkSignature =
     std::to_array<std::uint8_t>({0x89, 'T', 'G', 'N', '\r', '\n', 0x1a, '\n'});
 

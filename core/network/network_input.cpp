@@ -81,8 +81,6 @@ class FrameReducer {
   std::array<std::int64_t, std::size_t{kRowBlock} * kPictureChannels> sums_{};
 };
 
-}  // namespace
-
 InputPlacement place_input(int frame_width, int frame_height, int input_width, int input_height) {
   const std::int64_t by_width = std::int64_t{frame_width} * input_height;
   const std::int64_t by_height = std::int64_t{frame_height} * input_width;
@@ -96,6 +94,8 @@ InputPlacement place_input(int frame_width, int frame_height, int input_width, i
   place.top = (input_height - place.height) / 2;
   return place;
 }
+
+}  // namespace
 
 InputPlacement fill_input(const FrameView& frame, ImageView<std::uint8_t> input) {
   const InputPlacement place =

@@ -13,9 +13,8 @@ struct InputPlacement {
   int height = 0;
 };
 
-inline constexpr std::uint8_t kFillingGray = 128;
-
-InputPlacement place_input(int frame_width, int frame_height, int input_width, int input_height);
+inline constexpr std::uint8_t kFillingGray =
+    128;  // the middle of a byte's range; training fills with the same
 
 // Averages the area that each pixel of `input` covers exactly, rounded, halves upward. `input` has three
 // bytes a pixel: red, green, blue. Grey frames fill all three. Frames have at most 8192 pixels a side.

@@ -13,10 +13,10 @@
 
 namespace traygauge {
 
-// Sums are taken of so many products at a time: a register of any processor holds them.
+// Taps are filled up to a multiple: eight numbers of 16 bits fill a register of SSE2 and of NEON.
 inline constexpr std::size_t kTapBlock = 8;
 inline constexpr std::size_t kOutputBlock = 4;  // output channels computed side by side
-inline constexpr std::size_t kTileCells = 16;   // cells of a row computed side by side
+inline constexpr std::size_t kTileCells = 16;   // cells of a row computed side by side, in pairs
 
 constexpr std::size_t round_up(std::size_t count, std::size_t block) {
   return (count + block - 1) / block * block;

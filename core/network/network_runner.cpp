@@ -6,13 +6,6 @@
 #include "core/network/rescaling.hpp"
 
 namespace traygauge {
-namespace {
-
-std::int32_t load_int32(std::span<const std::byte> numbers, std::size_t index) {
-  return static_cast<std::int32_t>(load_little_endian<std::uint32_t>(numbers, index * sizeof(std::uint32_t)));
-}
-
-}  // namespace
 
 std::size_t required_bytes(const Network& network) {
   ArenaPlan arena;
@@ -35,8 +28,8 @@ void NetworkRunner::pack(std::size_t layer) {
   const std::size_t padded = NetworkPlan::padded_taps(from);
   for (std::size_t c = 0; c < channels; ++c) {
     const std::size_t at = plan_.channels_at[layer] + c;
-    workspace_.biases[at] = load_int32(from.biases, c);
-    workspace_.multipliers[at] = load_int32(from.multipliers, c);
+    workspace_.biases[at] = load_little_endian<std::int32_t>(from.biases, c * sizeof(std::int32_t));
+    workspace_.multipliers[at] = load_little_endian<std::int32_t>(from.multipliers, c * sizeof(std::int32_t));
     workspace_.shifts[at] = std::to_integer<std::uint8_t>(from.shifts[c]);
     const std::span<std::int16_t> weights = workspace_.weights.subspan(plan_.weights_at[layer] + c * padded);
     for (std::size_t k = 0; k < from.taps(); ++k) {
@@ -73,13 +66,13 @@ void NetworkRunner::run() {
 
 TensorView NetworkRunner::output(NetworkRole role) const {
   const NetworkLayer* layer = network_.find(role);
-  if (layer == nullptr || role == NetworkRole::none) return {};
+  if (layer == nullptr) return {};
   return tensor(static_cast<std::size_t>(layer - network_.layers.data()) + 1);
 }
 
 float NetworkRunner::step(NetworkRole role) const {
   const NetworkLayer* layer = network_.find(role);
-  return layer == nullptr || role == NetworkRole::none ? 0.0F : layer->step;
+  return layer == nullptr ? 0.0F : layer->step;
 }
 
 }  // namespace traygauge

@@ -13,7 +13,8 @@
 
 namespace traygauge {
 
-inline constexpr std::size_t kMaxNetworkBytes = std::size_t{1} << 20U;  // what a station has room for
+inline constexpr std::size_t kMaxNetworkBytes =
+    std::size_t{1} << 20U;  // what a station has room for; the network for food takes 0.8
 
 // Bytes that a runner of this network takes: weights of 16 bits, tensors, rows of a convolution.
 std::size_t required_bytes(const Network& network);

@@ -6,6 +6,7 @@
 
 namespace traygauge {
 
+// A half, 2^(shift - 1), is then 1 to 2^61; a product is at most 2^62.
 inline constexpr int kMinRescalingShift = 1;
 inline constexpr int kMaxRescalingShift = 62;
 
@@ -26,7 +27,7 @@ constexpr std::uint8_t saturate(std::int64_t value, bool has_relu) {
 
 // A byte as two's complement has it.
 constexpr std::int16_t signed_value(std::uint8_t byte) {
-  return static_cast<std::int16_t>(byte < 128 ? byte : byte - 256);
+  return static_cast<std::int8_t>(byte);
 }
 
 }  // namespace traygauge

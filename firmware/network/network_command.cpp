@@ -19,7 +19,7 @@
 namespace traygauge {
 namespace {
 
-constexpr std::size_t kNameWidth = 26;
+constexpr std::size_t kNameWidth = kNetworkNameBytes + 2;
 
 const char* role_text(NetworkRole role) {
   constexpr std::array<const char*, kNetworkRoles> kTexts = {"", "classes", "border", "embedding"};
@@ -33,12 +33,12 @@ std::string shape_text(const TensorShape& shape) {
 
 // "12 bilinear + 1": tensors, and how they are enlarged.
 std::string sources_text(const NetworkLayer& layer) {
-  constexpr std::array<const char*, 3> kEnlargements = {"", " nearest", " bilinear"};
+  constexpr std::array<const char*, kEnlargements> kTexts = {"", " nearest", " bilinear"};
   std::string text;
   for (const LayerSource& source : layer.used_sources()) {
     if (!text.empty()) text += " + ";
     text += std::to_string(source.tensor);
-    text += kEnlargements[static_cast<std::size_t>(source.enlargement)];
+    text += kTexts[static_cast<std::size_t>(source.enlargement)];
   }
   return text;
 }
@@ -78,7 +78,8 @@ void print_file(const NetworkOptions& options, const LoadedNetwork& loaded, std:
   const auto row = [&](const char* name, const std::string& value) {
     out << pad_right(name, kNameWidth) << value << "\n";
   };
-  row("file", options.file + ", " + std::to_string(loaded.file_bytes()) + " bytes, version 1");
+  row("file", options.file + ", " + std::to_string(loaded.file_bytes()) + " bytes, version " +
+                  std::to_string(kNetworkFileVersion));
   row("weights", std::to_string(count_weights(network)));
   row("multiply-adds", fixed(1e-6 * static_cast<double>(network.multiply_adds()), 1) + " million");
   row("memory", mebibytes(loaded.memory_bytes()) + " MiB");

@@ -7,8 +7,7 @@ import numpy as np
 import torch
 import torch.nn.functional as F
 
-from layers import BILINEAR, SAME, NEAREST
-from model import input_size
+from model import enlarge, input_size
 
 MAX_BIAS = 1 << 30
 MIN_SHIFT, MAX_SHIFT = 1, 62
@@ -61,18 +60,6 @@ def to_integers(rounded):
     return made
 
 
-def enlarge_integers(tensor, enlargement, size):
-    if enlargement == SAME:
-        return tensor
-    if enlargement == NEAREST:
-        large = F.interpolate(tensor, scale_factor=2, mode="nearest")
-    else:
-        assert enlargement == BILINEAR
-        # Sixteenths are exact in a double.
-        large = torch.floor(F.interpolate(tensor, scale_factor=2, mode="bilinear", align_corners=False) + 0.5)
-    return large[..., : size[0], : size[1]]
-
-
 def run_integers(layers, numbers, picture):
     """Outputs by role, H x W x channels, of a picture of bytes, H x W x 3. Sums are exact in doubles: they are
     below 2^53."""
@@ -80,7 +67,7 @@ def run_integers(layers, numbers, picture):
     outputs = {}
     for layer, own in zip(layers, numbers):
         size = input_size(layer, tensors)
-        sources = [enlarge_integers(tensors[tensor], how, size) for tensor, how in layer.sources]
+        sources = [torch.floor(enlarge(tensors[tensor], how, size) + 0.5) for tensor, how in layer.sources]
         weights = torch.from_numpy(own.weights.astype(np.float64)).permute(0, 3, 1, 2)
         sums = F.conv2d(torch.cat(sources, 1), weights, None, layer.stride, layer.kernel // 2)[0]
         whole = sums.numpy().astype(np.int64) + own.biases[:, None, None]

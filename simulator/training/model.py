@@ -4,7 +4,7 @@ import torch
 import torch.nn.functional as F
 from torch import nn
 
-from layers import NEAREST, SAME, shared_scales, tensor_channels
+from layers import BILINEAR, NEAREST, SAME, shared_scales, tensor_channels
 
 PIXEL_STEP = 1.0 / 255.0  # real value of one unit of the picture
 LAST_BYTE = 255.0
@@ -118,7 +118,7 @@ class RoundedNetwork(nn.Module):
             sources = []
             for tensor, how in layer.sources:
                 source = enlarge(tensors[tensor], how, size)
-                if is_rounding and how not in (SAME, NEAREST):
+                if is_rounding and how == BILINEAR:
                     source = round_through(source / self.steps[tensor]) * self.steps[tensor]
                 sources.append(source)
             made = F.conv2d(

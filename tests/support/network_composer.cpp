@@ -146,6 +146,13 @@ class NetworkDraw {
   std::vector<Size> sizes_;
 };
 
+// Of every tensor, the picture's first.
+std::vector<int> tensor_channels(const ComposedNetwork& network) {
+  std::vector<int> channels{kPictureChannels};
+  for (const ComposedLayer& layer : network.layers) channels.push_back(layer.channels);
+  return channels;
+}
+
 }  // namespace
 
 std::vector<std::byte> compose_network(const ComposedNetwork& network) {
@@ -174,12 +181,6 @@ std::vector<std::byte> compose_network(const ComposedNetwork& network) {
 void mend_checksum(std::vector<std::byte>& file) {
   const std::span<std::byte> bytes(file);
   store_little_endian(bytes, kNetworkCrcAt, crc32c(bytes.subspan(kNetworkCheckedAt)));
-}
-
-std::vector<int> tensor_channels(const ComposedNetwork& network) {
-  std::vector<int> channels{kPictureChannels};
-  for (const ComposedLayer& layer : network.layers) channels.push_back(layer.channels);
-  return channels;
 }
 
 void draw_numbers(std::uint32_t seed, ComposedNetwork& network) {

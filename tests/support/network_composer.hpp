@@ -45,9 +45,6 @@ std::vector<std::byte> compose_network(const ComposedNetwork& network);
 // Writes the checksum of the rest into the file's head.
 void mend_checksum(std::vector<std::byte>& file);
 
-// Channels of every tensor, the picture's first.
-std::vector<int> tensor_channels(const ComposedNetwork& network);
-
 // Gives every layer weights, biases and multipliers by chance, such that sums rarely saturate and seldom
 // vanish.
 void draw_numbers(std::uint32_t seed, ComposedNetwork& network);

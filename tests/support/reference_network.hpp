@@ -1,5 +1,5 @@
-// Networks computed slowly, one value after the other, straight from what network.hpp says of them. Shares no
-// code with core.
+// Networks computed slowly, one value after the other, straight from what network.hpp says of them. Shares
+// none of core's arithmetic.
 #pragma once
 
 #include <cstdint>
