@@ -7,6 +7,7 @@
 #include <ostream>
 #include <sstream>
 
+#include "core/network/network_file.hpp"
 #include "firmware/base/exit_status.hpp"
 #include "firmware/base/percent.hpp"
 #include "firmware/base/text.hpp"
