@@ -259,12 +259,12 @@ check-format: packages
 format: packages
 	$(sources) | xargs clang-format -i
 
-# clang-tidy over everything that is shipped; LINT='core/stereo/' for a part of it. It reads the commands of a build
+# clang-tidy over everything that is shipped; LINT_FILES='core/stereo/' for a part of it. It reads the commands of a build
 # without precompiled headers, because clang cannot read GCC's.
-LINT ?= (core|drivers|simulator|firmware)/
+LINT_FILES ?= (core|drivers|simulator|firmware)/
 lint: packages
 	cmake --preset lint
-	run-clang-tidy -quiet -j $(JOBS) -p build-lint '^$(CURDIR)/$(LINT)' >build-lint/lint.log 2>&1 || \
+	run-clang-tidy -quiet -j $(JOBS) -p build-lint '^$(CURDIR)/$(LINT_FILES)' >build-lint/lint.log 2>&1 || \
 	  { grep -A 3 -E '(error|warning): ' build-lint/lint.log; echo 'All of it: build-lint/lint.log' >&2; exit 1; }
 
 # The same over what the last commit changed, or what changed since LINT_SINCE.
