@@ -26,6 +26,13 @@ constexpr double from_level(double coordinate, std::size_t level) {
   return (coordinate + 0.5) * static_cast<double>(1U << level) - 0.5;
 }
 
+// The coarsest level at which `length_px` of the stored picture still has `least_px`.
+constexpr std::size_t level_of(double length_px, double least_px) {
+  std::size_t level = 0;
+  while (level + 1 < kPyramidLevels && length_px >= least_px * static_cast<double>(2U << level)) ++level;
+  return level;
+}
+
 struct PyramidWorkspace {
   std::array<std::span<std::uint8_t>, kPyramidLevels - 1> storage;
 

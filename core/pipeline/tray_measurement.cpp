@@ -5,6 +5,7 @@
 
 #include "core/pipeline/bare_checks.hpp"
 #include "core/pipeline/dish_observation.hpp"
+#include "core/pipeline/standing_object.hpp"
 #include "core/pipeline/tray_checks.hpp"
 #include "core/quality/view_input.hpp"
 
@@ -64,6 +65,18 @@ void report_own_motion(const SceneGeometry& geometry, Measurement& measurement) 
   }
 }
 
+// A dish that was looked for and not found stands somewhere, too.
+void warn_about_unknown_objects(const CheckedTray& tray, const SceneGeometry& geometry,
+                                const Configuration& configuration, Measurement& measurement) {
+  if (tray.found != nullptr && !tray.found->has_all_dishes()) return;
+  const StandingObject object =
+      find_standing_object(tray.views, geometry, configuration.card.size(), configuration.checks.standing);
+  measurement.checks.add({CheckKind::object_height_mm, kBackgroundLabel, object.height_mm, object.sigma_mm,
+                          configuration.checks.standing.least_height_mm,
+                          object.is_seen ? Verdict::warned : Verdict::passed});
+  measurement.warnings.raise_if(object.is_seen, Warning::unknown_object);
+}
+
 void warn_about_guessed_dishes(const SceneGeometry& geometry, WarningSet& warnings) {
   for (const DishOnTray& dish : std::span(geometry.dishes).first(geometry.dish_count))
     warnings.raise_if(dish.candidates.size() > 1, Warning::dish_guessed, dish.label);
@@ -121,6 +134,7 @@ void measure_tray(TrayMemory& memory, const Configuration& configuration, const 
                            : check_angle(measurement.relative_angle_deg, configuration.geometry);
   if (!measurement.status.ok()) return;
   clock.enter(Stage::stereo);
+  warn_about_unknown_objects(checked, geometry, configuration, measurement);
   suppress_speculars(views, configuration.specular);
   for (std::size_t d = 0; d < geometry.dish_count; ++d) {
     measure_dish(views, geometry, d, configuration, dish, observer, clock, measurement);

@@ -53,6 +53,8 @@ namespace traygauge {
   CODE(dish_differs, \
        "A dish's surface lies a little off where its description puts it; check which dish it is, and its " \
        "description.") \
+  CODE(unknown_object, \
+       "Something that no description names stands beside the dishes; what may be in it is not measured.") \
   CODE(item_moved, \
        "An item seems to have moved a little on its dish between the pictures; its volume may be off.") \
   CODE(dish_empty, "No food was seen on a dish; it counts as empty.") \

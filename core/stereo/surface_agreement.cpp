@@ -37,12 +37,9 @@ SurfaceAgreement::SurfaceAgreement(const SurfaceView& first, const SurfaceView& 
       sampled_{sample(first, middle_mm), sample(second, middle_mm)} {}
 
 SurfaceAgreement::Sampled SurfaceAgreement::sample(const SurfaceView& view, const Vec3& middle_mm) const {
-  const double distance_mm = (view.camera_from_table * middle_mm).norm();
-  const double grain_px = params_.grain_mm * view.lens.pinhole.mean_focal_px() / distance_mm;
+  const double grain_px = params_.grain_mm * px_per_mm(view, middle_mm);
   Sampled sampled;
-  while (sampled.level + 1 < kPyramidLevels &&
-         grain_px >= kPixelsAcrossGrain * static_cast<double>(2U << sampled.level))
-    ++sampled.level;
+  sampled.level = level_of(grain_px, kPixelsAcrossGrain);
   const ImageView<const std::uint8_t>& picture = view.gray.levels[sampled.level];
   sampled.picture = {picture.data, picture.width, picture.height, picture.stride, PixelFormat::gray8};
   sampled.ring_px = grain_px / static_cast<double>(1U << sampled.level);

@@ -9,11 +9,9 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "core/geometry/camera.hpp"
-#include "core/geometry/table_frame.hpp"
-#include "core/image/gray_pyramid.hpp"
 #include "core/image/gray_sampler.hpp"
 #include "core/image_view/image_view.hpp"
+#include "core/stereo/surface_view.hpp"
 
 namespace traygauge {
 
@@ -27,14 +25,6 @@ struct SurfaceAgreementParams {
   double apart_mm = 4.0;
   double max_sigma_mm = 0.5;  // where parts of the surface agree worse, it is none
   std::size_t min_samples = 200;
-};
-
-// One of the two pictures, and what it shows where.
-struct SurfaceView {
-  const GrayPyramid& gray;
-  const LensModel& lens;
-  ImageView<const std::uint8_t> labels;
-  Pose camera_from_table;
 };
 
 struct AgreedHeight {

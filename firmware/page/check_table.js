@@ -6,6 +6,9 @@ import { item_name } from './sentences.js';
 import { word, word_of } from './words.js';
 
 const kMarks = { passed: 'good', warned: 'warning', refused: 'fault' };
+// Of what is no dish.
+const kTrayLabel = 0;
+const kCardLabel = 255;
 
 // The names of checks end in their unit.
 function with_unit(text, name) {
@@ -35,11 +38,15 @@ function outcome(check) {
     word_of('verdict', verdict) ?? verdict);
 }
 
+function whose_check({ name, label }, scan) {
+  const item = scan.items.find((candidate) => candidate.label === label);
+  if (name.startsWith('item_')) return item_name(item ?? { label, food: null });
+  if (label === kTrayLabel) return word('checks.tray');
+  return label === kCardLabel ? word('checks.card') : word('checks.dish', { label });
+}
+
 function what_was_checked(check, scan) {
-  const item = scan.items.find((candidate) => candidate.label === check.label);
-  const is_of_item = check.name.startsWith('item_');
-  const whose = is_of_item ? item_name(item ?? { label: check.label, food: null })
-    : word('checks.dish', { label: check.label });
+  const whose = whose_check(check, scan);
   return [word_of('check', check.name) ?? check.name, ' ', element('span', { class: 'quiet' }, whose)];
 }
 

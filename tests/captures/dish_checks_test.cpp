@@ -205,6 +205,23 @@ TEST_P(DishChecks, TellOfADishThatIsDeeperOrShallowerThanSaid) {
   }
 }
 
+// Three dishes stand on the tray, of which the description names two.
+TEST(DishChecks, TellOfADishThatNobodyNamed) {
+  if (captures_folder().empty()) GTEST_SKIP() << "TRAYGAUGE_CAPTURES names no captures";
+  const test::FaultyCapture capture(captures_folder() / "trays/t01", {0, 1});
+  const fs::path folder = capture.store();
+  json document = json::parse(read_text(folder / "capture.json"));
+  for (const bool is_named : {true, false}) {
+    if (!is_named) {
+      json& dishes = document["dishes"];
+      dishes.erase(dishes.size() - 1);
+      write_text(folder / "capture.json", document.dump());
+    }
+    const CommandResult result = run({"measure", folder.string(), "--labels", "auto", "--json"});
+    EXPECT_EQ(result.out.find("unknown_object") == std::string::npos, is_named) << result.out;
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Labels, GivenDishChecks, ::testing::Values("given"));
 INSTANTIATE_TEST_SUITE_P(Labels, DishChecks, ::testing::Values("given", "auto"),
                          [](const auto& parameter) { return std::string(parameter.param); });
