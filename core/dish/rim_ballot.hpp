@@ -58,7 +58,7 @@ class Ballot {
   }
 
  private:
-  std::size_t index(int x, int y) const {
+  static std::size_t index(int x, int y) {
     return static_cast<std::size_t>(y) * static_cast<std::size_t>(kCells) + static_cast<std::size_t>(x);
   }
 

@@ -81,7 +81,7 @@ class RingSort {
   }
 
   // After sort() the end of each ring's samples stands where its beginning was.
-  std::span<Sample> samples_of(std::size_t ring) {
+  std::span<Sample> samples_of(std::size_t ring) const {
     const std::size_t begin = ring == 0 ? 0 : workspace_.ends[ring - 1];
     return workspace_.samples.subspan(begin, workspace_.ends[ring] - begin);
   }

@@ -100,7 +100,7 @@ void fill_buckets(const CornerPicture& picture, const CornerGrid& grid, const Co
   const auto width = static_cast<std::size_t>(gray.width);
   response.next_row({rows[1], width});
   response.next_row({rows[2], width});
-  for (int y = response.first_row() + 1; y + 1 < response.end_row(); ++y) {
+  for (int y = CornerResponse::first_row() + 1; y + 1 < response.end_row(); ++y) {
     std::rotate(rows.begin(), rows.begin() + 1, rows.end());
     response.next_row({rows[2], width});
     const float* peaks = workspace.peaks.data();

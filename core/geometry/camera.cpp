@@ -42,8 +42,8 @@ Vec2 distort_upright(const LensModel& lens, const Vec2& ray) {
   const double y = ray.y();
   const double square = ray.squaredNorm();
   const double radial = radial_terms(lens, square).radial;
-  const Vec2 distorted(x * radial + 2.0 * lens.p1 * x * y + lens.p2 * (square + 2.0 * x * x),
-                       y * radial + lens.p1 * (square + 2.0 * y * y) + 2.0 * lens.p2 * x * y);
+  Vec2 distorted(x * radial + 2.0 * lens.p1 * x * y + lens.p2 * (square + 2.0 * x * x),
+                 y * radial + lens.p1 * (square + 2.0 * y * y) + 2.0 * lens.p2 * x * y);
   if (!lens.further.is_used) return distorted;
   const FurtherDistortion& further = lens.further;
   return distorted + square * Vec2(further.s1 + square * further.s2, further.s3 + square * further.s4);
@@ -156,7 +156,7 @@ SensorTilt sensor_tilt(double tau_x_rad, double tau_y_rad) {
 }
 
 Vec2 LensModel::distort(const Vec2& ray) const {
-  const Vec2 distorted = distort_upright(*this, ray);
+  Vec2 distorted = distort_upright(*this, ray);
   if (!further.is_used) return distorted;
   return (matrix_of(further.tilt) * distorted.homogeneous()).hnormalized();
 }

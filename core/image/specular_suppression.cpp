@@ -20,10 +20,10 @@ void suppress_specular(const FrameView& frame, const SpecularParams& params,
   for (int y = 0; y < frame.height; ++y) {
     const std::uint8_t* pixel = frame.data + y * frame.stride_bytes;
     std::uint8_t* out = specular.row(y);
-    for (int x = 0; x < frame.width; ++x) {
-      const auto a = static_cast<float>(pixel[3 * x]);
-      const auto b = static_cast<float>(pixel[3 * x + 1]);
-      const auto c = static_cast<float>(pixel[3 * x + 2]);
+    for (int x = 0; x < frame.width; ++x, pixel += 3) {
+      const auto a = static_cast<float>(pixel[0]);
+      const auto b = static_cast<float>(pixel[1]);
+      const auto c = static_cast<float>(pixel[2]);
       const float least = std::min(std::min(a, b), c);
       const float light = first * a * a + second * b * b + third * c * c - share * least * least;
       out[x] = static_cast<std::uint8_t>(std::sqrt(std::max(light, 0.0F)) + 0.5F);

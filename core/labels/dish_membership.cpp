@@ -83,7 +83,7 @@ class Assignment {
       if (with_items && is_item(label)) sums_px[dishes_[other]] += border_px(item, other);
     }
     sums_px[kBackgroundLabel] = 0;
-    const auto most = std::max_element(sums_px.begin(), sums_px.end());
+    const auto* const most = std::max_element(sums_px.begin(), sums_px.end());
     return *most == 0 ? Vote{} : Vote{static_cast<std::uint8_t>(most - sums_px.begin()), *most};
   }
 

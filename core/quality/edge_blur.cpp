@@ -16,7 +16,7 @@ constexpr int kStep_px =
 constexpr int kBinsPerPixel = 32;   // of a width: the least limit, 1.5 px, is 48 of them
 constexpr double kFootShare = 0.1;  // of the steepest slope: where the edge ends
 
-using WidthHistogram = std::array<std::uint32_t, kEdgeReach_px * kBinsPerPixel>;
+using WidthHistogram = std::array<std::uint32_t, std::size_t{kEdgeReach_px} * kBinsPerPixel>;
 
 // One of the four directions in which pixels neighbour each other.
 struct EdgeDirection {

@@ -1,7 +1,9 @@
 #include "core/quality/region_colours.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
+#include <limits>
 #include <span>
 
 #include "core/base/median.hpp"

@@ -1,6 +1,7 @@
 // The pictures at the samples of a plane rectification, through the lens.
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 
 #include "core/geometry/lens_lanes.hpp"
@@ -91,9 +92,11 @@ void sample_block(ImageView<const std::uint8_t> picture, const Positions& positi
                   int count, std::uint8_t* out) {
   const int last_x = ((picture.width - 1) << kFractionBits) - 1;
   const int last_y = ((picture.height - 1) << kFractionBits) - 1;
+  assert(grid.size > 0);
   const auto divisor = static_cast<std::uint32_t>(grid.size) << (2 * kFractionBits);
   const std::uint32_t half = divisor / 2;
   // One division a block instead of one a sample: exact for all sums below 2^26.
+  // NOLINTNEXTLINE(clang-analyzer-core.DivideZero): a grid has at least one sample
   const std::uint64_t inverse = ((std::uint64_t{1} << 50) + divisor - 1) / divisor;
   for (int i = 0; i < count; ++i) {
     const float x_px = positions.x[static_cast<std::size_t>(i)];

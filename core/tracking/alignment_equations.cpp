@@ -1,6 +1,7 @@
 #include "core/tracking/alignment_equations.hpp"
 
 #include <array>
+#include <cstddef>
 #include <cstring>
 
 #include "core/base/lanes.hpp"
@@ -64,7 +65,7 @@ struct Moments {
 };
 
 void differentiate(const std::int16_t* sampled, AlignmentTemplate& patch) {
-  constexpr int kStride = kAlignmentSide + 2;
+  constexpr std::ptrdiff_t kStride = kAlignmentSide + 2;
   constexpr float kValue = 1.0F / kPatchUnit;
   for (int j = 0; j < kAlignmentSide; ++j) {
     const std::int16_t* row = sampled + (j + 1) * kStride + 1;
@@ -104,8 +105,9 @@ TemplateMoments take_moments(const AlignmentTemplate& patch) {
     FloatLanes value_sum{};
     FloatLanes square_sum{};
     FloatLanes weight_sum{};
-    const FloatLanes column_weights = load_floats(kWeights.data() + group * kFloatLanes);
-    const FloatLanes inverse_weights = load_floats(kInverseWeights.data() + group * kFloatLanes);
+    const FloatLanes column_weights = load_floats(kWeights.data() + std::ptrdiff_t{group} * kFloatLanes);
+    const FloatLanes inverse_weights =
+        load_floats(kInverseWeights.data() + std::ptrdiff_t{group} * kFloatLanes);
     for (int j = 0; j < kAlignmentSide; ++j) {
       const int at = j * kAlignmentSide + group * kFloatLanes;
       const FloatLanes v = load_floats(patch.values + at);
@@ -202,7 +204,7 @@ AlignmentResiduals gather(const float* window, AlignmentTemplate& patch) {
     FloatLanes value_sum{};
     FloatLanes sum_of_r{};
     FloatLanes square_sum{};
-    const FloatLanes column_weights = load_floats(kWeights.data() + group * kFloatLanes);
+    const FloatLanes column_weights = load_floats(kWeights.data() + std::ptrdiff_t{group} * kFloatLanes);
     for (int j = 0; j < kAlignmentSide; ++j) {
       const int at = j * kAlignmentSide + group * kFloatLanes;
       const FloatLanes v = load_floats(patch.values + at);
@@ -252,7 +254,7 @@ bool make_template(ImageView<const std::uint8_t> first, const Vec2& pixel, const
                    PatchMotion motion, AlignmentTemplate& patch) {
   // A ring more than the patch, for the gradients.
   constexpr int kSampledSide = kAlignmentSide + 2;
-  std::array<std::int16_t, kSampledSide * kSampledSide> sampled;
+  std::array<std::int16_t, std::size_t{kSampledSide} * kSampledSide> sampled;
   if (!sample_patch<kSampledSide>(first, pixel, map, sampled.data())) return false;
   differentiate(sampled.data(), patch);
   fill_normal_matrix(motion == PatchMotion::affine ? take_moments<true>(patch) : take_moments<false>(patch),

@@ -1,6 +1,7 @@
 // The second picture's patch at a fraction of a pixel, bilinear.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 
 #include "core/base/lanes.hpp"
@@ -41,7 +42,7 @@ class AlignmentWindow {
 
  private:
   static constexpr int kRows = kAlignmentSide + 1;
-  static constexpr int kStride = kAlignmentSide + kFloatLanes;
+  static constexpr std::ptrdiff_t kStride = kAlignmentSide + kFloatLanes;
 
   // Whole pixels are converted once and serve until the window leaves them.
   void load_pixels(int left, int top) {

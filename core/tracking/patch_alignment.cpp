@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/tracking/alignment_window.hpp"
 
@@ -55,10 +56,10 @@ bool shift_variance(NormalEquations<kParameters> equations, double noise, double
 
 class Aligner {
  public:
-  Aligner(ImageView<const std::uint8_t> first, const Vec2& first_pixel, ImageView<const std::uint8_t> second,
+  Aligner(ImageView<const std::uint8_t> first, Vec2 first_pixel, ImageView<const std::uint8_t> second,
           PatchMotion motion, const PatchAlignmentParams& params, PatchAlignment& alignment)
       : first_(first),
-        first_pixel_(first_pixel),
+        first_pixel_(std::move(first_pixel)),
         window_(second),
         motion_(motion),
         params_(params),

@@ -91,7 +91,7 @@ class ViewSplatter {
 
   void add_quad(const SurfaceCorner& a, const SurfaceCorner& b, const SurfaceCorner& c,
                 const SurfaceCorner& d) {
-    const int known = int{a.known} + int{b.known} + int{c.known} + int{d.known};
+    const auto known = std::ranges::count(std::array{a.known, b.known, c.known, d.known}, true);
     if (known < 3) return;
     if (known == 3) {
       add_triangle(a.known ? a : d, b.known ? b : d, c.known ? c : d);

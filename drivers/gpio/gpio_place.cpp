@@ -19,7 +19,7 @@ bool parse_gpio_place(const std::string& line, GpioPlace& place) {
 }
 
 std::string describe_line(const std::string& line, DeviceStatus status, const std::string& consumer) {
-  const std::string text = "line " + line;
+  std::string text = "line " + line;
   switch (status.code()) {
     case DeviceCode::device_gone:
       return text + ": no chip has it; gpioinfo lists those that there are";

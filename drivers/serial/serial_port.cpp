@@ -93,8 +93,8 @@ DeviceStatus SerialPort::wait(std::int16_t events, Instant deadline) {
     const Nanoseconds left = deadline - clock_.now();
     if (left <= Nanoseconds::zero()) return DeviceCode::timed_out;
     pollfd watched{descriptor_, events, 0};
-    const auto left_ms = std::chrono::ceil<std::chrono::milliseconds>(left).count();
-    const int count = ::poll(&watched, 1, static_cast<int>(std::min<long>(left_ms, 1000)));
+    const std::int64_t left_ms = std::chrono::ceil<std::chrono::milliseconds>(left).count();
+    const int count = ::poll(&watched, 1, static_cast<int>(std::min<std::int64_t>(left_ms, 1000)));
     if (count < 0 && errno != EINTR) return status_of_errno(errno);
     if (count <= 0) continue;
     if ((watched.revents & events) != 0) return DeviceCode::ok;

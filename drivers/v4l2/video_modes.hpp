@@ -56,7 +56,7 @@ std::string describe_wish(const ModeWish& wish);
 
 // The formats that `format` of a wish may name, best first: "BGR24, RGB24, YUYV".
 std::string list_known_formats();
-bool is_known_format(const std::string& name);
+bool is_known_format(const std::string& format);
 
 // What the kernel says of the numbers of a format that was set.
 YuvCoding yuv_coding_of(std::uint32_t colorspace, std::uint32_t encoding, std::uint32_t quantization);

@@ -52,7 +52,7 @@ Expected<void> read_parameter(const NamedText& parameter, HistoryFilter& filter,
   if (name == "wrong") return take(read_truth(parameter), filter.is_wrong);
   if (name == "superseded") {
     std::optional<bool> with = true;
-    if (const Expected<void> taken = take(read_truth(parameter), with); !taken.ok()) return taken;
+    if (Expected<void> taken = take(read_truth(parameter), with); !taken.ok()) return taken;
     filter.with_superseded = *with;
     return {};
   }

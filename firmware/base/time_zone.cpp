@@ -54,10 +54,10 @@ std::string local_text(std::int64_t unix_ms) {
   const auto seconds = static_cast<std::time_t>(unix_ms / kMsPerS);
   std::tm local{};
   ::localtime_r(&seconds, &local);
-  const long offset_min = local.tm_gmtoff / 60;
-  const long distance_min = std::labs(offset_min);
+  const auto offset_min = static_cast<int>(local.tm_gmtoff / 60);
+  const int distance_min = std::abs(offset_min);
   std::array<char, 64> text{};
-  std::snprintf(text.data(), text.size(), "%04d-%02d-%02dT%02d:%02d:%02d.%03d%c%02ld:%02ld",
+  std::snprintf(text.data(), text.size(), "%04d-%02d-%02dT%02d:%02d:%02d.%03d%c%02d:%02d",
                 local.tm_year + 1900, local.tm_mon + 1, local.tm_mday, local.tm_hour, local.tm_min,
                 local.tm_sec, static_cast<int>(unix_ms % kMsPerS), offset_min < 0 ? '-' : '+',
                 distance_min / 60, distance_min % 60);

@@ -12,7 +12,7 @@ namespace traygauge {
 namespace {
 
 constexpr std::int64_t kMsPerSecond = 1000;
-constexpr std::int64_t kMsPerDay = 24 * 3600 * kMsPerSecond;
+constexpr std::int64_t kMsPerDay = kMsPerSecond * 3600 * 24;
 
 // `count` digits at `at`; none where something else stands there.
 std::optional<int> digits_at(std::string_view text, std::size_t at, std::size_t count) {

@@ -142,7 +142,7 @@ class StationCheck {
     std::optional<Pose> camera_from_table;
     tell(check_card(
         picture_.frame.view, lens_of(lens.camera),
-        {station_.card->width_mm, station_.card->height_mm, station_.card->thickness_mm, pattern_.gray()},
+        {{station_.card->width_mm, station_.card->height_mm, station_.card->thickness_mm}, pattern_.gray()},
         camera_from_table));
     return camera_from_table;
   }

@@ -63,6 +63,7 @@ std::vector<LabelHeights> summarise_heights(const StageRuns& runs) {
     }
   }
   std::vector<LabelHeights> heights;
+  heights.reserve(by_label.size());
   for (const auto& [key, value] : by_label)
     heights.push_back(summarise(key.first, key.second, value.first, value.second));
   return heights;

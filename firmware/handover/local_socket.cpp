@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <cstdint>
 #include <cstring>
 #include <system_error>
 
@@ -49,7 +50,7 @@ FileDescriptor open_socket() {
 }
 
 // False when `timeout` passed first.
-bool wait_for(int descriptor, short events, Milliseconds timeout) {
+bool wait_for(int descriptor, std::int16_t events, Milliseconds timeout) {
   pollfd waiting{descriptor, events, 0};
   const auto end = SteadyClock::now() + timeout;
   for (;;) {
@@ -62,7 +63,7 @@ bool wait_for(int descriptor, short events, Milliseconds timeout) {
 
 }  // namespace
 
-Expected<std::size_t> LocalConnection::send_some(std::string_view bytes) {
+Expected<std::size_t> LocalConnection::send_some(std::string_view bytes) const {
   for (;;) {
     const ssize_t sent = ::send(descriptor(), bytes.data(), bytes.size(), MSG_NOSIGNAL);
     if (sent >= 0) return static_cast<std::size_t>(sent);
@@ -71,7 +72,7 @@ Expected<std::size_t> LocalConnection::send_some(std::string_view bytes) {
   }
 }
 
-Expected<void> LocalConnection::send_all(std::string_view bytes, Milliseconds timeout) {
+Expected<void> LocalConnection::send_all(std::string_view bytes, Milliseconds timeout) const {
   const auto end = SteadyClock::now() + timeout;
   for (;;) {
     const Expected<std::size_t> sent = send_some(bytes);
@@ -84,7 +85,7 @@ Expected<void> LocalConnection::send_all(std::string_view bytes, Milliseconds ti
   }
 }
 
-Expected<std::string> LocalConnection::receive_some(Milliseconds timeout) {
+Expected<std::string> LocalConnection::receive_some(Milliseconds timeout) const {
   constexpr std::size_t kMaxAtOnce = 65536;
   if (!wait_for(descriptor(), POLLIN, timeout)) return std::string();
   std::string bytes(kMaxAtOnce, '\0');

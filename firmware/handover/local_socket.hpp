@@ -25,11 +25,11 @@ class LocalConnection {
   void close() { socket_.close(); }
 
   // What the kernel takes at once, in bytes.
-  Expected<std::size_t> send_some(std::string_view bytes);
+  Expected<std::size_t> send_some(std::string_view bytes) const;
   // All of it within `timeout`, or a failure; part of it may then have been sent.
-  Expected<void> send_all(std::string_view bytes, Milliseconds timeout);
+  Expected<void> send_all(std::string_view bytes, Milliseconds timeout) const;
   // What has come, after at most `timeout`; empty when nothing did. A closed peer is a failure.
-  Expected<std::string> receive_some(Milliseconds timeout);
+  Expected<std::string> receive_some(Milliseconds timeout) const;
 
  private:
   FileDescriptor socket_;

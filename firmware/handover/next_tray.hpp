@@ -17,7 +17,7 @@ struct ToldTray {
 };
 
 // {"tray","foods","dishes","valid_ms"} as the hub sends it; fails, with the key and what was expected.
-Expected<ToldTray> read_told_tray(const std::string& json, const std::vector<std::string>& dish_styles);
+Expected<ToldTray> read_told_tray(const std::string& text, const std::vector<std::string>& dish_styles);
 std::string told_tray_json(const ToldTray& told);
 
 // Used by one thread.

@@ -12,7 +12,7 @@ namespace traygauge {
 
 ScanHandover::ScanHandover(ResultSink& printer, HubLink& link, KeptResults& kept, std::ostream& log,
                            ScanHandoverParams params)
-    : printer_(printer), link_(link), kept_(kept), log_(log), params_(params) {
+    : printer_(printer), link_(link), kept_(kept), log_(log), params_(std::move(params)) {
   log_notices();
 }
 

@@ -38,7 +38,8 @@ SmallPicture reduce(const FrameView& frame) {
           const std::uint8_t* const begin = frame.data + (y * factor + row) * frame.stride_bytes +
                                             static_cast<std::ptrdiff_t>(x) * factor * small.channels +
                                             channel;
-          for (int column = 0; column < factor; ++column) sum += begin[column * small.channels];
+          for (int column = 0; column < factor; ++column)
+            sum += begin[static_cast<std::ptrdiff_t>(column) * small.channels];
         }
         small.pixels.push_back(static_cast<std::uint8_t>((sum + factor * factor / 2) / (factor * factor)));
       }
@@ -93,7 +94,7 @@ class Encoder {
   jpeg_error_mgr errors_{};
   std::jmp_buf escape_{};
   unsigned char* bytes_ = nullptr;
-  unsigned long size_ = 0;
+  unsigned long size_ = 0;  // NOLINT(google-runtime-int): libjpeg's
 };
 
 }  // namespace

@@ -36,7 +36,7 @@ Expected<void> read_page(const fs::path& folder, StaticFiles& files) {
   }
   if (error) return Failure{folder.string() + ": " + error.message()};
   std::sort(names.begin(), names.end());
-  if (const Expected<void> read = files.read(folder, names); !read.ok()) return read;
+  if (Expected<void> read = files.read(folder, names); !read.ok()) return read;
   if (!fs::is_regular_file(fs::path(kThreeFolder) / kThreeModule, error)) return {};
   return files.read(kThreeFolder, {kThreeModule});
 }

@@ -1,5 +1,6 @@
 #include "firmware/hub/scan_shape_reader.hpp"
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 namespace traygauge {
@@ -75,11 +76,9 @@ bool is_outline(const Json& json) {
   const Json* const points = part(json, "points_mm");
   if (label == nullptr || !label->is_number_unsigned() || points == nullptr || !points->is_array())
     return false;
-  for (const Json& point : *points) {
-    if (!point.is_array() || point.size() != 2 || !point[0].is_number() || !point[1].is_number())
-      return false;
-  }
-  return true;
+  return std::ranges::all_of(*points, [](const Json& point) {
+    return point.is_array() && point.size() == 2 && point[0].is_number() && point[1].is_number();
+  });
 }
 
 }  // namespace

@@ -33,6 +33,6 @@ struct ReadShape {
 };
 
 // Fails, with what was expected, where a part is absent, of another type or length, or out of range.
-Expected<ReadShape> read_shape(const std::string& json);
+Expected<ReadShape> read_shape(const std::string& text);
 
 }  // namespace traygauge

@@ -177,10 +177,11 @@ void StationInbox::hear_appearance(const Peer& peer, Message message) const {
   if (!id || id->station != peer.station)
     return report("station " + peer.station + ": expected the " + name(message.type) +
                   " of a scan of its own, found another");
-  if (message.type == MessageType::shape && told_.on_shape) told_.on_shape(*id, std::move(message.bytes));
-  // Only what says so is kept.
+  // Only a picture that says so is kept.
   const bool is_kept = text.contains("keep") && text["keep"] == true;
-  if (message.type == MessageType::picture && told_.on_picture)
+  if (message.type == MessageType::shape && told_.on_shape)
+    told_.on_shape(*id, std::move(message.bytes));
+  else if (message.type == MessageType::picture && told_.on_picture)
     told_.on_picture(*id, std::move(message.bytes), is_kept);
 }
 

@@ -39,8 +39,8 @@ class ScanCounter {
   // What opening met, for people; empty where all was well.
   const std::string& notice() const { return notice_; }
 
-  // Whether a newer program wrote this block of such a file; it may be damaged. At least 16 bytes.
-  static bool is_newer(std::span<const std::byte> block);
+  // Whether a newer program wrote this slot of such a file; it may be damaged. At least 16 bytes.
+  static bool is_newer(std::span<const std::byte> slot);
 
   // What a block of the file says.
   struct Reservation {

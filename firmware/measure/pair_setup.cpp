@@ -54,7 +54,7 @@ PairSetup set_up_pair(const Capture& capture, std::array<int, 2> pair,
 
 void describe_tray(const PairSetup& setup, TraySetup& tray) {
   tray.lens = setup.lenses[0];
-  tray.card = {setup.card.width_mm, setup.card.height_mm, setup.card.thickness_mm, setup.pattern.gray()};
+  tray.card = {{setup.card.width_mm, setup.card.height_mm, setup.card.thickness_mm}, setup.pattern.gray()};
   tray.dishes = setup.dishes;
   tray.limits.max_frame_width = std::max(setup.lenses[0].width, setup.lenses[1].width);
   tray.limits.max_frame_height = std::max(setup.lenses[0].height, setup.lenses[1].height);

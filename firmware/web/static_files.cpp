@@ -65,7 +65,7 @@ bool StaticFiles::may_hold(std::string_view name) {
   return type_of(name) != nullptr;
 }
 
-Expected<void> StaticFiles::add(std::string name, std::string content) {
+Expected<void> StaticFiles::add(const std::string& name, std::string content) {
   const FileType* const type = type_of(name);
   if (type == nullptr) return Failure{name + ": a file of the page has an ending such as .html or .js"};
   if (bytes_ + content.size() > kMaxBytes)

@@ -22,7 +22,7 @@ class StaticFiles {
   // Whether a file of that name has one of the endings of which a page is made.
   static bool may_hold(std::string_view name);
   // A file at /`name`, such as "index.html" or "icons/cup.svg"; the ending tells its type.
-  Expected<void> add(std::string name, std::string content);
+  Expected<void> add(const std::string& name, std::string content);
   // Reads those files, and no others, from a folder.
   Expected<void> read(const std::filesystem::path& folder, const std::vector<std::string>& names);
 

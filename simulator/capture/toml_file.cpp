@@ -32,8 +32,9 @@ nlohmann::json to_json(const toml::node& node, const std::string& key, std::map<
   if (const auto* array = node.as_array()) {
     nlohmann::json list = nlohmann::json::array();
     for (const toml::node& value : *array) {
-      const std::string index = std::to_string(list.size());
-      list.push_back(to_json(value, key + "[" + index + "]", lines));
+      std::string element = key;
+      element.append("[").append(std::to_string(list.size())).append("]");
+      list.push_back(to_json(value, element, lines));
     }
     return list;
   }

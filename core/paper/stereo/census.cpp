@@ -47,7 +47,7 @@ SignLanes ordered(const std::uint8_t* rows) {
 void transform_census(const BlockPicture& block, int radius_px, std::span<ByteLanes> codes) {
   const int bytes = census_bytes(radius_px);
   for (int x = 0; x < block.width; ++x) {
-    ByteLanes* code = &codes[static_cast<std::size_t>(x * bytes)];
+    ByteLanes* code = &codes[static_cast<std::size_t>(x) * static_cast<std::size_t>(bytes)];
     for (int i = 0; i < bytes; ++i) code[i] = ByteLanes{};
     const SignLanes centre = ordered(block.pixels[static_cast<std::size_t>(x)].row + kMaxCensusRadius);
     int bit = 0;
