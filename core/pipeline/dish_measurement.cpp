@@ -7,6 +7,7 @@
 #include "core/pipeline/dish_observation.hpp"
 #include "core/pipeline/food_agreement.hpp"
 #include "core/pipeline/item_checks.hpp"
+#include "core/pipeline/picture_agreement.hpp"
 #include "core/pipeline/tray_checks.hpp"
 #include "core/stereo/dish_projection.hpp"
 #include "core/volume/matched_fraction.hpp"
@@ -43,6 +44,11 @@ StatusCode judge_item(const ViewPair& views, std::uint8_t label, const HeightVol
   if (pixels != StatusCode::ok) return pixels;
   if (!(volume.area_mm2 > 0.0)) return StatusCode::too_little_depth;
   return volume.volume_ml > 0.0 ? StatusCode::ok : StatusCode::item_below_dish;
+}
+
+// Without a profile the surface may lie anywhere between bottom and rim: of a uniform distribution.
+double unknown_shape_sigma_mm(const DishModel& model) {
+  return model.has_profile() ? 0.0 : (model.rim_height_mm - model.bottom_height_mm) / std::sqrt(12.0);
 }
 
 template <class Action>
@@ -93,6 +99,7 @@ void measure_dish(const ViewPair& views, const SceneGeometry& geometry, std::siz
   DenseStereoReport dense;
   InnerSurface inner;
   inner.place = frame_of(placed.placed.place);
+  measurement.warnings.raise_if(!model.has_profile(), Warning::dish_shape_unknown, dish.label);
   Status status = inner.profile.set(model);
   if (!status.ok()) return refuse(status);
   status = run_dense_stereo(diffuse_views(views, geometry.bundle.camera_from_table, dish.labels),
@@ -158,12 +165,19 @@ void measure_dish(const ViewPair& views, const SceneGeometry& geometry, std::siz
     if (is_measured)
       item.status = check_item({label, dish.label, views[1]->lens.pinhole.mean_focal_px()}, geometry, grids,
                                inner, configuration.checks, measurement.checks, measurement.warnings);
+    // A liquid mirrors the lamp, which moves with the eye; its level is that of its outline.
+    if (is_measured && label != liquid.label)
+      check_likeness(
+          label,
+          unlike_share(label, grids, views, geometry.bundle.camera_from_table, configuration.checks.pictures),
+          configuration.checks, measurement.checks, measurement.warnings);
     const UncertaintyInput input{volume,
                                  matched[label],
                                  height_per_px_mm,
                                  dense.column_step_mm,
                                  round.contains(label),
-                                 views[0]->are_outlines_found};
+                                 views[0]->are_outlines_found,
+                                 unknown_shape_sigma_mm(model)};
     item.sigma_ml = estimate_sigma_ml(input, geometry.bundle.camera_from_table, geometry.bundle.covariance,
                                       configuration.uncertainty);
     measurement.warnings.raise_if(

@@ -47,4 +47,13 @@ StatusCode check_item(const CheckedItem& item, const SceneGeometry& geometry,
   return worst == Verdict::refused ? StatusCode::item_moved : StatusCode::ok;
 }
 
+void check_likeness(std::uint8_t item, double unlike_share, const TrayCheckParams& params, CheckList& checks,
+                    WarningSet& warnings) {
+  constexpr double kPercent = 100.0;
+  const bool is_unlike = unlike_share > params.pictures.max_unlike;
+  checks.add({CheckKind::item_unlike_percent, item, kPercent * unlike_share, 0.0,
+              kPercent * params.pictures.max_unlike, is_unlike ? Verdict::warned : Verdict::passed});
+  warnings.raise_if(is_unlike, Warning::pictures_differ, item);
+}
+
 }  // namespace traygauge

@@ -26,4 +26,8 @@ StatusCode check_item(const CheckedItem& item, const SceneGeometry& geometry,
                       const std::array<SurfaceGrid, 2>& grids, const InnerSurface& inner,
                       const TrayCheckParams& params, CheckList& checks, WarningSet& warnings);
 
+// By the share of it that looks different in the two pictures.
+void check_likeness(std::uint8_t item, double unlike_share, const TrayCheckParams& params, CheckList& checks,
+                    WarningSet& warnings);
+
 }  // namespace traygauge

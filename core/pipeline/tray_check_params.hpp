@@ -5,6 +5,7 @@
 #include "core/dish/dish_consistency.hpp"
 #include "core/dish/dish_sighting.hpp"
 #include "core/pipeline/bare_check_params.hpp"
+#include "core/pipeline/picture_agreement_params.hpp"
 #include "core/pipeline/standing_object_params.hpp"
 
 namespace traygauge {
@@ -15,6 +16,7 @@ struct TrayCheckParams {
   ItemMotionParams motion;
   BareCheckParams bare;
   StandingObjectParams standing;
+  PictureAgreementParams pictures;
   // How much of what was seen one fault may explain by chance: a slip, whose sigma knows nothing of rims that
   // food hides alike, in one dish of 100,000 (two degrees of freedom); size and height, whose sigma is mostly
   // what dishes of one kind differ by, in one of 1,000.

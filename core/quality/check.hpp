@@ -21,12 +21,13 @@ enum class CheckKind : std::uint8_t {
   own_motion_mm,    // how far dishes slid over the table, which were measured all the same
   item_slip_mm,     // how far an item moved between the pictures, across the line between the cameras
   item_foot_mm,     // how high an item's edge came out over the dish; it does not lie below it
-  object_height_mm,  // of what stands beside the dishes and is none of them, 0 without any; of the
-                     // background's label
+  item_unlike_percent,  // share of an item that looks different in the two pictures
+  object_height_mm,     // of what stands beside the dishes and is none of them, 0 without any; of the
+                        // background's label
 };
 inline constexpr auto kCheckNames = std::to_array<const char*>(
     {"dish_slip_mm", "scale_percent", "dish_height_mm", "glaze_height_mm", "table_height_mm", "own_motion_mm",
-     "item_slip_mm", "item_foot_mm", "object_height_mm"});
+     "item_slip_mm", "item_foot_mm", "item_unlike_percent", "object_height_mm"});
 inline const char* name(CheckKind kind) {
   return kCheckNames[static_cast<std::size_t>(kind)];
 }
@@ -55,8 +56,8 @@ constexpr Verdict judge(double value, double warning, double most) {
 
 class CheckList {
  public:
-  static constexpr std::size_t kCapacity =
-      80;  // eight dishes, sixteen items, the table and what stands on it
+  // Eight dishes with five each, sixteen items with three, the table and what stands on it.
+  static constexpr std::size_t kCapacity = 90;
 
   // What does not fit is left out.
   void add(const Check& check) {

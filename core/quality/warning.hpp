@@ -53,10 +53,16 @@ namespace traygauge {
   CODE(dish_differs, \
        "A dish's surface lies a little off where its description puts it; check which dish it is, and its " \
        "description.") \
+  CODE(dish_shape_unknown, \
+       "A dish is described without the profile of its inner wall, so what lies on the wall may be far " \
+       "off; traygauge dish measures the profile.") \
   CODE(unknown_object, \
        "Something that no description names stands beside the dishes; what may be in it is not measured.") \
   CODE(item_moved, \
        "An item seems to have moved a little on its dish between the pictures; its volume may be off.") \
+  CODE(pictures_differ, \
+       "Part of an item looks different in the two pictures, as behind a hand, dirt on the lens or steam; " \
+       "its volume may be far off.") \
   CODE(dish_empty, "No food was seen on a dish; it counts as empty.") \
   CODE(item_uncertain, \
        "An item's volume is less sure than usual, as of steep pieces with gaps; see its sigma, or " \

@@ -59,7 +59,8 @@ double estimate_sigma_ml(const UncertaintyInput& input, const TableCameras& came
                                         : params.filled_fraction * std::pow(1.0 - input.matched_fraction, 2);
   const double variance_mm6 =
       item.area_mm2 * item.area_mm2 *
-          (cameras_mm * cameras_mm + matching_mm * matching_mm + params.height_mm * params.height_mm) +
+          (cameras_mm * cameras_mm + matching_mm * matching_mm + params.height_mm * params.height_mm +
+           input.dish_sigma_mm * input.dish_sigma_mm) +
       std::pow(params.hidden_fraction * kMm3PerMl * item.hidden_volume_ml, 2) + edge_mm3 * edge_mm3 +
       wall_mm3 * wall_mm3 + std::pow(unmatched_fraction * volume_mm3, 2) +
       std::pow(kMm3PerMl * item.closing_sigma_ml, 2);

@@ -38,6 +38,7 @@ struct UncertaintyInput {
   double px_mm = 0.0;             // of the samples, on the dish
   bool is_round = false;          // shaped by its outlines
   bool is_outline_found = false;  // not drawn by a person
+  double dish_sigma_mm = 0.0;     // of the height of the dish under the item, beside what dishes differ by
 };
 
 // Standard deviation of the height of a point that both cameras see, as far as the cameras' covariance goes.

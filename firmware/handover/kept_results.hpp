@@ -53,7 +53,7 @@ class KeptResults {
   std::vector<std::string> take_notices();
 
  private:
-  // A tray with as many items as can be labelled: 198, of some 220 bytes each, 64 checks of 130 bytes, and
+  // A tray with as many items as can be labelled: 198, of some 220 bytes each, 90 checks of 130 bytes, and
   // warnings.
   static constexpr std::size_t kLargestResultBytes = kMaxPayloadBytes;
 

@@ -22,7 +22,7 @@ import cv2
 import numpy as np
 
 FIRST_FOOD, LAST_FOOD, FIRST_FURTHER_DISH, CARD = 2, 199, 201, 255
-UNSURE = {"item_hardly_matched", "item_uncertain", "item_moved"}
+UNSURE = {"item_hardly_matched", "item_uncertain", "item_moved", "pictures_differ"}
 FAR_OFF = 0.10
 SIGMAS = 3.0
 OUTCOMES = ["refused", "left out", "warned", "right", "unsure", "silent"]
@@ -222,7 +222,7 @@ KINDS = [
     ("outline inside px", outline_inside, [3, 8, 15], ("given",)),
 ]
 # The warnings that name what was spoilt: card and dishes disagree.
-NAMES = {"scale_disagrees", "card_lifted", "dish_differs"}
+NAMES = {"scale_disagrees", "card_lifted", "dish_differs", "dish_shape_unknown", "unknown_object"}
 
 
 def wrong_by_ml(volume_ml, truth_ml, sigma_ml):
