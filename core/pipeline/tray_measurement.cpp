@@ -16,6 +16,21 @@ bool works_in_reverse(const TrayMemory& memory) {
   return memory.views[1].regions().dish_pixels > memory.views[0].regions().dish_pixels;
 }
 
+// What does not move with the scene is on the lens.
+void warn_about_lens(const ViewPair& views, const ViewCheckParams& params, WarningSet& warnings) {
+  const ImageView<const std::uint8_t> first = views[0]->gray.levels[0];
+  const ImageView<const std::uint8_t> second = views[1]->gray.levels[0];
+  if (first.width != second.width || first.height != second.height) return;
+  BlankBlockTable blank;
+  count_blank_blocks({first, second}, {views[0]->labels, views[1]->labels}, views[0]->regions().dish,
+                     params.item_pixels, blank);
+  for (std::size_t label = kFirstItemLabel; label < blank.size(); ++label) {
+    warnings.raise_if(blank[label] >= params.min_blank_blocks &&
+                          views[0]->quality().items[label].textured_fraction() >= params.textured_warning,
+                      Warning::lens_dirty, static_cast<std::uint8_t>(label));
+  }
+}
+
 // Where the first dish stands, on the table.
 Vec3 dish_on_table(const SceneGeometry& geometry) {
   for (std::size_t d = 0; d < geometry.dish_count; ++d) {
@@ -97,6 +112,7 @@ void measure_tray(TrayMemory& memory, const Configuration& configuration, const 
       compare_pictures(memory.views[0].quality(), memory.views[1].quality(), configuration.view_checks,
                        measurement.report.pictures, measurement.warnings);
   if (!measurement.status.ok()) return;
+  warn_about_lens(views, configuration.view_checks, measurement.warnings);
   measurement.status = list_dishes(views, configuration, memory.geometry, geometry);
   if (!measurement.status.ok()) return;
   const CheckedTray checked{views, reversed, found};

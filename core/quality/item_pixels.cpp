@@ -1,6 +1,7 @@
 #include "core/quality/item_pixels.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <cstring>
 #include <numbers>
@@ -31,6 +32,13 @@ void count_clipped(ImageView<const std::uint8_t> gray, ImageView<const std::uint
   }
 }
 
+template <class Action>
+void for_each_block(const PixelBox& box, Action&& action) {
+  for (int top = box.top; top + kBlock_px <= box.bottom; top += kBlock_px) {
+    for (int left = box.left; left + kBlock_px <= box.right; left += kBlock_px) action(left, top);
+  }
+}
+
 bool is_uniform(ImageView<const std::uint8_t> labels, int left, int top) {
   std::array<std::uint8_t, kBlock_px> expected{};
   expected.fill(labels.at(left, top));
@@ -38,6 +46,10 @@ bool is_uniform(ImageView<const std::uint8_t> labels, int left, int top) {
     if (std::memcmp(labels.row(y) + left, expected.data(), expected.size()) != 0) return false;
   }
   return true;
+}
+
+bool is_item_block(ImageView<const std::uint8_t> labels, int left, int top) {
+  return is_item(labels.at(left, top)) && is_uniform(labels, left, top);
 }
 
 // Variance of the cells' means about their best plane: a shade that runs over the block is no texture.
@@ -98,14 +110,25 @@ void measure_item_pixels(ImageView<const std::uint8_t> gray, ImageView<const std
                          const PixelBox& dish, const ItemPixelParams& params, ItemPixelTable& items) {
   items.fill({});
   count_clipped(gray, labels, dish, params, items);
-  for (int top = dish.top; top + kBlock_px <= dish.bottom; top += kBlock_px) {
-    for (int left = dish.left; left + kBlock_px <= dish.right; left += kBlock_px) {
-      const std::uint8_t label = labels.at(left, top);
-      if (!is_item(label) || !is_uniform(labels, left, top)) continue;
-      ++items[label].blocks;
-      if (is_textured(gray, left, top, params)) ++items[label].textured;
-    }
-  }
+  for_each_block(dish, [&](int left, int top) {
+    if (!is_item_block(labels, left, top)) return;
+    ItemPixels& item = items[labels.at(left, top)];
+    ++item.blocks;
+    if (is_textured(gray, left, top, params)) ++item.textured;
+  });
+}
+
+void count_blank_blocks(const std::array<ImageView<const std::uint8_t>, 2>& grays,
+                        const std::array<ImageView<const std::uint8_t>, 2>& labels, const PixelBox& dish,
+                        const ItemPixelParams& params, BlankBlockTable& blank) {
+  assert(grays[0].width == grays[1].width && grays[0].height == grays[1].height);
+  blank.fill(0);
+  for_each_block(dish, [&](int left, int top) {
+    const auto is_blank = [&](std::size_t v) {
+      return is_item_block(labels[v], left, top) && !is_textured(grays[v], left, top, params);
+    };
+    if (is_blank(0) && is_blank(1)) ++blank[labels[0].at(left, top)];
+  });
 }
 
 }  // namespace traygauge

@@ -34,4 +34,13 @@ using ItemPixelTable = std::array<ItemPixels, kLastItemLabel + 1>;  // by label
 void measure_item_pixels(ImageView<const std::uint8_t> gray, ImageView<const std::uint8_t> labels,
                          const PixelBox& dish, const ItemPixelParams& params, ItemPixelTable& items);
 
+// Blocks by their label in the first view that are wholly on items, and without texture, in both views at the
+// same place of the picture.
+using BlankBlockTable = std::array<std::uint32_t, kLastItemLabel + 1>;
+
+// Over the dish's box in the first view; both pictures are of one size.
+void count_blank_blocks(const std::array<ImageView<const std::uint8_t>, 2>& grays,
+                        const std::array<ImageView<const std::uint8_t>, 2>& labels, const PixelBox& dish,
+                        const ItemPixelParams& params, BlankBlockTable& blank);
+
 }  // namespace traygauge

@@ -60,6 +60,9 @@ namespace traygauge {
        "Something that no description names stands beside the dishes; what may be in it is not measured.") \
   CODE(item_moved, \
        "An item seems to have moved a little on its dish between the pictures; its volume may be off.") \
+  CODE(lens_dirty, \
+       "Part of an item shows nothing at the same place of both pictures, as behind dirt on the lens; clean " \
+       "the lens.") \
   CODE(pictures_differ, \
        "Part of an item looks different in the two pictures, as behind a hand, dirt on the lens or steam; " \
        "its volume may be far off.") \

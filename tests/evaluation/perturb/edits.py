@@ -222,7 +222,7 @@ KINDS = [
     ("outline inside px", outline_inside, [3, 8, 15], ("given",)),
 ]
 # The warnings that name what was spoilt: card and dishes disagree.
-NAMES = {"scale_disagrees", "card_lifted", "dish_differs", "dish_shape_unknown", "unknown_object"}
+NAMES = {"scale_disagrees", "card_lifted", "dish_differs", "dish_shape_unknown", "unknown_object", "lens_dirty"}
 
 
 def wrong_by_ml(volume_ml, truth_ml, sigma_ml):
