@@ -29,7 +29,7 @@ say = @echo "== $$(date +%T) $(1)"
 sources = git ls-files '*.cpp' '*.hpp'
 ctest = ctest --output-on-failure --no-tests=error -j $(JOBS) -LE '^bench$$'
 
-.PHONY: configure build build-all demo verify-demo test test-programs golden bench board-test board-packages board-guest arm-sysroot board-programs board-drivers board-gpiod-2 board-station board-systemd board-power-cuts arm-test test-debian13 lint lint-changed format check-format check-captures sanitize asan-ubsan tsan soak soak-cuts soak-kills fuzz soak-trays packages page-packages package package-debian13 package-test train train-packages clean
+.PHONY: configure build build-all demo verify-demo test test-programs golden bench board-test board-packages board-guest arm-sysroot board-programs board-drivers board-gpiod-2 board-station board-systemd board-power-cuts arm-test test-debian13 lint lint-changed format check-format check-captures sanitize asan-ubsan tsan soak soak-station soak-cuts soak-kills fuzz fuzz-programs soak-trays packages page-packages package package-debian13 package-test train train-packages clean
 
 configure: packages
 	cmake --preset release $(options)
@@ -190,14 +190,19 @@ package-test: package package-debian13
 	tests/package/test_packages.sh build-package/roots bookworm build-package/amd64/packages
 	tests/package/test_packages.sh build-package/roots trixie build-package/debian13
 
-# Each part is a target of its own; a failure ends it. Fuzzing builds with clang, sanitizers on, and goes on from the corpora
-# of the last run in build-fuzz/fuzz.
+# Each part is a target of its own; a failure ends it. Fuzzing runs beside the others; it is built with clang, sanitizers on,
+# and goes on from the corpora of the last run in build-fuzz/fuzz.
 SOAK_CRASH_POINTS ?= 100000
 SOAK_KILLS ?= 1000
 SOAK_FUZZ_RUNS ?= 10000000
 SOAK_TRAYS ?= 10000
-soak: soak-cuts soak-kills fuzz soak-trays
+soak: fuzz-programs
+	$(MAKE) -j 2 fuzz soak-station
 	$(call say,all of it passed)
+
+# One after the other, whatever -j says.
+soak-station:
+	$(MAKE) -j 1 soak-cuts soak-kills soak-trays
 
 soak-cuts: configure
 	cmake --build --preset release -j $(JOBS) --target journal_power_cut_test store_crash_test
@@ -210,12 +215,17 @@ soak-kills: configure
 	$(call say,station and hub killed at $(SOAK_KILLS) moments: some two minutes)
 	TRAYGAUGE_KILLS=$(SOAK_KILLS) build/tests/firmware/hub/kill_test --gtest_brief=1
 
-fuzz: packages
+# Targets at a time; FUZZ_TARGETS=hub_socket takes that one alone, with its share of the runs.
+FUZZ_JOBS ?= $(JOBS)
+export FUZZ_JOBS FUZZ_TARGETS
+fuzz-programs: packages
 	config/install_packages.sh tests/fuzz/packages.txt
 	cmake --preset debug -B build-fuzz -DCMAKE_CXX_COMPILER=clang++ -DTRAYGAUGE_SANITIZERS=address,undefined \
 	  -DTRAYGAUGE_PRECOMPILED_HEADERS=OFF -DTRAYGAUGE_PAPER=OFF -DCMAKE_CXX_FLAGS=-fsanitize=fuzzer-no-link \
 	  -DCMAKE_CXX_FLAGS_DEBUG='-O1 -g1' $(options)
 	cmake --build build-fuzz -j $(JOBS) --target fuzz_targets
+
+fuzz: fuzz-programs
 	$(call say,fuzzing: $(SOAK_FUZZ_RUNS) runs over all targets: half an hour)
 	tests/fuzz/run_fuzz.sh build-fuzz $(SOAK_FUZZ_RUNS)
 
