@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "firmware/api/scan_answer.hpp"
+#include "firmware/base/text.hpp"
 
 namespace traygauge {
 namespace {
@@ -12,6 +13,8 @@ using Json = nlohmann::ordered_json;
 
 // A station says something every two seconds; five such messages lost are a station that hangs.
 constexpr std::chrono::seconds kSilentAfter{10};
+// Raspberry Pis slow down from here on, by up to a half at 85 °C.
+constexpr double kHotC = 80.0;
 // No result was ever measured before this program was written: 2026-01-01.
 constexpr std::int64_t kEarliestTimeMs = 1767225600000;
 
@@ -34,6 +37,22 @@ std::string text_of(const Json& json, const char* key, const char* otherwise) {
   return found != json.end() && found->is_string() ? found->get<std::string>() : std::string(otherwise);
 }
 
+// Of the board on which the station runs.
+void examine_board(const std::string& station, const Json& state, std::vector<HealthPart>& parts) {
+  const auto voltage = state.find("under_voltage");
+  if (voltage != state.end() && *voltage == true) {
+    parts.push_back({"power of " + station, HealthState::warning,
+                     "The board's supply voltage is too low, or was since it started: take a stronger power "
+                     "supply and a shorter, thicker cable, then switch it off and on."});
+  }
+  const auto temperature = state.find("temperature_c");
+  if (temperature != state.end() && temperature->is_number() && temperature->get<double>() >= kHotC) {
+    parts.push_back({"temperature of " + station, HealthState::warning,
+                     "The board has " + fixed(temperature->get<double>(), 0) +
+                         " °C and works slower from 80 °C on: let air come to it, or cool it."});
+  }
+}
+
 // Of what the station said last; absent or strange parts say nothing.
 void examine_state(const std::string& station, const Json& state, std::vector<HealthPart>& parts) {
   if (!state.is_object()) return;
@@ -48,6 +67,7 @@ void examine_state(const std::string& station, const Json& state, std::vector<He
     parts.push_back({"disk of " + station, HealthState::failing, state["disk"].get<std::string>()});
   if (const std::string problem = text_of(state, "configuration", ""); !problem.empty())
     parts.push_back({"configuration of " + station, HealthState::warning, problem});
+  examine_board(station, state, parts);
   const auto waiting = state.find("waiting_results");
   if (waiting != state.end() && waiting->is_number_unsigned() && *waiting > 0)
     parts.push_back({"queue of " + station, HealthState::warning,

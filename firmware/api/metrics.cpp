@@ -48,6 +48,8 @@ void add_store(Store& store, Metrics& metrics) {
   metrics.one("traygauge_store_written_bytes_total", "counter",
               "Bytes written to the store since the hub started; memory cards wear out by them.",
               store.disk().bytes_written);
+  metrics.one("traygauge_store_new_scans_total", "counter", "Scans stored since the hub started.",
+              store.scans().new_scans());
   metrics.one("traygauge_store_syncs_total", "counter",
               "Times the store waited for the disk since the start.", store.disk().syncs);
 }

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <cmath>
 #include <ctime>
 #include <filesystem>
 #include <ostream>
@@ -114,10 +115,13 @@ int run_calibrate_lens(const CalibrateOptions& options, std::ostream& out) {
   for (const std::string& picture : calibration.left_out)
     out << printable(picture) << ": its corners do not fit the others'; it is left out" << std::endl;
   const std::string name = options.second ? "second_lens" : "lens";
+  // As it is shown.
+  const double percent = std::round(calibration.volume_percent * 100.0) / 100.0;
   const std::string grade = "grade: volumes right to " + fixed(calibration.volume_percent, 2) +
                             " % (two sigma) as far as the lens goes";
   out << summary_of(calibration) << "\n" << grade << "\n";
-  LensConfig lens{calibration.camera, {}, camera.device, today(), {}};
+  LensConfig lens{calibration.camera, {}, camera.device, today(), {}, {}};
+  if (percent <= kMaxGradePercent) lens.grade_percent = percent;
   const ControlWish& focus = camera.controls[static_cast<std::size_t>(CameraControl::focus)];
   if (focus.kind == ControlWish::Kind::value) {
     lens.focus = focus.value;

@@ -12,8 +12,9 @@ namespace traygauge {
 namespace {
 
 constexpr int kMaxFocus = 10'000'000;
-constexpr std::array<std::string_view, 11> kLensKeys = {
-    "file", "width", "height", "fx", "fy", "cx", "cy", "distortion", "focus", "camera", "calibrated_on"};
+constexpr std::array<std::string_view, 12> kLensKeys = {
+    "file",  "width",  "height",        "fx",           "fy", "cx", "cy", "distortion",
+    "focus", "camera", "calibrated_on", "grade_percent"};
 
 // A day, as TOML's dates are written, but in quotes.
 std::string read_day(const JsonNode& node) {
@@ -60,6 +61,8 @@ LensConfig read_lens_table(const JsonNode& table, const JsonNode& camera_table,
   if (const auto focus = table.find("focus")) lens.focus = focus->integer(-kMaxFocus, kMaxFocus);
   if (const auto name = table.find("camera")) lens.calibrated_camera = name->text();
   if (const auto day = table.find("calibrated_on")) lens.calibrated_on = read_day(*day);
+  if (const auto grade = table.find("grade_percent"))
+    lens.grade_percent = grade->number({0.0, kMaxGradePercent});
   if (const auto day = camera_table.find("lens_changed_on")) lens.changed_on = read_day(*day);
   return lens;
 }

@@ -45,13 +45,16 @@ struct ArmGeometry {
   double angle_deg() const;
 };
 
+inline constexpr double kMaxGradePercent = 100.0;  // a lens that is worse has no grade
+
 // A lens as it was calibrated. The camera may have changed since.
 struct LensConfig {
   CameraDescription camera;
-  std::optional<int> focus;       // the camera's
-  std::string calibrated_camera;  // its name; empty: not known
-  std::string calibrated_on;      // YYYY-MM-DD; empty: not known
-  std::string changed_on;         // the day on which somebody touched the lens; empty: never
+  std::optional<int> focus;             // the camera's
+  std::string calibrated_camera;        // its name; empty: not known
+  std::string calibrated_on;            // YYYY-MM-DD; empty: not known
+  std::optional<double> grade_percent;  // two standard deviations of a meal's volume by this lens
+  std::string changed_on;               // the day on which somebody touched the lens; empty: never
 };
 
 struct StationFile {

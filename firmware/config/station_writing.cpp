@@ -59,6 +59,7 @@ std::string compose_lens_table(const std::string& name, const LensConfig& lens, 
   if (lens.focus) text << "focus = " << *lens.focus << "\n";
   if (!lens.calibrated_camera.empty()) text << "camera = " << toml_text(lens.calibrated_camera) << "\n";
   if (!lens.calibrated_on.empty()) text << "calibrated_on = " << toml_text(lens.calibrated_on) << "\n";
+  if (lens.grade_percent) text << "grade_percent = " << toml_number(*lens.grade_percent) << "\n";
   return text.str();
 }
 

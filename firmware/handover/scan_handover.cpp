@@ -1,7 +1,9 @@
 #include "firmware/handover/scan_handover.hpp"
 
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <ostream>
+#include <string>
 #include <utility>
 
 #include "firmware/handover/scan_shape.hpp"
@@ -9,6 +11,16 @@
 #include "firmware/station/scan_printer.hpp"
 
 namespace traygauge {
+namespace {
+
+nlohmann::json calibration_json(const std::optional<CalibrationFacts>& calibration) {
+  using Json = nlohmann::json;
+  if (!calibration) return {};
+  const std::string& day = calibration->calibrated_on;
+  return {{"grade_percent", calibration->grade_percent}, {"calibrated_on", day.empty() ? Json() : Json(day)}};
+}
+
+}  // namespace
 
 ScanHandover::ScanHandover(ResultSink& printer, HubLink& link, KeptResults& kept, std::ostream& log,
                            ScanHandoverParams params)
@@ -95,6 +107,7 @@ void ScanHandover::attend() {
   hear_next_tray();
   hand_over_kept();
   tell_appearance();
+  look_at_board();
   if (link_.take_is_new() || SteadyClock::now() - told_at_ >= params_.heartbeat) tell_state();
 }
 
@@ -148,6 +161,14 @@ void ScanHandover::tell_appearance() {
   link_.tell({MessageType::picture, text.dump(), std::exchange(picture_, {})}, params_.longest_shape);
 }
 
+// Between scans alone: a sensor may take some milliseconds.
+void ScanHandover::look_at_board() {
+  const auto now = SteadyClock::now();
+  if (board_looked_at_ && now - *board_looked_at_ < params_.board_looked_at_every) return;
+  board_looked_at_ = now;
+  board_ = read_board_state(params_.board_classes);
+}
+
 void ScanHandover::tell_state() {
   using Json = nlohmann::json;
   Json faults = Json::array();
@@ -162,7 +183,11 @@ void ScanHandover::tell_state() {
       {"next_tray", next ? Json::parse(told_tray_json(*next)) : Json()},
       {"waiting_results", kept_.waiting_count()},
       {"disk", disk_problem_.empty() ? Json() : Json(disk_problem_)},
-      {"faults", faults}};
+      {"devices", params_.facts.devices},
+      {"faults", faults},
+      {"temperature_c", board_.temperature_c ? Json(*board_.temperature_c) : Json()},
+      {"under_voltage", board_.under_voltage ? Json(*board_.under_voltage) : Json()},
+      {"calibration", calibration_json(params_.facts.calibration)}};
   link_.tell({MessageType::state, json.dump(-1, ' ', false, Json::error_handler_t::replace), {}});
   told_at_ = SteadyClock::now();
 }

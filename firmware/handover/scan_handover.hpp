@@ -2,6 +2,7 @@
 #pragma once
 
 #include <chrono>
+#include <filesystem>
 #include <iosfwd>
 #include <map>
 #include <optional>
@@ -9,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "firmware/base/board_state.hpp"
 #include "firmware/base/scan_id.hpp"
 #include "firmware/base/wall_clock.hpp"
 #include "firmware/config/hub_tables.hpp"
@@ -31,6 +33,9 @@ struct ScanHandoverParams {
   Milliseconds longest_shape{100};
   // The hub calls a station silent that says nothing for longer: see its health.
   Milliseconds heartbeat{2000};
+  // The board's temperature changes over minutes.
+  Milliseconds board_looked_at_every{10'000};
+  std::filesystem::path board_classes = "/sys/class";  // where the kernel tells it
 };
 
 // Prints what it hands over. Used by one thread.
@@ -56,6 +61,7 @@ class ScanHandover final : public ResultSink {
   bool hand_over_kept();
   void hear_next_tray();
   void tell_appearance();
+  void look_at_board();
   void tell_state();
   void log_notices();
   void note_hub(const HubReply& reply);
@@ -84,6 +90,8 @@ class ScanHandover final : public ResultSink {
   SteadyClock::time_point asked_at_;                  // of the last attempt that failed
   bool was_refused_ = false;
   SteadyClock::time_point told_at_;
+  BoardState board_;
+  std::optional<SteadyClock::time_point> board_looked_at_;
 };
 
 }  // namespace traygauge

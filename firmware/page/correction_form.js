@@ -24,7 +24,7 @@ function labelled(name, key, field) {
 }
 
 function item_line(item) {
-  return `${item.label}: ${item_sentence(item)}`;
+  return item.food ? `${item.label}: ${item_sentence(item)}` : item_sentence(item);
 }
 
 function item_field(scan) {

@@ -1,6 +1,7 @@
 // The parts of the hub's /health in plain words.
 import { element, hub_text } from './elements.js';
 import { mark } from './marks.js';
+import { kind_of_device } from './station_devices.js';
 import { language, word, word_of } from './words.js';
 
 const kMarks = { ok: 'good', warning: 'warning', failing: 'fault' };
@@ -8,12 +9,14 @@ const kMarks = { ok: 'good', warning: 'warning', failing: 'fault' };
 // The hub's own parts have the names of a station's parts, but no station.
 const kHubParts = { disk: 'hub_disk', configuration: 'hub_configuration' };
 
-// The hub's names: "disk", "clock", "station NAME", "disk of NAME", "queue of NAME", "drift of NAME", "DEVICE of NAME".
+// The hub's names: "disk", "clock", "station NAME", "disk of NAME", "queue of NAME", "drift of NAME", "DEVICE of NAME",
+// where a device is such as "camera /dev/video0".
 function split_name(name) {
   if (name.startsWith('station ')) return { kind: 'station', station: name.slice('station '.length) };
-  const [what, station] = name.split(' of ');
-  if (station === undefined) return { kind: kHubParts[what] ?? what, station: '' };
-  return { kind: what, station };
+  const at = name.lastIndexOf(' of ');
+  if (at < 0) return { kind: kHubParts[name] ?? name, station: '' };
+  const what = name.slice(0, at);
+  return { kind: kind_of_device(what) ?? what, station: name.slice(at + ' of '.length) };
 }
 
 function title_of(name) {

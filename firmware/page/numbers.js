@@ -3,7 +3,8 @@ import { language, word, word_count } from './words.js';
 
 export function format_number(value, digits = 0) {
   const options = { minimumFractionDigits: digits, maximumFractionDigits: digits };
-  return new Intl.NumberFormat(language, options).format(value);
+  const rounded = Number(value.toFixed(digits)) + 0; // -0.00 is 0.00
+  return new Intl.NumberFormat(language, options).format(rounded);
 }
 
 // One digit after the point only where the volume is known that well.

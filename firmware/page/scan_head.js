@@ -17,7 +17,8 @@ function refusal(scan) {
   return notice('fault', element('strong', {}, word('scan.refused')), ' ', status_text(scan), details);
 }
 
-export function scan_notices(scan) {
+// What concerns the tray; whoever eats from it cannot set a clock.
+export function tray_notices(scan) {
   const notices = [];
   if (is_refused(scan)) notices.push(refusal(scan));
   if (scan.status === 'partial') notices.push(notice('warning', word('scan.partial')));
@@ -26,6 +27,11 @@ export function scan_notices(scan) {
     notices.push(notice('warning', sentence_with_scan('scan.superseded_by', scan.superseded_by)));
   }
   if (scan.supersedes) notices.push(notice('busy', sentence_with_scan('scan.supersedes', scan.supersedes)));
+  return notices;
+}
+
+export function scan_notices(scan) {
+  const notices = tray_notices(scan);
   if (scan.clock_synchronised === false) notices.push(notice('warning', word('scan.clock')));
   return notices;
 }

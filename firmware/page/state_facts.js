@@ -5,7 +5,7 @@ import { format_bytes, format_number } from './numbers.js';
 import { format_time } from './times.js';
 import { word, word_of } from './words.js';
 
-const kShownElsewhere = ['state', 'faults', 'disk', 'configuration', 'next_tray'];
+const kShownElsewhere = ['state', 'faults', 'disk', 'configuration', 'devices', 'next_tray'];
 const kMostText = 200;
 
 function value_text(key, value) {

@@ -2,6 +2,7 @@
 import { element } from './elements.js';
 import { mark } from './marks.js';
 import { kFreshSeconds, live, station_age } from './live_data.js';
+import { device_title } from './station_devices.js';
 import { format_age } from './numbers.js';
 import { word, word_count, word_of } from './words.js';
 
@@ -60,7 +61,7 @@ export function fault_lines(station) {
   const faults = Array.isArray(state.faults) ? state.faults : [];
   const lines = faults.map((fault) => {
     const device = String(fault?.device ?? '');
-    const text = word_of('fault', fault?.status, { device });
+    const text = word_of('fault', fault?.status, { device: device_title(device) });
     return text === null ? element('li', { lang: 'en' }, String(fault?.message ?? device)) : element('li', {}, text);
   });
   for (const text of [state.disk, state.configuration]) {

@@ -4,7 +4,7 @@ import { get } from './hub_api.js';
 import { follow, live } from './live_data.js';
 import { mark } from './marks.js';
 import { format_measured, format_volume } from './numbers.js';
-import { no_scan_text, scan_notices } from './scan_head.js';
+import { no_scan_text, tray_notices } from './scan_head.js';
 import { is_refused, item_name, warning_list, why_no_volume } from './sentences.js';
 import { describe_station, next_tray_line } from './station_state.js';
 import { format_recent } from './times.js';
@@ -45,7 +45,7 @@ function show_scan(frame, scan) {
   frame.replaceChildren(
     element('h2', {}, word('live.last_tray'), ' ',
       element('span', { class: 'quiet' }, format_recent(scan.taken_at))),
-    ...scan_notices(scan),
+    ...tray_notices(scan),
     element('ul', { class: `kiosk-items kiosk-${size_of(items.length)}` }, items.map(item_line)),
     is_refused(scan) ? '' : element('p', { class: 'kiosk-total' }, element('span', {}, word('scan.total')),
       element('span', { class: 'kiosk-volume' }, format_volume(scan.volume_ml))),

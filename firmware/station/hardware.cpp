@@ -1,6 +1,8 @@
 #include "firmware/station/hardware.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <optional>
 #include <ostream>
 #include <utility>
 
@@ -54,6 +56,20 @@ void warn_of_changed_lenses(const StationFile& station, Hardware& hardware, std:
   warn_of_changed_lens(station.lens, station.camera, hardware.camera(), log);
   if (station.second_camera)
     warn_of_changed_lens(station.second_lens, *station.second_camera, *hardware.second_camera(), log);
+}
+
+std::optional<CalibrationFacts> calibration_facts(const StationFile& station) {
+  std::optional<CalibrationFacts> facts;
+  for (const std::optional<LensConfig>& lens : {station.lens, station.second_lens}) {
+    if (!lens || !lens->grade_percent) continue;
+    if (!facts) {
+      facts = {*lens->grade_percent, lens->calibrated_on};
+      continue;
+    }
+    facts->grade_percent = std::max(facts->grade_percent, *lens->grade_percent);
+    facts->calibrated_on = std::min(facts->calibrated_on, lens->calibrated_on);
+  }
+  return facts;
 }
 
 Nanoseconds longest_move(const ArmConfig& arm) {

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "firmware/config/station_file.hpp"
+#include "firmware/handover/station_facts.hpp"
 #include "firmware/station/station.hpp"
 
 namespace traygauge {
@@ -35,6 +36,10 @@ class Hardware {
 // Warns of lenses that have changed since they were calibrated, a line each, and that pictures are measured
 // with them all the same. Starts the cameras, for their focus.
 void warn_of_changed_lenses(const StationFile& station, Hardware& hardware, std::ostream& log);
+
+// What is known of how good the lenses are: the worse grade, and the earlier day. Nothing where none has a
+// grade.
+std::optional<CalibrationFacts> calibration_facts(const StationFile& station);
 
 // How long going home or any move may take.
 Nanoseconds longest_move(const ArmConfig& arm);

@@ -44,8 +44,11 @@ int run_hardware_station(const StationCommand& command, const std::filesystem::p
   }
   EstimatorMeasurer measurer(*scene, scene->limits(), command.seed);
   ScanPrinter printer(out, log, command.json ? ScanPrinter::Format::json : ScanPrinter::Format::text);
-  const ResultRoute route(station_file.handover, {scene->dish_styles(), chosen.problem}, printer, log);
   Hardware hardware(station_file);
+  const ResultRoute route(station_file.handover,
+                          {scene->dish_styles(), chosen.problem, device_names(hardware.devices()),
+                           calibration_facts(station_file)},
+                          printer, log);
   warn_of_changed_lenses(station_file, hardware, log);
   StationParams params = hardware_params(station_file);
   params.max_scans = command.scans;

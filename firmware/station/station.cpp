@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cstddef>
+#include <initializer_list>
 #include <optional>
 #include <utility>
 
@@ -42,6 +43,17 @@ Signal signal_after(Delivery delivery, Signal signal) {
 }
 
 }  // namespace
+
+std::vector<std::string> device_names(const StationDevices& devices) {
+  std::vector<std::string> names;
+  const auto add = [&names](const Device* device) {
+    if (device != nullptr) names.emplace_back(device->description());
+  };
+  for (const Device* const device : std::initializer_list<const Device*>{
+           &devices.camera, devices.second_camera, devices.arm, &devices.trigger, &devices.lamp})
+    add(device);
+  return names;
+}
 
 Station::Station(const StationDevices& devices, Measurer& measurer, ResultSink& sink,
                  const std::atomic<bool>& stop, const StationParams& params)

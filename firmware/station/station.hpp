@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "drivers/arm.hpp"
@@ -30,6 +31,9 @@ struct StationDevices {
   Clock& clock;
   Camera* second_camera = nullptr;  // takes the second view; then there is no arm, and one press suffices
 };
+
+// As faults name them.
+std::vector<std::string> device_names(const StationDevices& devices);
 
 // What the lamp says while a hand moves the camera or the tray to the second view.
 struct HandGuideParams {

@@ -68,7 +68,8 @@ int play(const StationCommand& command, const FaultPlan& faults, MeasurableCaptu
   PlayedScene scene(captures, player);
   EstimatorMeasurer measurer(scene, captures.limits(), command.seed);
   ScanPrinter printer(out, log, command.json ? ScanPrinter::Format::json : ScanPrinter::Format::text);
-  const ResultRoute route(handover_of(command), {}, printer, log);
+  const StationDevices devices{camera, trigger, command.by_hand ? nullptr : &arm, lamp, clock};
+  const ResultRoute route(handover_of(command), {{}, {}, device_names(devices), {}}, printer, log);
   StationParams params;
   if (!command.hub.socket.empty()) params.repeat_within = repeat_time(command.hub);
   params.second_view_deg = command.second_view_deg;
@@ -78,8 +79,7 @@ int play(const StationCommand& command, const FaultPlan& faults, MeasurableCaptu
     throw UsageError("--second-view: expected " + std::to_string(arm.limits().min_deg) + " to " +
                      std::to_string(arm.limits().max_deg) + " degrees, where the arm can go");
   }
-  Station station({camera, trigger, command.by_hand ? nullptr : &arm, lamp, clock}, measurer, route.sink(),
-                  stop, params);
+  Station station(devices, measurer, route.sink(), stop, params);
   ServiceManager manager;
   const StationTotals& totals = station.run([&manager] { manager.note_progress(); });
   const bool is_complete = totals.scans >= scans || stop;

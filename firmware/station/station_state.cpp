@@ -27,7 +27,8 @@ constexpr auto kTransitions = std::to_array<StationTransition>({
     {taking_second_view, measuring, "The picture was taken."},
     {taking_second_view, waiting, "Six pictures in a row are damaged or unsteady: the result says so."},
     {taking_second_view, starting, "Camera or arm fails: the result says so."},
-    {measuring, waiting, "The result is handed over, or kept; the lamp shows it."},
+    {measuring, waiting,
+     "The result is handed over, or kept; the lamp shows it. Presses until then start nothing."},
     {measuring, taking_first_view, "The pictures contradict the arm's angle: the scan is taken again, once."},
     {measuring, starting, "The arm fails on its way home; the result stands."},
 });

@@ -47,6 +47,7 @@ Expected<PutResult> ScanStore::put_readable(std::string_view text, const ScanDoc
   });
   note_change(done, change);
   if (!done.ok()) return Failure{done.failure()};
+  if (result.outcome == PutOutcome::stored) ++new_scans_;
   return result;
 }
 

@@ -77,6 +77,8 @@ class ScanStore {
   // For who has looked at it. False where there is none of this number.
   Expected<bool> discard_set_aside(std::int64_t number);
 
+  // Since this was opened: what is written in that time is their cost.
+  std::uint64_t new_scans() const { return new_scans_; }
   // The counts come from memory; at first and after a failed change all scans are counted.
   Expected<StoreTotals> totals();
   // Whoever changes scans by other ways has to tell how that ended, and what it changed.
@@ -95,6 +97,7 @@ class ScanStore {
 
   Database& database_;
   std::optional<ScanCounts> counts_;
+  std::uint64_t new_scans_ = 0;
 };
 
 }  // namespace traygauge

@@ -7,8 +7,10 @@
 #include <cstdint>
 #include <cstdlib>
 #include <fstream>
+#include <optional>
 #include <set>
 
+#include "firmware/base/board_state.hpp"
 #include "firmware/base/build_info.hpp"
 #include "firmware/base/text.hpp"
 #include "firmware/base/wall_clock.hpp"
@@ -79,17 +81,11 @@ std::string describe_temperatures() {
 }
 
 std::string describe_voltage() {
-  for (const fs::path& chip : sorted_entries("/sys/class/hwmon", "hwmon")) {
-    if (first_line(chip / "name") != "rpi_volt") continue;
-    const std::string alarm = first_line(chip / "in0_lcrit_alarm");
-    if (alarm == "1") {
-      return "supply voltage: too low now, or was since the board started: take a stronger power supply and "
-             "a "
-             "shorter, thicker cable\n";
-    }
-    if (alarm == "0") return "supply voltage: it was never too low since the board started\n";
-  }
-  return "supply voltage: the kernel does not tell it here\n";
+  const std::optional<bool> under_voltage = read_board_state().under_voltage;
+  if (!under_voltage) return "supply voltage: the kernel does not tell it here\n";
+  if (!*under_voltage) return "supply voltage: it was never too low since the board started\n";
+  return "supply voltage: too low now, or was since the board started: take a stronger power supply and a "
+         "shorter, thicker cable\n";
 }
 
 std::string describe_memory() {

@@ -27,3 +27,35 @@ class HealthTest(PageCase):
         self.browser.wait_text("weicht über viele Tabletts hinweg ab", ".health-warning")
         self.browser.wait_text(hubs, ".health-warning [lang=en]")
         self.check_page()
+
+    def test_devices_power_and_calibration_are_told_in_both_languages(self):
+        fault = {"device": "arm /dev/ttyUSB0", "status": "stalled", "message": "The arm did not arrive."}
+        state = {"devices": ["camera usb-1", "arm /dev/ttyUSB0", "button 17", "lamp"], "temperature_c": 82.4,
+                 "under_voltage": True, "calibration": {"grade_percent": 0.31, "calibrated_on": "2026-01-31"}}
+        told = {"en": ("Camera works", "Arm does not work", "Arm of station kitchen", "Power of station kitchen",
+                       "stronger power supply", "82.4 °C", "0.31 %"),
+                "de": ("Kamera in Ordnung", "Arm funktioniert nicht", "Arm /dev/ttyUSB0: ", "Arm der Station kitchen",
+                       "Strom der Station kitchen", "stärkeres Netzteil", "82,4 °C", "0,31 %")}
+        for language, texts in told.items():
+            self.station.tell_state(**state)
+            self.show("#devices", language)
+            self.browser.wait_any(".health-warning")
+            self.browser.wait_any(".devices .mark-good")
+            self.assertEqual(self.browser.find_all(".devices .mark-fault"), [])
+            self.station.tell_state(**{**state, "faults": [fault]})
+            self.browser.wait_any(".devices .mark-fault")
+            for text in texts:
+                self.browser.wait_text(text, "main")
+            self.check_page()
+        self.station.tell_state(**state)
+
+    def test_drift_is_shown_in_figures(self):
+        for language, text in (("en", "Too large by the card, median of 20 trays\n0.44 ± 0.00 %"),
+                               ("de", "Zu groß nach der Karte, Median über 20 Tabletts\n0,44 ± 0,00 %")):
+            self.show_devices(language)
+            self.browser.wait_text(text, ".drift")
+            self.check_page()
+
+    def test_what_a_scan_costs_the_card_is_told(self):
+        self.show_devices("en")
+        self.browser.wait_text("Written for each scan, on average\n", ".figures-of-store")

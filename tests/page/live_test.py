@@ -43,7 +43,7 @@ class LiveTest(PageCase):
         self.station.tell_state(faults=[{"device": "camera", "message": "camera: It is <gone>."}])
         self.browser.wait_text("camera: It is <gone>.", ".stations")
         self.station.tell_state(faults=[{"device": "arm <b>", "status": "stalled", "message": "?"}])
-        self.browser.wait_text("arm <b>: did not reach its place.", ".stations")
+        self.browser.wait_text("Arm <b>: did not reach its place.", ".stations")
         self.browser.wait_text("Has said nothing for", "[data-station=buffet].is-old", 15)
         other.close()
         self.browser.wait_text("Not connected for", "[data-station=buffet].is-old")

@@ -36,6 +36,7 @@ class ModulesTest(PageCase):
         for call, expected in (("format_measured(142.4, 5.1)", "142 ml ± 5 ml"),
                                ("format_measured(4.24, 0.31)", "4.2 ml ± 0.3 ml"),
                                ("format_measured(null, null)", "no volume"), ("format_measured(20, null)", "20 ml"),
+                               ("format_number(-0.001, 2)", "0.00"), ("format_number(-1.316, 2)", "-1.32"),
                                ("format_age(59.9)", "59 s"), ("format_age(61)", "1 minute"),
                                ("format_age(7300)", "2 hours"), ("format_age(200000)", "2 days"),
                                ("format_bytes(17408)", "17 kB"), ("format_bytes(999)", "999 B")):

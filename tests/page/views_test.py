@@ -46,6 +46,17 @@ class ViewsTest(PageCase):
                                     ".filter((n) => n.getClientRects().length > 0).map((n) => n.outerHTML)")
         self.assertEqual(controls, [], "a kiosk has nothing to press")
 
+    def test_kiosk_leaves_out_what_eaters_cannot_mend(self):
+        self.station.hand_over(samples.doubtful(11))  # its time is not sure
+        self.station.tell_state()
+        self.show("#live")
+        self.browser.wait_text("was not synchronised", ".notice")
+        self.show("#kiosk")
+        self.browser.wait_text("Some items could not be measured", ".notice")
+        self.assertNotIn("synchronised", self.browser.text())
+        self.station.hand_over(samples.meal(12))
+        self.station.tell_shape(samples.shape(12))
+
     def test_page_is_small(self):
         self.browser.run("sessionStorage.clear()")
         self.browser.driver.execute_cdp_cmd("Network.clearBrowserCache", {})

@@ -201,12 +201,33 @@ TEST(Api, HealthNamesThePartThatFails) {
   EXPECT_EQ(part("disk")["status"], "ok");
 }
 
+TEST(Api, HealthTellsOfABoardThatIsHotOrHasTooLittlePower) {
+  HubRig rig;
+  const auto parts_with = [&rig, scan = 0](const std::string& state) mutable {
+    rig.station().tell({MessageType::state, state, {}});
+    rig.store(++scan, 100.0);  // its answer comes after the state was read
+    const Answer health = rig.get("/health");
+    EXPECT_EQ(health.status, 200) << health.body;
+    return health.json()["parts"].dump();
+  };
+  const std::string well = parts_with(R"({"temperature_c":79.9,"under_voltage":false})");
+  EXPECT_EQ(well.find("of kitchen"), std::string::npos) << well;
+  const std::string untold = parts_with(R"({"temperature_c":null,"under_voltage":null})");
+  EXPECT_EQ(untold.find("of kitchen"), std::string::npos) << untold;
+  const std::string ill = parts_with(R"({"temperature_c":82.4,"under_voltage":true})");
+  EXPECT_NE(ill.find(R"("power of kitchen","status":"warning")"), std::string::npos) << ill;
+  EXPECT_NE(ill.find("take a stronger power supply"), std::string::npos) << ill;
+  EXPECT_NE(ill.find(R"("temperature of kitchen","status":"warning")"), std::string::npos) << ill;
+  EXPECT_NE(ill.find("The board has 82 °C"), std::string::npos) << ill;
+}
+
 // What a station says of itself is passed on; parts that make no sense say nothing.
 TEST(Api, HealthStandsAStrangeStation) {
   HubRig rig;
   for (const std::string state :
        {R"({"faults":[{"device":5,"message":[]}]})", R"({"faults":[7]})", R"({"faults":7,"disk":7})",
-        R"({"waiting_results":-1})", R"({"waiting_results":"many"})", "{}"}) {
+        R"({"waiting_results":-1})", R"({"waiting_results":"many"})",
+        R"({"under_voltage":7,"temperature_c":"hot"})", "{}"}) {
     rig.station().tell({MessageType::state, state, {}});
     rig.store(1, 100.0);
     EXPECT_NE(rig.get("/health").status, 500) << state;
@@ -220,6 +241,9 @@ TEST(Api, TellsMetricsInPrometheusText) {
   const Answer metrics = rig.get("/metrics");
   EXPECT_EQ(metrics.status, 200);
   EXPECT_NE(metrics.body.find("\ntraygauge_stored_scans 1\n"), std::string::npos) << metrics.body;
+  rig.store(1, 100.0);  // the same again is none
+  rig.store(2, 100.0);
+  EXPECT_NE(rig.get("/metrics").body.find("\ntraygauge_store_new_scans_total 2\n"), std::string::npos);
   EXPECT_NE(metrics.body.find("traygauge_station_connected{station=\"kitchen\"} 1\n"), std::string::npos);
 }
 

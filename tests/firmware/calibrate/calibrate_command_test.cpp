@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "firmware/base/exit_status.hpp"
+#include "firmware/base/text.hpp"
 #include "firmware/calibrate/standard_meal.hpp"
 #include "firmware/config/station_writing.hpp"
 #include "firmware/measure/pair_setup.hpp"
@@ -77,6 +78,8 @@ TEST_F(CalibrateCommand, WritesTheLensOfItsPicturesAndLeavesTheRestAlone) {
   EXPECT_EQ(station.lens->calibrated_camera, "serial:A1");
   EXPECT_EQ(station.lens->calibrated_on.size(), 10U);
   EXPECT_EQ(find_lens_change(*station.lens, station.camera, 30), "");
+  ASSERT_TRUE(station.lens->grade_percent);
+  EXPECT_TRUE(has(out_.str(), "grade: volumes right to " + fixed(*station.lens->grade_percent, 2) + " %"));
   const double percent = 100.0 * volume_deviation(lens_, lens_of(station.lens->camera), {}).value();
   EXPECT_LT(std::abs(percent), 0.5);
   const std::string text = read_text(options_.station);

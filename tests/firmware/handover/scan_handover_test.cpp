@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <chrono>
+#include <filesystem>
+#include <fstream>
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <string>
@@ -287,6 +289,26 @@ TEST_F(Handover, TellsTheHubWhatTheStationDoesAndWhatFails) {
   EXPECT_EQ(Json::parse(states[1].text)["faults"][0]["device"], "camera");
   EXPECT_EQ(Json::parse(states[1].text)["faults"][0]["status"], "device_gone");
   EXPECT_TRUE(Json::parse(states[2].text)["faults"].empty());
+}
+
+TEST_F(Handover, TellsTheHubOfDevicesBoardAndCalibration) {
+  std::filesystem::create_directories(folder_.path() / "board/thermal/thermal_zone0");
+  std::ofstream(folder_.path() / "board/thermal/thermal_zone0/temp") << "51234\n";
+  const FakeHub hub(socket(), store_all);
+  Run run(folder_.path(), out_, log_);
+  run.params.heartbeat = Milliseconds(0);
+  run.params.board_classes = folder_.path() / "board";
+  run.params.facts.devices = {"camera serial:A2", "button TRIGGER"};
+  run.params.facts.calibration = {0.31, "2025-01-31"};
+  ScanHandover sink(run.printer, run.link, run.kept, log_, run.params);
+  sink.attend();
+  sink.deliver(result_);  // its answer comes after everything before it was read
+  ASSERT_FALSE(hub.received(MessageType::state).empty());
+  const Json state = Json::parse(hub.received(MessageType::state).back().text);
+  EXPECT_EQ(state["devices"], (Json{"camera serial:A2", "button TRIGGER"}));
+  EXPECT_EQ(state["temperature_c"], 51.234);
+  EXPECT_TRUE(state["under_voltage"].is_null());
+  EXPECT_EQ(state["calibration"], (Json{{"grade_percent", 0.31}, {"calibrated_on", "2025-01-31"}}));
 }
 
 }  // namespace

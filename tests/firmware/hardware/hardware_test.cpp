@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <sstream>
+#include <string>
+#include <vector>
 
 namespace traygauge {
 namespace {
@@ -22,6 +24,31 @@ TEST(HardwareParams, TheArmHasAsLongAsItsLongestMoveTakes) {
   serial.longest_move = 75s;
   station.arm->kind = serial;
   EXPECT_EQ(hardware_params(station).arm_timeout, 75s);
+}
+
+TEST(Calibration, IsAsGoodAsItsWorseLens) {
+  StationFile station;
+  EXPECT_FALSE(calibration_facts(station));
+  station.lens.emplace();
+  EXPECT_FALSE(calibration_facts(station)) << "the lens has no grade";
+  station.lens->grade_percent = 0.31;
+  station.lens->calibrated_on = "2025-02-01";
+  ASSERT_TRUE(calibration_facts(station));
+  EXPECT_EQ(calibration_facts(station)->grade_percent, 0.31);
+  station.second_lens.emplace();
+  station.second_lens->grade_percent = 0.42;
+  station.second_lens->calibrated_on = "2025-01-31";
+  EXPECT_EQ(calibration_facts(station)->grade_percent, 0.42);
+  EXPECT_EQ(calibration_facts(station)->calibrated_on, "2025-01-31");
+}
+
+TEST(Calibration, DevicesAreNamedAsFaultsNameThem) {
+  StationFile station;
+  station.camera.device = "serial:A2";
+  station.button.line.line = "TRIGGER";
+  Hardware hardware(station);
+  EXPECT_EQ(device_names(hardware.devices()),
+            (std::vector<std::string>{"camera serial:A2", "button TRIGGER", "lamp"}));
 }
 
 // The camera is absent here; what the file alone tells is told all the same.

@@ -62,6 +62,12 @@ TEST_F(StationFileTest, ALensMayHaveMoreCoefficientsOrAFileOfItsOwn) {
   EXPECT_EQ(rational.lens->camera.further_distortion[2], 0.6);
   const std::string written = compose_lens_table("lens", *rational.lens, "");
   EXPECT_EQ(read(head + written).lens->camera.coefficients(), rational.lens->camera.coefficients());
+  EXPECT_FALSE(rational.lens->grade_percent);
+  LensConfig graded = *rational.lens;
+  graded.grade_percent = 0.31;
+  EXPECT_EQ(read(head + compose_lens_table("lens", graded, "")).lens->grade_percent, 0.31);
+  EXPECT_NE(problem(head + written + "grade_percent = 101\n").find("lens.grade_percent: expected"),
+            std::string::npos);
   write_text(folder_.path() / "camera.yml",
              "image_width: 1600\nimage_height: 1200\nK: [1400, 0, 800, 0, 1401, 600, 0, 0, 1]\n"
              "D: [0.1, 0.2, 0, 0]\n");

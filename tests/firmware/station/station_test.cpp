@@ -282,6 +282,26 @@ TEST(Station, PressesDuringAScanDoNotStartAnother) {
   EXPECT_EQ(station.run().scans, 2U);
 }
 
+// Two further pictures have no place beside those that are measured: until the lamp says how it ended, a
+// press starts nothing. While the arm goes home, it is one for the next tray.
+TEST(Station, APressWhileATrayIsMeasuredStartsNothing) {
+  for (const bool is_after_result : {false, true}) {
+    StationRig rig(2);
+    SimulatedTrigger impatient(rig.clock, {Instant(5s)});
+    const auto press_once = [&rig, &impatient](Nanoseconds later) {
+      if (rig.measurer.scans == 1) impatient.add_press(rig.clock.now() + later);
+    };
+    if (!is_after_result) rig.measurer.on_measure = [&] { press_once(0s); };
+    rig.lamp.on_signal([&](Signal signal) {
+      rig.player.handle_signal(signal);
+      if (is_after_result && signal == done) press_once(1ms);
+    });
+    impatient.before_press([&] { rig.player.handle_press(); });
+    Station station({rig.camera, impatient, &rig.arm, rig.lamp, rig.clock}, rig.measurer, rig.sink, rig.stop);
+    EXPECT_EQ(station.run().scans, is_after_result ? 2U : 1U);
+  }
+}
+
 // A second camera that looks at the other view.
 struct TwoCameraRig : StationRig {
   explicit TwoCameraRig(std::size_t trays)
