@@ -18,6 +18,8 @@ PICTURES = {
     "phone": ("#live", "phone", 1, "de", "dark", ".outlines", None),
     "kiosk": ("#kiosk/demo", "kiosk", 0.4, "de", "light", ".kiosk-items", None),
 }
+WELL = {"temperature_c": 51.2, "under_voltage": False, "devices": ["camera /dev/video0", "arm", "button TRIGGER", "lamp"],
+        "calibration": {"grade_percent": 0.31, "calibrated_on": "2026-11-02"}}
 FOODS = {"demo-1": {2: "Fish", 3: "Potatoes", 4: "Spinach"}, "demo-2": {2: "Mashed potatoes", 3: "Meatballs"}}
 
 
@@ -41,7 +43,7 @@ class ScreenshotsTest(PageCase):
             self.browser.set_size(size, scale)
             self.browser.set_scheme(scheme)
             for station in stations:
-                station.tell_state(temperature_c=51.2, under_voltage=False, calibration={"grade_percent": 0.31})
+                station.tell_state(**WELL)
             self.show(view, language)
             if button:
                 self.browser.wait_any(button).click()

@@ -203,7 +203,7 @@ TEST(Api, HealthNamesThePartThatFails) {
 
 TEST(Api, HealthTellsOfABoardThatIsHotOrHasTooLittlePower) {
   HubRig rig;
-  const auto parts_with = [&rig, scan = 0](const std::string& state) mutable {
+  auto parts_with = [&rig, scan = 0](const std::string& state) mutable {
     rig.station().tell({MessageType::state, state, {}});
     rig.store(++scan, 100.0);  // its answer comes after the state was read
     const Answer health = rig.get("/health");
