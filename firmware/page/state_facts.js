@@ -2,11 +2,15 @@
 // they are, so that nothing a station says is hidden.
 import { element } from './elements.js';
 import { format_bytes, format_number } from './numbers.js';
-import { format_time } from './times.js';
+import { format_time, format_written_day } from './times.js';
 import { word, word_of } from './words.js';
 
 const kShownElsewhere = ['state', 'faults', 'disk', 'configuration', 'devices', 'next_tray'];
 const kMostText = 200;
+
+function is_day(value) {
+  return typeof value === 'string' && /^\d{4}-\d\d-\d\d$/.test(value) && !Number.isNaN(Date.parse(value));
+}
 
 function value_text(key, value) {
   if (Array.isArray(value)) return value.join(', ').slice(0, kMostText);
@@ -20,6 +24,7 @@ function value_text(key, value) {
     return format_number(value, Number.isInteger(value) ? 0 : 2);
   }
   if (typeof value === 'string' && /^\d{4}-\d\d-\d\dT/.test(value)) return format_time(value);
+  if (is_day(value)) return format_written_day(value);
   return (typeof value === 'string' ? value : JSON.stringify(value)).slice(0, kMostText);
 }
 

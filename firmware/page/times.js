@@ -68,3 +68,8 @@ export function start_of_day(day, days = 0) {
   }
   return new Date(guess).toISOString();
 }
+
+// A day that somebody wrote down, such as "2026-01-31": the same in every zone.
+export function format_written_day(text) {
+  return new Intl.DateTimeFormat(language, { dateStyle: 'medium', timeZone: 'UTC' }).format(new Date(`${text}T00:00Z`));
+}

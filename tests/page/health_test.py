@@ -33,9 +33,9 @@ class HealthTest(PageCase):
         state = {"devices": ["camera usb-1", "arm /dev/ttyUSB0", "button 17", "lamp"], "temperature_c": 82.4,
                  "under_voltage": True, "calibration": {"grade_percent": 0.31, "calibrated_on": "2026-01-31"}}
         told = {"en": ("Camera works", "Arm does not work", "Arm of station kitchen", "Power of station kitchen",
-                       "stronger power supply", "82.4 °C", "0.31 %"),
+                       "stronger power supply", "82.4 °C", "0.31 %", "Jan 31, 2026"),
                 "de": ("Kamera in Ordnung", "Arm funktioniert nicht", "Arm /dev/ttyUSB0: ", "Arm der Station kitchen",
-                       "Strom der Station kitchen", "stärkeres Netzteil", "82,4 °C", "0,31 %")}
+                       "Strom der Station kitchen", "stärkeres Netzteil", "82,4 °C", "0,31 %", "31.01.2026")}
         for language, texts in told.items():
             self.station.tell_state(**state)
             self.show("#devices", language)
