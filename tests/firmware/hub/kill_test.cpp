@@ -123,8 +123,17 @@ TEST(Kill, NothingShownIsLostOrDoubled) {
   constexpr int kWithoutEnd = 1'000'000;
   start_hub();
   start_station(kWithoutEnd);
+  // On a slow machine both would else die before they have started, and nothing would ever be done.
+  const auto wait_for_next_done = [&shown] {
+    const std::size_t before = shown.done.size();
+    for (int i = 0; i < 2000 && shown.done.size() == before; ++i) {
+      std::this_thread::sleep_for(milliseconds(5));
+      shown.read_all();
+    }
+  };
   const int kills = kill_count();
   for (int i = 0; i < kills; ++i) {
+    if (i % 2 == 1) wait_for_next_done();
     std::this_thread::sleep_for(milliseconds(std::uniform_int_distribution<int>(1, 200)(random)));
     shown.read_all();
     const auto victim = std::uniform_int_distribution<int>(0, 3)(random);
@@ -166,7 +175,7 @@ TEST(Kill, NothingShownIsLostOrDoubled) {
   EXPECT_EQ(totals->counts.set_aside, 0);
   std::cout << kills << " kills: " << shown.done.size() << " shown as done, " << shown.kept.size()
             << " as kept, " << stored.size() << " stored" << std::endl;
-  EXPECT_GT(shown.done.size(), 0U);
+  EXPECT_GE(shown.done.size(), static_cast<std::size_t>(kills / 4));
   EXPECT_GT(shown.kept.size(), 0U);
 }
 
