@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <opencv2/imgproc.hpp>
 #include <set>
 #include <string>
 
@@ -220,6 +221,43 @@ TEST(DishChecks, TellOfADishThatNobodyNamed) {
     const CommandResult result = run({"measure", folder.string(), "--labels", "auto", "--json"});
     EXPECT_EQ(result.out.find("unknown_object") == std::string::npos, is_named) << result.out;
   }
+}
+
+// Without a profile its bottom counts as flat up to the edge.
+TEST_P(DishChecks, TellOfADishWithoutAProfile) {
+  const test::FaultyCapture capture(kDemoCaptures / "fish_and_potatoes", {0, 1});
+  const fs::path folder = capture.store();
+  EXPECT_FALSE(codes(measure(folder)).contains("dish_shape_unknown"));
+  json document = json::parse(read_text(folder / "capture.json"));
+  document["dish"].erase("profile");
+  write_text(folder / "capture.json", document.dump());
+  const json measured = measure(folder);
+  EXPECT_TRUE(codes(measured).contains("dish_shape_unknown")) << measured;
+  for (const json& item : measured.at("items"))
+    EXPECT_GT(item.at("sigma_ml").get<double>(), 0.1 * item.at("volume_ml").get<double>()) << measured;
+}
+
+// Spots over the first item, in one picture or at the same place of both.
+json measure_behind_spots(bool in_both, const cv::Scalar& colour) {
+  test::FaultyCapture capture(kDemoCaptures / "fish_and_potatoes", {0, 1});
+  const cv::Rect box = cv::boundingRect(capture.view(0).labels == kFirstItemLabel);
+  const cv::Point middle = (box.tl() + box.br()) / 2;
+  const int radius_px = std::min(box.width, box.height) / 3;
+  for (int v = 0; v < (in_both ? 2 : 1); ++v)
+    cv::circle(capture.view(v).picture, middle, radius_px, colour, cv::FILLED, cv::LINE_AA);
+  const CommandResult result = run({"measure", capture.store().string(), "--labels", "given", "--json"});
+  EXPECT_LE(result.status, 1) << result.error;
+  return json::parse(result.out, nullptr, false);
+}
+
+TEST_P(GivenDishChecks, TellOfAFingerOverFood) {
+  const json document = measure_behind_spots(false, cv::Scalar(125, 150, 205));
+  EXPECT_TRUE(codes(document).contains("pictures_differ")) << document;
+}
+
+TEST_P(GivenDishChecks, TellOfDirtOnTheLens) {
+  const json document = measure_behind_spots(true, cv::Scalar(25, 28, 30));
+  EXPECT_TRUE(codes(document).contains("lens_dirty")) << document;
 }
 
 INSTANTIATE_TEST_SUITE_P(Labels, GivenDishChecks, ::testing::Values("given"));

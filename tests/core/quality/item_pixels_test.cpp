@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <opencv2/imgproc.hpp>
 
 #include "tests/support/pictures.hpp"
@@ -96,6 +97,28 @@ TEST(ItemPixels, SmallAndAbsentItemsAreNotJudged) {
   const ItemPixels item = measure(plain(255), labels);
   EXPECT_EQ(item.blocks, 0U);
   EXPECT_EQ(item.clipped_fraction(), 1.0);
+}
+
+// A spot on the lens stays where it is, while what moves with the scene hides another part in each picture.
+TEST(ItemPixels, CountsBlocksThatAreBlankAtTheSamePlaceOfBothPictures) {
+  const cv::Mat labels = disc_labels();
+  constexpr int kSpotPx = 90;
+  const auto blank_with_spots = [&](cv::Point first, cv::Point second) {
+    std::array<cv::Mat, 2> grays = {with(plain(120.0), noise(3, 12.0, 1.5)),
+                                    with(plain(120.0), noise(4, 12.0, 1.5))};
+    const std::array<cv::Point, 2> middles = {first, second};
+    for (std::size_t i = 0; i < 2; ++i)
+      cv::circle(grays[i], middles[i], kSpotPx / 2, cv::Scalar(30), cv::FILLED);
+    BlankBlockTable blank;
+    count_blank_blocks({view_of(grays[0]), view_of(grays[1])}, {view_of(labels), view_of(labels)},
+                       measure_regions(view_of(labels)).dish, {}, blank);
+    return blank[kItem];
+  };
+  // Of 16 × 16 px, between those wholly within and those that a circle touches.
+  const std::uint32_t within = blank_with_spots({160, 160}, {160, 160});
+  EXPECT_GE(within, 10U);
+  EXPECT_LE(within, 32U);
+  EXPECT_EQ(blank_with_spots({110, 160}, {220, 160}), 0U);
 }
 
 }  // namespace

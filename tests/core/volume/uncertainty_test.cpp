@@ -138,6 +138,18 @@ TEST(Uncertainty, CoversDisparityHeightAndWallsAsOftenAsItSays) {
   expect_normal(within_one, within_two, kCount);
 }
 
+// A dish whose shape is not known is off under the whole item alike.
+TEST(Uncertainty, OfADishIsThatOfTheItemsArea) {
+  constexpr double kDishSigmaMm = 6.0;
+  MeasuredFood food;
+  const HeightVolume volume = food.measure(40.0, [](const Vec2&, double) { return 20.0; }, {});
+  UncertaintyInput input = input_of(volume);
+  const double known_ml = estimate_sigma_ml(input, cameras_above(), BundleMatrix::Zero(), {});
+  input.dish_sigma_mm = kDishSigmaMm;
+  const double unknown_ml = estimate_sigma_ml(input, cameras_above(), BundleMatrix::Zero(), {});
+  EXPECT_NEAR(unknown_ml, std::hypot(known_ml, kDishSigmaMm * volume.area_mm2 / 1000.0), 1e-6);
+}
+
 // What an outline is off by costs a drum all of its side, a cone next to nothing: sigma lies between the two,
 // since it knows a mean height alone. Drawn or found, it is so many mm.
 TEST(Uncertainty, OfAnOutlineLiesBetweenThatOfADrumAndOfACone) {
