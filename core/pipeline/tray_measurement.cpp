@@ -25,9 +25,11 @@ void warn_about_lens(const ViewPair& views, const ViewCheckParams& params, Warni
   count_blank_blocks({first, second}, {views[0]->labels, views[1]->labels}, views[0]->regions().dish,
                      params.item_pixels, blank);
   for (std::size_t label = kFirstItemLabel; label < blank.size(); ++label) {
-    warnings.raise_if(blank[label] >= params.min_blank_blocks &&
-                          views[0]->quality().items[label].textured_fraction() >= params.textured_warning,
-                      Warning::lens_dirty, static_cast<std::uint8_t>(label));
+    const ItemPixels& item = views[0]->quality().items[label];
+    const bool has_texture_elsewhere =
+        item.textured >= params.textured_warning * static_cast<double>(item.blocks - blank[label]);
+    warnings.raise_if(blank[label] >= params.min_blank_blocks && has_texture_elsewhere, Warning::lens_dirty,
+                      static_cast<std::uint8_t>(label));
   }
 }
 
