@@ -35,8 +35,8 @@ double squared_slant(const OutlineRow& above, const OutlineRow& below) {
     const double end = below.chords[v].end - above.chords[v].end;
     sum += first * first + end * end;
   }
-  constexpr double kRows = 2.0 * kSlantRows;
-  return sum / (kRows * kRows);
+  constexpr double kApart = 2.0 * kSlantRows;
+  return sum / (kApart * kApart);
 }
 
 // Returns the steepest run to a chord's ends.
