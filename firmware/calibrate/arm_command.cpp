@@ -28,8 +28,7 @@ bool see_move(const std::string& folder, SeenMove& move, std::ostream& out) {
     angles_deg[i] = *view.arm_angle_deg;
     CardFinder finder(view.camera.size.width, view.camera.size.height);
     CardAlignment card;
-    Status status = finder.learn(
-        {{capture.card.width_mm, capture.card.height_mm, capture.card.thickness_mm}, pattern.gray()});
+    Status status = finder.learn(card_of(capture.card, pattern));
     if (status.ok()) status = finder.find(load_view(view).picture.frame(), lens_of(view.camera), card);
     if (!status.ok()) {
       out << printable(folder) << ": no card in view " << pair[i] << "; it is left out" << std::endl;

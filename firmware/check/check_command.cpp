@@ -140,10 +140,8 @@ class StationCheck {
   }
   std::optional<Pose> find_card(const LensConfig& lens) {
     std::optional<Pose> camera_from_table;
-    tell(check_card(
-        picture_.frame.view, lens_of(lens.camera),
-        {{station_.card->width_mm, station_.card->height_mm, station_.card->thickness_mm}, pattern_.gray()},
-        camera_from_table));
+    tell(check_card(picture_.frame.view, lens_of(lens.camera), card_of(*station_.card, pattern_),
+                    camera_from_table));
     return camera_from_table;
   }
   // The camera, its lens, and the card in its picture.

@@ -24,6 +24,10 @@ LensModel lens_of(const CameraDescription& camera) {
   return lens;
 }
 
+ReferenceCard card_of(const CardDescription& card, const Picture& pattern) {
+  return {{card.width_mm, card.height_mm, card.thickness_mm}, pattern.gray()};
+}
+
 DishModel dish_of(const DishDescription& dish) {
   DishModel model{dish.outer_size_mm, dish.rim_height_mm, dish.bottom_height_mm};
   for (const ProfilePoint& point : dish.profile) {
@@ -54,7 +58,7 @@ PairSetup set_up_pair(const Capture& capture, std::array<int, 2> pair,
 
 void describe_tray(const PairSetup& setup, TraySetup& tray) {
   tray.lens = setup.lenses[0];
-  tray.card = {{setup.card.width_mm, setup.card.height_mm, setup.card.thickness_mm}, setup.pattern.gray()};
+  tray.card = card_of(setup.card, setup.pattern);
   tray.dishes = setup.dishes;
   tray.limits.max_frame_width = std::max(setup.lenses[0].width, setup.lenses[1].width);
   tray.limits.max_frame_height = std::max(setup.lenses[0].height, setup.lenses[1].height);

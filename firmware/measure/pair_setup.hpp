@@ -11,6 +11,8 @@ namespace traygauge {
 
 LensModel lens_of(const CameraDescription& camera);
 DishModel dish_of(const DishDescription& dish);
+// It refers to `pattern`.
+ReferenceCard card_of(const CardDescription& card, const Picture& pattern);
 
 // Caps for frames of these sizes, everything else at its default.
 FrameLimits limits_for(PictureSize first, PictureSize second);

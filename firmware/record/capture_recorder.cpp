@@ -46,8 +46,7 @@ Status CaptureRecorder::add_view(const StationView& view) {
 std::optional<double> CaptureRecorder::turned_deg(const FrameView& live) {
   if (views_.empty()) return std::nullopt;
   if (!guide_knows_view_) {
-    guide_.begin({{card_.width_mm, card_.height_mm, card_.thickness_mm}, pattern_.gray()},
-                 lens_of(cameras_[0]), views_[0].frame);
+    guide_.begin(card_of(card_, pattern_), lens_of(cameras_[0]), views_[0].frame);
   }
   guide_knows_view_ = true;
   return guide_.turned_deg(live);
