@@ -55,7 +55,7 @@ namespace traygauge {
        "description.") \
   CODE(dish_shape_unknown, \
        "A dish is described without the profile of its inner wall, so what lies on the wall may be far " \
-       "off; traygauge dish measures the profile.") \
+       "off; traygauge enrol-dish measures the profile.") \
   CODE(unknown_object, \
        "Something that no description names stands beside the dishes; what may be in it is not measured.") \
   CODE(item_moved, \
