@@ -14,7 +14,7 @@ constexpr double kMaxSizeMm = 1000.0;
 constexpr double kMaxHeightMm = 200.0;
 
 bool is_plausible_profile(const DishModel& dish) {
-  if (dish.profile_size == 0) return true;
+  if (!dish.has_profile()) return true;
   if (dish.profile_size == 1 || dish.profile_size > kMaxDishProfilePoints) return false;
   const double max_inset_mm = 0.5 * std::min(dish.outer_size_mm[0], dish.outer_size_mm[1]);
   double previous_mm = -1.0;

@@ -37,7 +37,7 @@ struct DishModel {
   constexpr std::span<const DishProfilePoint> profile() const {
     return std::span(profile_points).first(profile_size);
   }
-  bool has_profile() const { return profile_size > 0; }
+  constexpr bool has_profile() const { return profile_size > 0; }
 };
 
 // Axes that differ by less than it can be made.

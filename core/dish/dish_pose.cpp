@@ -203,7 +203,7 @@ bool contradicts(const DishOutlines& outlines, const TableCameras& cameras, cons
 }
 
 double edge_height_mm(const DishModel& model) {
-  return model.profile_size > 0 ? model.profile_points[0].height_mm : model.rim_height_mm;
+  return model.has_profile() ? model.profile_points[0].height_mm : model.rim_height_mm;
 }
 
 PlacePrior prior_of(const DishModel& model, double azimuth_rad, const DishPoseParams& params) {

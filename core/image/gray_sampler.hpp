@@ -12,6 +12,8 @@ namespace traygauge {
 
 class GraySampler {
  public:
+  explicit GraySampler(ImageView<const std::uint8_t> gray)
+      : GraySampler(FrameView{gray.data, gray.width, gray.height, gray.stride, PixelFormat::gray8}) {}
   explicit GraySampler(const FrameView& frame)
       : frame_(frame), weights_(gray_weights(frame.format)), bytes_(bytes_per_pixel(frame.format)) {}
 

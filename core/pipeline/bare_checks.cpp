@@ -10,10 +10,6 @@ namespace {
 constexpr double kEdgeDepth = 0.2;
 constexpr double kWallDepth = 0.8;
 
-SurfaceView surface_view(const TrayView& view, const Pose& camera_from_table) {
-  return {view.gray, view.lens, view.labels, camera_from_table};
-}
-
 std::size_t band_of(double height_mm, const DishProfile& profile) {
   const double depth_mm = profile.crest_height_mm() - profile.bottom_height_mm();
   const double depth = depth_mm > 0.0 ? (profile.crest_height_mm() - height_mm) / depth_mm : 1.0;

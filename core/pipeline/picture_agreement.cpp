@@ -9,7 +9,8 @@ namespace {
 constexpr std::size_t kColours = 3;
 using Colour = std::array<double, kColours>;
 
-// The mean of five by five pixels over a spot; false where it reaches beyond the frame.
+// The mean of five by five pixels over a spot; false where it reaches beyond the frame. Here pixels begin at
+// whole numbers.
 bool spot_colour(const FrameView& frame, const Vec2& middle_px, double side_px, Colour& colour) {
   constexpr int kHalf = 2;
   constexpr double kCount = (2 * kHalf + 1) * (2 * kHalf + 1);
@@ -59,6 +60,8 @@ void for_each_spot(std::uint8_t item, std::size_t view, const std::array<Surface
                    const ViewPair& views, const TableCameras& camera_from_table,
                    const PictureAgreementParams& params, Action&& action) {
   const SurfaceGrid& grid = grids[view];
+  const std::array<SurfaceView, 2> seen_by{surface_view(*views[0], camera_from_table[0]),
+                                           surface_view(*views[1], camera_from_table[1])};
   for (int row = 0; row < grid.points.height; row += params.step) {
     for (int column = 0; column < grid.points.width; column += params.step) {
       if (grid.labels.at(column, row) != item || grid.evidence.at(column, row) == SurfaceEvidence::none)
@@ -67,16 +70,10 @@ void for_each_spot(std::uint8_t item, std::size_t view, const std::array<Surface
       const Vec3 point_mm(sample.x_mm, sample.y_mm, sample.z_mm);
       std::array<Colour, 2> colours;
       const auto is_seen = [&](std::size_t v) {
-        const TrayView& seen_by = *views[v];
-        const Vec3 seen = camera_from_table[v] * point_mm;
-        if (!(seen.z() > 0.0)) return false;
-        const Vec2 pixel = seen_by.lens.pixel(seen.hnormalized()) + Vec2::Constant(0.5);
-        if (!(pixel.minCoeff() >= 0.0 && pixel.x() < seen_by.labels.width &&
-              pixel.y() < seen_by.labels.height))
-          return false;
-        const double side_px = params.spot_mm * seen_by.lens.pinhole.mean_focal_px() / seen.norm();
-        return seen_by.labels.at(static_cast<int>(pixel.x()), static_cast<int>(pixel.y())) == item &&
-               spot_colour(seen_by.frame, pixel, side_px, colours[v]);
+        Vec2 pixel;
+        return seen_by[v].find_pixel(point_mm, pixel) && seen_by[v].label_at(pixel) == item &&
+               spot_colour(views[v]->frame, pixel + Vec2::Constant(0.5),
+                           params.spot_mm * px_per_mm(seen_by[v], point_mm), colours[v]);
       };
       if (is_seen(view) && is_seen(1 - view)) action(colours[view], colours[1 - view]);
     }

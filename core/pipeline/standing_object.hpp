@@ -10,7 +10,6 @@ namespace traygauge {
 
 struct StandingObject {
   bool is_seen = false;
-  Vec2 middle_mm = Vec2::Zero();  // in the table frame
   double height_mm = 0.0;
   double sigma_mm = 0.0;  // of the steps in which heights are tried
 };

@@ -16,6 +16,7 @@
 #include "core/pipeline/configuration.hpp"
 #include "core/pipeline/stage_clock.hpp"
 #include "core/quality/view_checks.hpp"
+#include "core/stereo/surface_view.hpp"
 
 namespace traygauge {
 
@@ -50,6 +51,10 @@ struct TrayView {
 };
 
 using ViewPair = std::array<const TrayView*, 2>;
+
+inline SurfaceView surface_view(const TrayView& view, const Pose& camera_from_table) {
+  return {view.gray, view.lens, view.labels, camera_from_table};
+}
 
 // Scratch that is free again once the view is prepared.
 struct TrayViewWorkspace {

@@ -28,31 +28,22 @@ double LevelPatch::correlation(const Vec3& middle_mm) const {
 
 bool LevelPatch::read(std::size_t view, const Vec3& middle_mm, Samples& samples) const {
   const SurfaceView& of_view = *views_[view];
-  const auto is_bare = [&](const Vec2& pixel) {
-    const Vec2 centre = pixel + Vec2::Constant(0.5);
-    if (!(centre.minCoeff() >= 0.0 && centre.x() < of_view.labels.width &&
-          centre.y() < of_view.labels.height))
-      return false;
-    return of_view.labels.at(static_cast<int>(centre.x()), static_cast<int>(centre.y())) == label_;
-  };
+  const auto is_bare = [&](const Vec2& pixel) { return of_view.label_at(pixel) == label_; };
   std::array<Vec2, 4> corners;
   for (std::size_t i = 0; i < corners.size(); ++i) {
     const Vec2 side(i % 2 == 0 ? -1.0 : 1.0, i < 2 ? -1.0 : 1.0);
     Vec3 corner_mm = middle_mm;
     corner_mm.head<2>() += 0.5 * params_.side_mm * side;
-    const Vec3 seen = of_view.camera_from_table * corner_mm;
-    if (!(seen.z() > 0.0)) return false;
-    corners[i] = of_view.lens.pixel(seen.hnormalized());
-    if (!is_bare(corners[i])) return false;
+    if (!of_view.find_pixel(corner_mm, corners[i]) || !is_bare(corners[i])) return false;
   }
-  const ImageView<const std::uint8_t>& picture = of_view.gray.levels[levels_[view]];
-  const GraySampler sampler(
-      {picture.data, picture.width, picture.height, picture.stride, PixelFormat::gray8});
+  const GraySampler sampler(of_view.gray.levels[levels_[view]]);
   double sum = 0.0;
   double squares = 0.0;
   for (std::size_t i = 0; i < kSamples; ++i) {
-    const double u = (static_cast<double>(i % kSide) + 0.5) / kSide;
-    const double v = (static_cast<double>(i / kSide) + 0.5) / kSide;
+    const std::size_t column = i % kSide;
+    const std::size_t row = i / kSide;
+    const double u = (static_cast<double>(column) + 0.5) / kSide;
+    const double v = (static_cast<double>(row) + 0.5) / kSide;
     const Vec2 pixel =
         (1.0 - v) * ((1.0 - u) * corners[0] + u * corners[1]) + v * ((1.0 - u) * corners[2] + u * corners[3]);
     float& gray = samples.gray[i];

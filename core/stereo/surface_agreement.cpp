@@ -40,22 +40,16 @@ SurfaceAgreement::Sampled SurfaceAgreement::sample(const SurfaceView& view, cons
   const double grain_px = params_.grain_mm * px_per_mm(view, middle_mm);
   Sampled sampled;
   sampled.level = level_of(grain_px, kPixelsAcrossGrain);
-  const ImageView<const std::uint8_t>& picture = view.gray.levels[sampled.level];
-  sampled.picture = {picture.data, picture.width, picture.height, picture.stride, PixelFormat::gray8};
+  sampled.picture = view.gray.levels[sampled.level];
   sampled.ring_px = grain_px / static_cast<double>(1U << sampled.level);
   sampled.bare_px = grain_px + kBareMarginPx;
   return sampled;
 }
 
 bool SurfaceAgreement::is_bare(std::size_t view, const Vec2& pixel) const {
-  const ImageView<const std::uint8_t>& labels = views_[view]->labels;
-  const auto is_labelled = [&](const Vec2& at) {
-    if (!(at.x() >= 0.0 && at.y() >= 0.0 && at.x() < labels.width && at.y() < labels.height)) return false;
-    return labels.at(static_cast<int>(at.x()), static_cast<int>(at.y())) == label_;
-  };
-  const Vec2 centre = pixel + Vec2::Constant(0.5);
-  return is_labelled(centre) && std::ranges::all_of(kRing, [&](const auto& direction) {
-           return is_labelled(centre + on_ring(direction, sampled_[view].bare_px));
+  const auto is_labelled = [&](const Vec2& at) { return views_[view]->label_at(at) == label_; };
+  return is_labelled(pixel) && std::ranges::all_of(kRing, [&](const auto& direction) {
+           return is_labelled(pixel + on_ring(direction, sampled_[view].bare_px));
          });
 }
 
@@ -81,10 +75,7 @@ void SurfaceAgreement::add(const Vec3& place_mm) {
   const Vec3 sight = place_mm - eye_mm_;
   if (!(sight.z() < -params_.reach_mm)) return;
   const auto pixel_in = [&](std::size_t view, const Vec3& point_mm, Vec2& pixel) {
-    const Vec3 seen = views_[view]->camera_from_table * point_mm;
-    if (!(seen.z() > 0.0)) return false;
-    pixel = views_[view]->lens.pixel(seen.hnormalized());
-    return is_bare(view, pixel);
+    return views_[view]->find_pixel(point_mm, pixel) && is_bare(view, pixel);
   };
   // The line of sight of the first picture, as the second sees it.
   Vec2 pixel;

@@ -63,7 +63,7 @@ class SurfaceAgreement {
   };
   // A picture at the level at which grains have some pixels.
   struct Sampled {
-    FrameView picture;
+    ImageView<const std::uint8_t> picture;
     std::size_t level = 0;
     double ring_px = 0.0;  // of the level, around a grain
     double bare_px = 0.0;  // of the stored picture: so far around it has to be bare
