@@ -19,7 +19,7 @@ struct CardRefinementParams {
   double min_spread_gray = 1.0;  // a grey value: below it residuals are rounding
   double max_step_px = 8.0;      // of a corner in one iteration: further, the linearisation means nothing
   double converged_px = 0.01;    // a corner's step that ends a stage; the next would be a tenth of it
-  int min_samples = 100;
+  int min_samples = 100;         // for a pose of six numbers, most of them with little gradient
   // What grey values do not show: error of a corner's place by lens, print and flatness, per axis and corner.
   double systematic_px = 0.01;
 };

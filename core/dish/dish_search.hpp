@@ -42,9 +42,9 @@ struct DishSearchParams {
   double sure_step = 20.0;     // of grey values: what is stronger counts no more
   double edge_reach_mm = 2.5;  // of the search for the edge itself, about that place
   double scale_px = 4.0;       // Geman and McClure's, for its points
-  int iterations = 15;
-  int outline_points = 160;
-  double min_step = 4.0;             // of grey values, across the rim
+  int iterations = 15;         // of Levenberg and Marquardt, until the steps are small
+  int outline_points = 160;    // 5 mm apart on the largest plates; half or twice costs a point (numbers.tsv)
+  double min_step = 4.0;       // of grey values, across the rim
   double min_step_over_noise = 3.0;  // over the median magnitude of the steps beside the rim
   double min_support = 0.5;          // of the rim, along which there is such a step; less is no dish
 };

@@ -21,7 +21,7 @@ struct DishSightingParams {
   // Geman and McClure's scale, coarse to fine: the first as in DishPoseParams, the last three times the error
   // of an edge.
   std::array<double, 3> scales_px{25.0, 5.0, 1.0};
-  int min_points = 24;
+  int min_points = 24;  // which count as six, for three numbers of a place
   // Of the outline's points, that agree with one edge. A rim that is painted shows two: which of them a point
   // is on changes along it. Single edges of rendered dishes reach 0.93 and more, painted ones 0.89 at most.
   double min_agreeing = 0.92;

@@ -11,6 +11,7 @@
 namespace traygauge {
 namespace {
 
+// From 18 to 64 mm by 2 mm are 24; an object of 512 patches 12 mm apart would be as large as a tray.
 constexpr std::size_t kMostHeights = 40;
 constexpr std::size_t kMostPatches = 512;
 

@@ -11,7 +11,7 @@
 namespace traygauge {
 
 struct LevelPatchParams {
-  double side_mm = 16.0;
+  double side_mm = 16.0;            // 8 samples of 2 mm: finer ones see the noise, larger ones a dish's curve
   double min_contrast = 3.0;        // standard deviation in grey values; less is noise
   double max_contrast_ratio = 2.0;  // between the pictures; more are an edge in one and none in the other
 };

@@ -223,6 +223,7 @@ void RoundBody::correct_centre() {
 
 // What is matched wrongly on shine lies too low: what is matched higher is right.
 double RoundBody::raise_fraction() const {
+  // A histogram from 0.9 to 1.22 of the body, beyond max_raise; half a percent of the height is 0.3 mm.
   constexpr double kBin = 0.005;
   constexpr double kFirst = 0.9;
   std::array<int, 64> bins{};
