@@ -15,6 +15,8 @@ using Json = nlohmann::ordered_json;
 constexpr std::chrono::seconds kSilentAfter{10};
 // Raspberry Pis slow down from here on, by up to a half at 85 °C.
 constexpr double kHotC = 80.0;
+// A hub that was away takes what waits within seconds; what still stands then has another reason.
+constexpr double kQueueStandsS = 60.0;
 // No result was ever measured before this program was written: 2026-01-01.
 constexpr std::int64_t kEarliestTimeMs = 1767225600000;
 
@@ -53,6 +55,20 @@ void examine_board(const std::string& station, const Json& state, std::vector<He
   }
 }
 
+void examine_queue(const std::string& station, const Json& state, std::vector<HealthPart>& parts) {
+  const auto waiting = state.find("waiting_results");
+  if (waiting == state.end() || !waiting->is_number_unsigned() || *waiting == 0) return;
+  HealthPart queue{"queue of " + station, HealthState::warning,
+                   waiting->dump() + " results wait at the station to be stored."};
+  const auto stands = state.find("queue_stands_s");
+  if (stands != state.end() && stands->is_number() && stands->get<double>() >= kQueueStandsS) {
+    queue.state = HealthState::failing;
+    queue.message += " None was taken for " + fixed(stands->get<double>(), 0) +
+                     " s: look at the logs of hub and station for the reason.";
+  }
+  parts.push_back(queue);
+}
+
 // Of what the station said last; absent or strange parts say nothing.
 void examine_state(const std::string& station, const Json& state, std::vector<HealthPart>& parts) {
   if (!state.is_object()) return;
@@ -68,10 +84,7 @@ void examine_state(const std::string& station, const Json& state, std::vector<He
   if (const std::string problem = text_of(state, "configuration", ""); !problem.empty())
     parts.push_back({"configuration of " + station, HealthState::warning, problem});
   examine_board(station, state, parts);
-  const auto waiting = state.find("waiting_results");
-  if (waiting != state.end() && waiting->is_number_unsigned() && *waiting > 0)
-    parts.push_back({"queue of " + station, HealthState::warning,
-                     waiting->dump() + " results wait at the station to be stored."});
+  examine_queue(station, state, parts);
 }
 
 void examine_station(const std::string& name, const LiveStation& live, std::vector<HealthPart>& parts) {

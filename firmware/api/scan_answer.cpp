@@ -71,6 +71,7 @@ Expected<Json> scan_answer(Store& store, const StoredScan& scan) {
                {"warnings", of_document("warnings")},
                {"checks", of_document("checks")},
                {"blur_px", of_document("blur_px")},
+               {"board", of_document("board")},
                {"duration_ms", of_document("duration_ms")},
                {"timing_ms", of_document("timing_ms")}};
   for (const CorrectedItem& item : corrected->items) json["items"].push_back(item_answer(item));

@@ -37,7 +37,7 @@ Delivery ScanHandover::deliver(const ScanResult& result) {
     note_disk(id.failure());
     return Delivery::failed;
   }
-  ScanIdentity identity{*id, pressed_at_, std::nullopt};
+  ScanIdentity identity{*id, pressed_at_, std::nullopt, board_};
   if (result.repeats_last) identity.supersedes = last_id_;
   if (result.measurement != nullptr) last_id_ = *id;
   const std::string document = scan_json(result, &identity);
@@ -72,6 +72,7 @@ bool ScanHandover::hand_over(const std::string& id, const std::string& document)
 bool ScanHandover::hand_over_kept() {
   const auto end = SteadyClock::now() + params_.longest_attention;
   while (kept_.waiting_count() > 0) {
+    if (!queue_stands_since_) queue_stands_since_ = SteadyClock::now();
     if (was_refused_ && SteadyClock::now() - asked_at_ < params_.retry_after) return false;
     const Expected<std::optional<KeptResult>> oldest = kept_.oldest();
     log_notices();
@@ -85,6 +86,7 @@ bool ScanHandover::hand_over_kept() {
       note_disk(removed.failure());
       return false;
     }
+    queue_stands_since_.reset();
     if (SteadyClock::now() > end) return kept_.waiting_count() == 0;
   }
   return true;
@@ -169,6 +171,12 @@ void ScanHandover::look_at_board() {
   board_ = read_board_state(params_.board_classes);
 }
 
+// In seconds, since something waits and none of it was taken.
+double ScanHandover::queue_stands_s() const {
+  if (!queue_stands_since_) return 0.0;
+  return std::chrono::duration<double>(SteadyClock::now() - *queue_stands_since_).count();
+}
+
 void ScanHandover::tell_state() {
   using Json = nlohmann::json;
   Json faults = Json::array();
@@ -182,6 +190,7 @@ void ScanHandover::tell_state() {
       {"dishes", params_.facts.dish_styles},
       {"next_tray", next ? Json::parse(told_tray_json(*next)) : Json()},
       {"waiting_results", kept_.waiting_count()},
+      {"queue_stands_s", queue_stands_s()},
       {"disk", disk_problem_.empty() ? Json() : Json(disk_problem_)},
       {"devices", params_.facts.devices},
       {"faults", faults},

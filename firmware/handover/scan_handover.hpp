@@ -62,6 +62,7 @@ class ScanHandover final : public ResultSink {
   void hear_next_tray();
   void tell_appearance();
   void look_at_board();
+  double queue_stands_s() const;
   void tell_state();
   void log_notices();
   void note_hub(const HubReply& reply);
@@ -89,6 +90,7 @@ class ScanHandover final : public ResultSink {
   bool is_full_ = false;                              // which is what disk_problem_ tells
   SteadyClock::time_point asked_at_;                  // of the last attempt that failed
   bool was_refused_ = false;
+  std::optional<SteadyClock::time_point> queue_stands_since_;  // none: nothing waits, or it is being taken
   SteadyClock::time_point told_at_;
   BoardState board_;
   std::optional<SteadyClock::time_point> board_looked_at_;

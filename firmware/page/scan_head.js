@@ -33,6 +33,7 @@ export function tray_notices(scan) {
 export function scan_notices(scan) {
   const notices = tray_notices(scan);
   if (scan.clock_synchronised === false) notices.push(notice('warning', word('scan.clock')));
+  if (scan.board?.under_voltage === true) notices.push(notice('warning', word('scan.under_voltage')));
   return notices;
 }
 

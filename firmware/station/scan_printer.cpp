@@ -46,6 +46,9 @@ void add_identity(const ScanIdentity& identity, Json& json) {
   json["taken_at"] = utc_text(identity.taken_at.unix_ms);
   json["clock_synchronised"] = identity.taken_at.synchronised;
   json["supersedes"] = identity.supersedes ? Json(scan_id_text(*identity.supersedes)) : Json();
+  const BoardState& board = identity.board;
+  json["board"] = {{"temperature_c", board.temperature_c ? Json(*board.temperature_c) : Json()},
+                   {"under_voltage", board.under_voltage ? Json(*board.under_voltage) : Json()}};
 }
 
 void add_measurement(const Measurement& measurement, Json& json) {

@@ -8,6 +8,7 @@
 #include "core/image_view/image_view.hpp"
 #include "drivers/clock.hpp"
 #include "drivers/device_status.hpp"
+#include "firmware/base/board_state.hpp"
 #include "firmware/base/scan_id.hpp"
 #include "firmware/base/wall_clock.hpp"
 #include "firmware/station/tray_hint.hpp"
@@ -47,6 +48,7 @@ struct ScanIdentity {
   ScanId id;
   WallTime taken_at;
   std::optional<ScanId> supersedes;  // the same tray's result, which is not booked any more
+  BoardState board;                  // of the board that measured it
 };
 
 // Where a result got.

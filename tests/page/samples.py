@@ -52,12 +52,13 @@ def forty_items(number):
 
 
 def doubtful(number):
-    """Odd names, an item without a volume, warnings, a clock that nobody synchronised."""
+    """Odd names, an item without a volume, warnings, a clock that nobody synchronised, a weak power supply."""
     items = [item(2, 142.4, 5.1, food=EVIL), item(3, None, None, status="item_textureless")]
     warnings = [{"code": "items_doubtful", "message": "Doubtful.", "label": None},
                 {"code": "item_uncertain", "message": "Uncertain.", "label": 2},
                 {"code": "brand_new", "message": "Something <b>new</b>.", "label": None}]
-    return document(number, items, status="partial", warnings=warnings, clock_synchronised=False, tray=EVIL)
+    return document(number, items, status="partial", warnings=warnings, clock_synchronised=False, tray=EVIL,
+                    board={"temperature_c": 71.5, "under_voltage": True})
 
 
 def refused(number):

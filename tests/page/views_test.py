@@ -75,6 +75,7 @@ class ViewsTest(PageCase):
         self.browser.wait_text("Something <b>new</b>.", ".warnings")
         self.browser.wait_text("Shows too little texture", ".items")
         self.browser.wait_text("was not synchronised", ".notice")
+        self.browser.wait_text("supply voltage of the station", ".notice")
         self.assertEqual(self.browser.find_all("main script, main img, .warnings b"), [])
 
     def test_refused_and_superseded(self):

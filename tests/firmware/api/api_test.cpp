@@ -201,6 +201,23 @@ TEST(Api, HealthNamesThePartThatFails) {
   EXPECT_EQ(part("disk")["status"], "ok");
 }
 
+// A hub that was away takes what waits; a queue that stands has another reason, and somebody has to look.
+TEST(Api, HealthFailsWhereAQueueStands) {
+  HubRig rig;
+  auto health_with = [&rig, scan = 0](const std::string& state) mutable {
+    rig.station().tell({MessageType::state, state, {}});
+    rig.store(++scan, 100.0);  // its answer comes after the state was read
+    return rig.get("/health");
+  };
+  EXPECT_EQ(health_with(R"({"waiting_results":3,"queue_stands_s":59.0})").status, 200);
+  const Answer standing = health_with(R"({"waiting_results":3,"queue_stands_s":61.2})");
+  EXPECT_EQ(standing.status, 503);
+  EXPECT_NE(standing.body.find("3 results wait at the station to be stored. None was taken for 61 s"),
+            std::string::npos)
+      << standing.body;
+  EXPECT_EQ(health_with(R"({"waiting_results":0,"queue_stands_s":61.2})").status, 200);
+}
+
 TEST(Api, HealthTellsOfABoardThatIsHotOrHasTooLittlePower) {
   HubRig rig;
   auto parts_with = [&rig, scan = 0](const std::string& state) mutable {
@@ -227,7 +244,8 @@ TEST(Api, HealthStandsAStrangeStation) {
   for (const std::string state :
        {R"({"faults":[{"device":5,"message":[]}]})", R"({"faults":[7]})", R"({"faults":7,"disk":7})",
         R"({"waiting_results":-1})", R"({"waiting_results":"many"})",
-        R"({"under_voltage":7,"temperature_c":"hot"})", "{}"}) {
+        R"({"waiting_results":2,"queue_stands_s":"long"})", R"({"under_voltage":7,"temperature_c":"hot"})",
+        "{}"}) {
     rig.station().tell({MessageType::state, state, {}});
     rig.store(1, 100.0);
     EXPECT_NE(rig.get("/health").status, 500) << state;

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <filesystem>
 #include <fstream>
@@ -227,6 +228,33 @@ TEST_F(Handover, AFullHubKeepsResultsHere) {
   EXPECT_NE(log_.str().find("the disk is full"), std::string::npos);
 }
 
+TEST_F(Handover, TellsForHowLongWhatWaitsWasNotTaken) {
+  std::atomic<bool> takes = false;
+  const FakeHub hub(socket(), [&takes](const Message& message) -> std::vector<Message> {
+    if (message.type != MessageType::scan || takes) return store_all(message);
+    const std::string id = Json::parse(message.text)["id"];
+    return {{MessageType::refused, Json{{"id", id}, {"why", "the disk is full"}}.dump(), {}}};
+  });
+  Run run(folder_.path(), out_, log_);
+  const auto told = [&] {
+    run.sink->report_state("waiting");
+    run.link.deliver("kitchen-99", "{}");  // its answer comes after the state was read
+    return Json::parse(hub.received(MessageType::state).back().text);
+  };
+  EXPECT_EQ(told()["queue_stands_s"], 0.0);
+  EXPECT_EQ(run.sink->deliver(result_), Delivery::kept);
+  run.sink->attend();
+  std::this_thread::sleep_for(Milliseconds(20));
+  const Json standing = told();
+  EXPECT_EQ(standing["waiting_results"], 1);
+  EXPECT_GE(standing["queue_stands_s"], 0.02);
+  takes = true;
+  run.sink->attend();
+  const Json taken = told();
+  EXPECT_EQ(taken["waiting_results"], 0);
+  EXPECT_EQ(taken["queue_stands_s"], 0.0);
+}
+
 TEST_F(Handover, WhatTheHubSetAsideIsNotSentForEver) {
   const FakeHub hub(socket(), [](const Message& message) -> std::vector<Message> {
     if (message.type != MessageType::scan) return {};
@@ -305,6 +333,7 @@ TEST_F(Handover, TellsTheHubOfDevicesBoardAndCalibration) {
   sink.deliver(result_);  // its answer comes after everything before it was read
   ASSERT_FALSE(hub.received(MessageType::state).empty());
   const Json state = Json::parse(hub.received(MessageType::state).back().text);
+  EXPECT_EQ(scans(hub).back()["board"], (Json{{"temperature_c", 51.234}, {"under_voltage", nullptr}}));
   EXPECT_EQ(state["devices"], (Json{"camera serial:A2", "button TRIGGER"}));
   EXPECT_EQ(state["temperature_c"], 51.234);
   EXPECT_TRUE(state["under_voltage"].is_null());

@@ -90,7 +90,8 @@ TEST_F(Printed, TheLongestResultOfSixteenItemsFitsIntoTheJournal) {
     measurement_.checks.add({CheckKind::dish_height_mm, 255, kLong, kLong, kLong, Verdict::refused});
   measurement_.items = items;
   measurement_.report.pictures.blur_px = {-kLong, -kLong};
-  const ScanIdentity identity{{std::string(32, 'k'), std::numeric_limits<std::uint64_t>::max()}, {}, {}};
+  const ScanIdentity identity{
+      {std::string(32, 'k'), std::numeric_limits<std::uint64_t>::max()}, {}, {}, {kLong, false}};
   const std::string document = scan_json(result_, &identity);
   std::cout << document.size() << " bytes" << std::endl;
   EXPECT_EQ(nlohmann::json::parse(document)["checks"].size(), CheckList::kCapacity);
