@@ -20,7 +20,7 @@ constexpr double kQueueStandsS = 60.0;
 // No result was ever measured before this program was written: 2026-01-01.
 constexpr std::int64_t kEarliestTimeMs = 1767225600000;
 
-HealthPart examine_disk(HubStore& store) {
+HealthPart examine_disk(const HubStore& store) {
   if (store.store() != nullptr) return {"disk", HealthState::ok, {}};
   return {"disk", HealthState::failing, store.problem()};
 }
@@ -113,6 +113,11 @@ HealthPart examine_webhook(const Webhook& webhook) {
   return {"webhook", HealthState::warning, text};
 }
 
+HealthPart examine_fleet(const Fleet& fleet) {
+  const std::string trouble = fleet.trouble();
+  return {"fleet", trouble.empty() ? HealthState::ok : HealthState::warning, trouble};
+}
+
 // Of stations that still measure; only what drifts is a part.
 void examine_drift(const DriftWatch& drift, const WallTime& now, std::vector<HealthPart>& parts) {
   for (const StationTrends& station : drift.trends()) {
@@ -129,13 +134,7 @@ void examine_drift(const DriftWatch& drift, const WallTime& now, std::vector<Hea
 
 HttpResponse answer_health(const HubSite& site) {
   const Health health = examine_health(site);
-  Json json = {{"status", name(health.worst())}, {"parts", Json::array()}};
-  for (const HealthPart& part : health.parts) {
-    json["parts"].push_back({{"name", part.name},
-                             {"status", name(part.state)},
-                             {"message", part.message.empty() ? Json() : Json(part.message)}});
-  }
-  return json_answer(json, health.worst() == HealthState::failing ? 503 : 200);
+  return json_response(health_json(health), health.worst() == HealthState::failing ? 503 : 200);
 }
 
 }  // namespace
@@ -158,16 +157,32 @@ HealthState Health::worst() const {
   return worst;
 }
 
-Health examine_health(const HubSite& site) {
+Health examine_health(const HealthSubjects& subjects) {
   Health health;
-  health.parts.push_back(examine_disk(site.store));
-  health.parts.push_back(examine_clock(site.wall_clock()));
-  if (!site.facts.configuration_problem.empty())
-    health.parts.push_back({"configuration", HealthState::warning, site.facts.configuration_problem});
-  if (site.webhook != nullptr) health.parts.push_back(examine_webhook(*site.webhook));
-  for (const auto& [name, live] : site.inbox.stations()) examine_station(name, live, health.parts);
-  examine_drift(site.drift, site.wall_clock(), health.parts);
+  health.parts.push_back(examine_disk(subjects.store));
+  health.parts.push_back(examine_clock(subjects.now));
+  if (!subjects.configuration_problem.empty())
+    health.parts.push_back({"configuration", HealthState::warning, subjects.configuration_problem});
+  if (subjects.webhook != nullptr) health.parts.push_back(examine_webhook(*subjects.webhook));
+  if (subjects.fleet != nullptr) health.parts.push_back(examine_fleet(*subjects.fleet));
+  for (const auto& [name, live] : subjects.inbox.stations()) examine_station(name, live, health.parts);
+  examine_drift(subjects.drift, subjects.now, health.parts);
   return health;
+}
+
+Health examine_health(const HubSite& site) {
+  return examine_health({site.store, site.inbox, site.drift, site.webhook, site.fleet,
+                         site.facts.configuration_problem, site.wall_clock()});
+}
+
+std::string health_json(const Health& health) {
+  Json json = {{"status", name(health.worst())}, {"parts", Json::array()}};
+  for (const HealthPart& part : health.parts) {
+    json["parts"].push_back({{"name", part.name},
+                             {"status", name(part.state)},
+                             {"message", part.message.empty() ? Json() : Json(part.message)}});
+  }
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
 void add_health_routes(Router& router, const HubSite& site) {

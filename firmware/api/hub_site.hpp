@@ -7,6 +7,7 @@
 
 #include "firmware/base/wall_clock.hpp"
 #include "firmware/drift/drift_watch.hpp"
+#include "firmware/fleet/fleet.hpp"
 #include "firmware/hub/hub_store.hpp"
 #include "firmware/hub/picture_shelf.hpp"
 #include "firmware/hub/shape_shelf.hpp"
@@ -39,6 +40,7 @@ struct HubSite {
   std::function<WallTime()> wall_clock = read_wall_clock;
   std::chrono::steady_clock::time_point started_at = std::chrono::steady_clock::now();
   const Webhook* webhook = nullptr;  // null: nobody is told
+  const Fleet* fleet = nullptr;      // null: no broker is told
 };
 
 // Everything below /api/v1, /health and /metrics; firmware/README.md lists it.

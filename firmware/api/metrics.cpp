@@ -110,6 +110,27 @@ void add_webhook(const Webhook& webhook, Metrics& metrics) {
                 static_cast<std::uint64_t>(*waiting));
 }
 
+void add_fleet(const Fleet& fleet, Metrics& metrics) {
+  const FleetState& state = fleet.state();
+  metrics.one("traygauge_fleet_connected", "gauge", "1 while the broker of the fleet is connected.",
+              fleet.is_connected() ? std::uint64_t{1} : std::uint64_t{0});
+  metrics.one("traygauge_fleet_published_total", "counter",
+              "Scans and corrections published since the start, each time they were.", state.published);
+  metrics.one("traygauge_fleet_delivered_total", "counter",
+              "Scans and corrections whose delivery was confirmed since the start.", state.delivered);
+  metrics.one("traygauge_fleet_failed_attempts_total", "counter",
+              "Times that a delivery was not confirmed in time since the start.", state.failed_attempts);
+  metrics.one("traygauge_fleet_undeliverable", "gauge",
+              "Scans and corrections that are not confirmed though others are.",
+              std::uint64_t{state.undeliverable.size()});
+  metrics.one("traygauge_fleet_ignored_messages_total", "counter",
+              "Messages to this hub that are no receipts, since the start.", state.ignored);
+  const Expected<std::int64_t> waiting = fleet.count_waiting();
+  if (waiting.ok())
+    metrics.one("traygauge_fleet_waiting", "gauge", "Scans and corrections that wait for the fleet.",
+                static_cast<std::uint64_t>(*waiting));
+}
+
 HttpResponse answer_metrics(const HubSite& site) {
   Metrics metrics;
   const std::chrono::duration<double> up = std::chrono::steady_clock::now() - site.started_at;
@@ -118,6 +139,7 @@ HttpResponse answer_metrics(const HubSite& site) {
               examine_health(site).worst() != HealthState::failing ? std::uint64_t{1} : std::uint64_t{0});
   if (Store* const store = site.store.store()) add_store(*store, metrics);
   if (site.webhook != nullptr) add_webhook(*site.webhook, metrics);
+  if (site.fleet != nullptr) add_fleet(*site.fleet, metrics);
   add_stations(site, metrics);
   add_drift(site.drift, metrics);
   const HttpCounts http = site.http();

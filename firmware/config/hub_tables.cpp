@@ -127,8 +127,10 @@ HubFile read_hub_file(const std::filesystem::path& file, const std::filesystem::
   const JsonNode root = document.root();
   check_station_version(root);
   const std::filesystem::path folder = file.parent_path();
-  return {read_on_bad_config(root), read_handover_table(root.member("station"), folder).socket,
-          read_hub_table(root.member("hub"), folder)};
+  const HandoverConfig station = read_handover_table(root.member("station"), folder);
+  HubFile hub{read_on_bad_config(root), station.socket, read_hub_table(root.member("hub"), folder), {}};
+  if (const auto fleet = root.find("fleet")) hub.fleet = read_fleet_table(*fleet, station.name, folder);
+  return hub;
 }
 
 }  // namespace traygauge

@@ -1,4 +1,4 @@
-// The tables of a station file that say where results go: [station] and [hub].
+// The tables of a station file that say where results go: [station], [hub] and [fleet].
 #pragma once
 
 #include <cstdint>
@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "firmware/config/last_good.hpp"
+#include "firmware/fleet/fleet_config.hpp"
 #include "simulator/capture/json_node.hpp"
 
 namespace traygauge {
@@ -76,6 +77,7 @@ struct HubFile {
   OnBadConfig on_bad_config = OnBadConfig::keep;
   std::filesystem::path socket;
   HubConfig hub;
+  std::optional<FleetConfig> fleet;
 };
 
 // Paths are relative to `file`; `content` is read, which is another file where that is the last good one.

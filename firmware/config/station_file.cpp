@@ -281,7 +281,7 @@ StationFile read_station_file(const fs::path& file, const fs::path& content) {
   const JsonNode root = document.root();
   check_station_version(root);
   expect(root, {"version", "camera", "second_camera", "button", "lamp", "arm", "arm_geometry", "lens",
-                "second_lens", "card", "trays", "station", "hub", "on_bad_config"});
+                "second_lens", "card", "trays", "station", "hub", "fleet", "on_bad_config"});
   const fs::path folder = file.parent_path();
   StationFile station;
   station.file = file;
@@ -310,6 +310,10 @@ StationFile read_station_file(const fs::path& file, const fs::path& content) {
   if (const auto hub = root.find("hub")) {
     read_hub_table(*hub, folder);
     station.has_hub = true;
+  }
+  if (const auto fleet = root.find("fleet")) {
+    if (!station.has_hub) fleet->fail("the table [hub] beside this one", "add it, or remove this one");
+    read_fleet_table(*fleet, station.handover ? station.handover->name : std::string(), folder);
   }
   return station;
 }

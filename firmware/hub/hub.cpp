@@ -13,6 +13,7 @@ Expected<std::unique_ptr<Hub>> Hub::start(HubParams params, HubLog log) {
   Expected<LocalListener> listener = LocalListener::open(params.socket);
   if (!listener.ok()) return Failure{listener.failure()};
   if (params.webhook) params.store.options.destinations.emplace_back(kWebhookDestination);
+  if (params.fleet) params.store.options.destinations.emplace_back(kFleetDestination);
   Expected<HubStore> store = HubStore::open(params.store);
   if (!store.ok()) return Failure{store.failure()};
   for (const std::string& notice : store->notices()) log(notice);
@@ -20,17 +21,21 @@ Expected<std::unique_ptr<Hub>> Hub::start(HubParams params, HubLog log) {
   hub->follow_drift();
   if (const auto started = hub->start_webhook(params.webhook, params.webhook_limits); !started.ok())
     return Failure{started.failure()};
+  if (const auto started = hub->start_fleet(params.fleet, params.fleet_limits); !started.ok())
+    return Failure{started.failure()};
   if (params.web.config.listen.empty()) return hub;
   Expected<std::unique_ptr<HubWeb>> web =
       HubWeb::start(params.web, {hub->store_, hub->inbox_, hub->drift_, hub->shapes_, hub->pictures_});
   if (!web.ok()) return Failure{web.failure()};
   hub->web_ = std::move(*web);
   if (hub->webhook_ != nullptr) hub->web_->show_webhook(*hub->webhook_);
+  if (hub->fleet_ != nullptr) hub->web_->show_fleet(*hub->fleet_);
   return hub;
 }
 
 Hub::Hub(HubStore store, LocalListener listener, const HubParams& params, HubLog log)
     : log_(std::move(log)),
+      configuration_problem_(params.web.configuration_problem),
       store_(std::move(store)),
       pictures_(params.pictures),
       inbox_(std::move(listener), store_, listener_for_inbox(), params.inbox) {}
@@ -55,12 +60,19 @@ void Hub::step(std::chrono::milliseconds longest_wait) {
     webhook_->add_descriptors(descriptors);
     if (const auto timeout = webhook_->timeout()) longest_wait = std::min(longest_wait, *timeout);
   }
+  if (fleet_ != nullptr) {
+    fleet_->add_descriptors(descriptors);
+    longest_wait = std::min(longest_wait, fleet_->timeout());
+  }
   ::poll(descriptors.data(), descriptors.size(), static_cast<int>(longest_wait.count()));
   inbox_.attend();
   if (web_ != nullptr) web_->run();
   // After the others, who may have stored what it tells at once.
   if (webhook_ != nullptr) {
     for (const std::string& sentence : webhook_->attend()) log_(sentence);
+  }
+  if (fleet_ != nullptr) {
+    for (const std::string& sentence : fleet_->attend()) log_(sentence);
   }
   for (const std::string& sentence : store_.tend(std::chrono::steady_clock::now())) log_(sentence);
   follow_drift();
@@ -105,20 +117,36 @@ StationListener Hub::listener_for_inbox() {
 }
 
 // Where the key is gone, what waits for the receiver goes, too: it would keep old scans from being deleted.
+Expected<void> Hub::abandon(const char* destination, const char* key) {
+  const Expected<std::int64_t> gone = store_.store()->deliveries().abandon(destination);
+  if (!gone.ok()) return Failure{gone.failure()};
+  if (*gone > 0)
+    log_(std::string("No ") + key + " is configured any more: " + std::to_string(*gone) +
+         " scans and corrections that waited for it will not be told.");
+  return {};
+}
+
 Expected<void> Hub::start_webhook(const std::optional<WebhookConfig>& config, const WebhookLimits& limits) {
-  if (!config) {
-    const Expected<std::int64_t> gone = store_.store()->deliveries().abandon(kWebhookDestination);
-    if (!gone.ok()) return Failure{gone.failure()};
-    if (*gone > 0)
-      log_("No webhook is configured any more: " + std::to_string(*gone) +
-           " scans and corrections that waited for it will not be told.");
-    return {};
-  }
+  if (!config) return abandon(kWebhookDestination, "webhook");
   Expected<std::unique_ptr<Webhook>> webhook = Webhook::start(*config, store_, limits);
   if (!webhook.ok()) return Failure{webhook.failure()};
   webhook_ = std::move(*webhook);
   if (const std::string warning = webhook_->warning(); !warning.empty()) log_(warning);
   return {};
+}
+
+Expected<void> Hub::start_fleet(const std::optional<FleetConfig>& config, const FleetLimits& limits) {
+  if (!config) return abandon(kFleetDestination, "fleet");
+  const auto health = [this] { return health_json(examine_health(health_subjects())); };
+  Expected<std::unique_ptr<Fleet>> fleet = Fleet::start(*config, store_, health, limits);
+  if (!fleet.ok()) return Failure{fleet.failure()};
+  fleet_ = std::move(*fleet);
+  if (const std::string warning = fleet_->warning(); !warning.empty()) log_(warning);
+  return {};
+}
+
+HealthSubjects Hub::health_subjects() const {
+  return {store_, inbox_, drift_, webhook_.get(), fleet_.get(), configuration_problem_, read_wall_clock()};
 }
 
 std::string Hub::drift_of(const std::string& name) const {

@@ -9,8 +9,10 @@
 #include <optional>
 #include <string>
 
+#include "firmware/api/health.hpp"
 #include "firmware/base/expected.hpp"
 #include "firmware/drift/drift_watch.hpp"
+#include "firmware/fleet/fleet.hpp"
 #include "firmware/hub/hub_store.hpp"
 #include "firmware/hub/hub_web.hpp"
 #include "firmware/hub/picture_shelf.hpp"
@@ -28,6 +30,8 @@ struct HubParams {
   PictureShelfParams pictures;
   std::optional<WebhookConfig> webhook;  // none: nobody is told
   WebhookLimits webhook_limits;
+  std::optional<FleetConfig> fleet;  // none: no broker is told
+  FleetLimits fleet_limits;
 };
 
 // One sentence for each thing that happened.
@@ -55,12 +59,16 @@ class Hub {
   StationListener listener_for_inbox();
   void tidy_pictures();
   Expected<void> start_webhook(const std::optional<WebhookConfig>& config, const WebhookLimits& limits);
+  Expected<void> start_fleet(const std::optional<FleetConfig>& config, const FleetLimits& limits);
+  Expected<void> abandon(const char* destination, const char* key);
+  HealthSubjects health_subjects() const;
   std::string drift_of(const std::string& name) const;
   void follow_drift();
   void log_problem(const std::string& problem);
 
   HubLog log_;
   std::string last_problem_;
+  std::string configuration_problem_;
   HubStore store_;
   DriftWatch drift_{store_};
   ShapeShelf shapes_;
@@ -68,6 +76,7 @@ class Hub {
   std::chrono::steady_clock::time_point tidied_at_;  // the pictures
   StationInbox inbox_;
   std::unique_ptr<Webhook> webhook_;
+  std::unique_ptr<Fleet> fleet_;
   std::unique_ptr<HubWeb> web_;
 };
 

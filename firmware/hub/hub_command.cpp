@@ -34,6 +34,10 @@ ChosenConfig<HubFile> choose(const HubCommand& command) {
         const Expected<void> webhook = Webhook::check(*file.hub.webhook);
         if (!webhook.ok()) throw UsageError(content.string() + ": " + webhook.failure());
       }
+      if (file.fleet) {
+        const Expected<void> fleet = Fleet::check(*file.fleet);
+        if (!fleet.ok()) throw UsageError(content.string() + ": " + fleet.failure());
+      }
       return file;
     };
     read = read_or_last_good(command.config, command.last_good, read_checked,
@@ -53,6 +57,7 @@ HubParams params_of(const HubFile& file) {
   params.socket = file.socket;
   params.web.config = file.hub.web;
   params.webhook = file.hub.webhook;
+  params.fleet = file.fleet;
   params.store.options.file = file.hub.store;
   params.pictures.folder = file.hub.store.parent_path() / "pictures";
   params.pictures.max_bytes_on_disk = static_cast<std::uint64_t>(file.hub.pictures_mib * kBytesPerMib);

@@ -29,6 +29,7 @@ class HubStore {
 
   // Null while the file cannot be used: problem() says why.
   Store* store() { return store_.get(); }
+  const Store* store() const { return store_.get(); }
   const std::string& problem() const { return problem_; }
   // How often it was opened: what was remembered of one store means nothing in the next one.
   std::uint64_t openings() const { return openings_; }

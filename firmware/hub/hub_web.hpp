@@ -50,8 +50,9 @@ class HubWeb {
   std::optional<std::chrono::milliseconds> timeout() const { return server_->timeout(); }
   void run() { server_->run(); }
 
-  // Health and figures tell of it, too; it outlives this.
+  // Health and figures tell of these, too; they outlive this.
   void show_webhook(const Webhook& webhook) { hub_site_.webhook = &webhook; }
+  void show_fleet(const Fleet& fleet) { hub_site_.fleet = &fleet; }
 
   void tell_scan(const ScanId& id);
   void tell_shape(const ScanId& id);

@@ -53,8 +53,8 @@ Expected<std::vector<PendingDelivery>> Deliveries::due(std::string_view destinat
   const std::int64_t max_wait_ms = std::chrono::milliseconds(kMaxWait).count();
   const Expected<void> read = database_.each(
       kReadingDeliveries,
-      "SELECT place, turn, station, scans.number, correction, coalesce(made_ms, 0), body, attempts,"
-      " last_failure FROM deliveries JOIN scans USING (seq) JOIN documents USING (seq)"
+      "SELECT place, turn, station, scans.number, correction, coalesce(made_ms, 0), attempts,"
+      " last_failure FROM deliveries JOIN scans USING (seq)"
       " LEFT JOIN corrections ON corrections.seq = deliveries.seq AND corrections.number = correction"
       " WHERE destination = (SELECT key FROM destinations WHERE name = ?1)"
       " AND next_ms NOT BETWEEN ?2 + 1 AND ?2 + ?3 ORDER BY place, turn LIMIT ?4",
@@ -63,9 +63,8 @@ Expected<std::vector<PendingDelivery>> Deliveries::due(std::string_view destinat
                            {row.text(2), static_cast<std::uint64_t>(row.integer(3))},
                            static_cast<int>(row.integer(4)),
                            row.integer(5),
-                           row.text(6),
-                           static_cast<int>(row.integer(7)),
-                           row.text(8)});
+                           static_cast<int>(row.integer(6)),
+                           row.text(7)});
       },
       destination, now_ms, max_wait_ms, static_cast<std::int64_t>(max));
   if (!read.ok()) return Failure{read.failure()};

@@ -31,7 +31,6 @@ struct PendingDelivery {
   ScanId id;
   int correction = 0;              // its number; 0: the scan is told
   std::int64_t correction_ms = 0;  // when it was made
-  std::string document;            // as the scan came
   int attempts = 0;
   std::string last_failure;  // empty before the first attempt
 };

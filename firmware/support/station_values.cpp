@@ -25,7 +25,8 @@ constexpr std::string_view kShownKeys =
     "lines ready hold_still busy done try_again fault move_on far_enough too_far kind step direction "
     "enable home home_bias inverted camera calibrated_on pattern labels dishes name socket folder "
     "store listen view_tokens kiosk_tokens manage_tokens host_names pictures trusted_proxies "
-    "base_path webhook webhook_secret webhook_ca site_name time_zone ";
+    "base_path webhook webhook_secret webhook_ca site_name time_zone "
+    "host ca certificate user prefix delivered home_assistant_prefix ";
 
 // Of "hub.listen[0]": "listen".
 std::string_view last_part(std::string_view key) {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "firmware/web/secret_file.hpp"
+#include "firmware/base/secret_file.hpp"
 
 namespace traygauge {
 namespace {

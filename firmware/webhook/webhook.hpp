@@ -12,10 +12,10 @@
 #include <string>
 #include <vector>
 
+#include "firmware/base/back_off.hpp"
 #include "firmware/base/expected.hpp"
 #include "firmware/config/hub_tables.hpp"
 #include "firmware/hub/hub_store.hpp"
-#include "firmware/webhook/back_off.hpp"
 #include "firmware/webhook/http_sender.hpp"
 #include "firmware/webhook/webhook_address.hpp"
 

@@ -6,7 +6,7 @@
 #include <iterator>
 #include <system_error>
 
-#include "firmware/web/secret_file.hpp"
+#include "firmware/base/secret_file.hpp"
 
 namespace traygauge {
 

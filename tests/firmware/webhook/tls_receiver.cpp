@@ -13,13 +13,14 @@
 
 namespace traygauge::test {
 
-Certificate::Certificate(const std::string& host) : key_(EVP_EC_gen("P-256")), certificate_(X509_new()) {
+Certificate::Certificate(const std::string& host, int valid_s)
+    : key_(EVP_EC_gen("P-256")), certificate_(X509_new()) {
   constexpr long kHourS = 3600;
   X509* const made = certificate_.get();
   X509_set_version(made, X509_VERSION_3);
   ASN1_INTEGER_set(X509_get_serialNumber(made), 1);
   X509_gmtime_adj(X509_getm_notBefore(made), -kHourS);
-  X509_gmtime_adj(X509_getm_notAfter(made), kHourS);
+  X509_gmtime_adj(X509_getm_notAfter(made), valid_s);
   X509_set_pubkey(made, key_.get());
   X509_NAME* const name = X509_get_subject_name(made);
   X509_NAME_add_entry_by_txt(name, "CN", MBSTRING_ASC, reinterpret_cast<const unsigned char*>(host.c_str()),
@@ -34,6 +35,14 @@ Certificate::Certificate(const std::string& host) : key_(EVP_EC_gen("P-256")), c
 void Certificate::write(const std::filesystem::path& file) const {
   std::FILE* const stream = std::fopen(file.c_str(), "w");
   if (stream == nullptr || PEM_write_X509(stream, certificate_.get()) == 0)
+    throw std::runtime_error(file.string() + " cannot be written");
+  std::fclose(stream);
+}
+
+void Certificate::write_key(const std::filesystem::path& file) const {
+  std::FILE* const stream = std::fopen(file.c_str(), "w");
+  if (stream == nullptr ||
+      PEM_write_PrivateKey(stream, key_.get(), nullptr, nullptr, 0, nullptr, nullptr) == 0)
     throw std::runtime_error(file.string() + " cannot be written");
   std::fclose(stream);
 }

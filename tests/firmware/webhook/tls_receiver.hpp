@@ -25,8 +25,10 @@ struct FreeBy {
 // Signed by itself, made anew each time.
 class Certificate {
  public:
-  explicit Certificate(const std::string& host);
+  // Valid from an hour ago on, until `valid_s` from now.
+  explicit Certificate(const std::string& host, int valid_s = 3600);
   void write(const std::filesystem::path& file) const;
+  void write_key(const std::filesystem::path& file) const;
   // Under the name by which OpenSSL looks for it.
   void link_into(const std::filesystem::path& folder) const;
 

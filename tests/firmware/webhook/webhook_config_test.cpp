@@ -3,8 +3,8 @@
 #include <filesystem>
 #include <fstream>
 
+#include "firmware/base/back_off.hpp"
 #include "firmware/config/hub_tables.hpp"
-#include "firmware/webhook/back_off.hpp"
 #include "firmware/webhook/webhook.hpp"
 #include "simulator/capture/input_error.hpp"
 #include "tests/support/temporary_folder.hpp"

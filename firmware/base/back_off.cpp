@@ -1,4 +1,4 @@
-#include "firmware/webhook/back_off.hpp"
+#include "firmware/base/back_off.hpp"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include "firmware/web/secret_file.hpp"
+#include "firmware/base/secret_file.hpp"
 
 #include <fcntl.h>
 #include <sys/stat.h>
@@ -24,7 +24,7 @@ std::string refusal_of(const struct stat& found, const std::string& path, const 
   if ((found.st_mode & (S_IRWXG | S_IRWXO)) != 0)
     return path + ": others can read or change " + what + " there: chmod 600 " + path;
   if (found.st_uid != ::geteuid() && found.st_uid != 0)
-    return path + ": expected a file of the hub's user or root: chown it, or name another file";
+    return path + ": expected a file of this program's user or root: chown it, or name another file";
   if (static_cast<std::size_t>(found.st_size) > kMaxSecretBytes) return too_long(path, what);
   return {};
 }

@@ -1,0 +1,49 @@
+// Mosquitto as a process of the test's own, which ends with it.
+#pragma once
+
+#include <sys/types.h>
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+
+#include "tests/firmware/store/memory_folder.hpp"
+
+namespace traygauge::test {
+
+// Skips the test where Debian's package mosquitto is not installed; on CI that is a failure.
+#define TRAYGAUGE_NEED_BROKER()                                               \
+  if (!BrokerProcess::is_installed()) {                                       \
+    if (std::getenv("CI") != nullptr) FAIL() << "mosquitto is not installed"; \
+    GTEST_SKIP() << "mosquitto is not installed";                             \
+  }
+
+class BrokerProcess {
+ public:
+  static bool is_installed();
+
+  // It listens at a free port of this machine. `lines` are of its configuration, after the listener's; FOLDER
+  // in them becomes folder(). Without lines everybody may do everything. Nothing is kept on disk.
+  explicit BrokerProcess(const std::string& lines = "allow_anonymous true\npersistence false\n");
+  ~BrokerProcess() { kill(); }
+  BrokerProcess(const BrokerProcess&) = delete;
+  BrokerProcess& operator=(const BrokerProcess&) = delete;
+
+  // Again, at the same port; returns when it answers.
+  void start();
+  void kill();  // by SIGKILL
+
+  std::uint16_t port() const { return port_; }
+  // For files that it reads; there from before the constructor: see make_folder().
+  const std::filesystem::path& folder() const { return folder_.path(); }
+  std::string log() const;
+  long resident_kib() const;
+
+ private:
+  MemoryFolder folder_;
+  std::string lines_;
+  std::uint16_t port_ = 0;
+  pid_t process_ = 0;
+};
+
+}  // namespace traygauge::test
