@@ -43,13 +43,14 @@ function(traygauge_install_link component program)
 endfunction()
 
 # The station and its hub.
-install(TARGETS traygauge traygauge-calibrate traygauge-card traygauge-hub traygauge-station
+install(TARGETS traygauge traygauge-calibrate traygauge-card traygauge-collect traygauge-hub traygauge-station
   DESTINATION ${programs_folder} COMPONENT traygauge)
 traygauge_install_link(traygauge traygauge)
 install(DIRECTORY config/dishes config/plots DESTINATION ${shared_folder}/config COMPONENT traygauge)
 install(DIRECTORY firmware/page DESTINATION ${shared_folder} COMPONENT traygauge
   PATTERN README.md EXCLUDE PATTERN pictures EXCLUDE)
 install(DIRECTORY simulator/demo/mash_and_meatballs/ DESTINATION ${shared_folder}/self-check COMPONENT traygauge)
+install(FILES config/collector.toml DESTINATION ${shared_folder}/config COMPONENT traygauge)
 install(FILES ${generated_folder}/station.toml DESTINATION ${configuration_folder} COMPONENT traygauge)
 install(FILES config/systemd/traygauge-hub.service config/systemd/traygauge-station.service
   DESTINATION ${system_folder}/systemd/system COMPONENT traygauge)

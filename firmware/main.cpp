@@ -14,5 +14,7 @@ int main(int argument_count, char** arguments) {
     traygauge::become_sibling_program("traygauge-station", arguments);
   if (argument_count > 1 && std::string_view(arguments[1]) == "hub")
     traygauge::become_sibling_program("traygauge-hub", arguments);
+  if (argument_count > 1 && std::string_view(arguments[1]) == "collect")
+    traygauge::become_sibling_program("traygauge-collect", arguments);
   return traygauge::run_command_line(argument_count, arguments, std::cout, std::cerr);
 }

@@ -63,6 +63,11 @@ void add_hub_command(Program& program) {
   program.add_command("hub", "Store what stations measure").take_nothing();
 }
 
+// The same; it may run where no station is.
+void add_collect_command(Program& program) {
+  program.add_command("collect", "Store what many hubs publish, and give them receipts").take_nothing();
+}
+
 int run_command(const Program& program, const Options& options, std::ostream& out, std::ostream& error) {
   const std::string command = program.chosen();
   if (command == "measure") return run_measure(options.measure, out, error);
@@ -85,6 +90,7 @@ int run_command(const Program& program, const Options& options, std::ostream& ou
     return run_sibling_program("traygauge-card", arguments);
   }
   if (command == "hub") return run_sibling_program("traygauge-hub", {});
+  if (command == "collect") return run_sibling_program("traygauge-collect", {});
   if (command == "record") return run_record(options.record, stop_on_signals(), out, error);
   if (command == "support") return run_support(options.support, out);
   if (command == "backup") return run_backup(options.backup, out);
@@ -125,6 +131,7 @@ int run_command_line(int argument_count, const char* const* arguments, std::ostr
   add_calibrate_command(program);
   add_card_command(program);
   add_hub_command(program);
+  add_collect_command(program);
   const auto run = [&] { return run_command(program, options, out, error); };
   return program.run(argument_count, arguments, run, out, error);
 }

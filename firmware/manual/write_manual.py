@@ -15,7 +15,8 @@ import subprocess
 import textwrap
 
 # Which program has the options of a command of `traygauge`, and what it puts before the words that it tells.
-SIBLINGS = {"calibrate": ("traygauge-calibrate", "calibrate"), "card": ("traygauge-card", ""), "hub": ("traygauge-hub", "")}
+SIBLINGS = {"calibrate": ("traygauge-calibrate", "calibrate"), "card": ("traygauge-card", ""), "hub": ("traygauge-hub", ""),
+            "collect": ("traygauge-collect", "")}
 
 MAINTAINER = "The Traygauge authors <traygauge@users.noreply.github.com>"
 EXIT_STATUS = [
