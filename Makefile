@@ -241,10 +241,11 @@ test-debian13: packages
 packages:
 	@config/install_packages.sh
 
-# The browser, which is larger than all others together, and what checks the hub's figures.
+# The browser, which is larger than all others together, what checks the hub's figures, and a broker that is a cluster.
 page-packages: packages
 	@config/install_packages.sh tests/page/packages.txt
 	@tests/firmware/api/get_promtool.sh build/promtool
+	@tests/firmware/collect/get_nats.sh build/nats
 
 # Torch, for the training and for the test that trains a toy.
 train-packages: packages
