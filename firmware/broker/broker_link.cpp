@@ -19,6 +19,10 @@ using SteadyClock = std::chrono::steady_clock;
 
 constexpr int kAtLeastOnce = 1;
 
+int quality_of(Assurance assurance) {
+  return assurance == Assurance::at_least_once ? kAtLeastOnce : 0;
+}
+
 // An errno that waits at the socket.
 int waiting_error(int socket) {
   int error = 0;
@@ -251,16 +255,28 @@ void BrokerLink::subscribe() {
   problem_.clear();
   is_refused_ = false;
   for (const std::string& topic : params_.subscriptions) {
-    const int result = mosquitto_subscribe(client_.get(), nullptr, topic.c_str(), kAtLeastOnce);
+    const int result =
+        mosquitto_subscribe(client_.get(), nullptr, topic.c_str(), quality_of(params_.subscribed));
     if (result != MOSQ_ERR_SUCCESS) return end(result);
   }
 }
 
 Expected<int> BrokerLink::publish(const std::string& topic, const std::string& payload, bool is_retained) {
+  return publish(topic, payload, is_retained, Assurance::at_least_once);
+}
+
+Expected<void> BrokerLink::publish_once(const std::string& topic, const std::string& payload) {
+  const Expected<int> published = publish(topic, payload, false, Assurance::at_most_once);
+  if (!published.ok()) return Failure{published.failure()};
+  return {};
+}
+
+Expected<int> BrokerLink::publish(const std::string& topic, const std::string& payload, bool is_retained,
+                                  Assurance assurance) {
   if (!is_connected()) return Failure{problem_};
   int id = 0;
   const int result = mosquitto_publish(client_.get(), &id, topic.c_str(), static_cast<int>(payload.size()),
-                                       payload.data(), kAtLeastOnce, is_retained);
+                                       payload.data(), quality_of(assurance), is_retained);
   if (result == MOSQ_ERR_SUCCESS) return id;
   end(result);
   return Failure{problem_};

@@ -32,6 +32,9 @@ struct BrokerLimits {
   std::size_t max_message_bytes = 64UL * 1024;        // longer ones are dropped and counted
 };
 
+// MQTT's quality of service.
+enum class Assurance : std::uint8_t { at_most_once, at_least_once };
+
 struct BrokerLinkParams {
   BrokerConfig config;
   std::string client_id;       // another client with the same one ends this one's connection
@@ -39,6 +42,7 @@ struct BrokerLinkParams {
   std::string will_topic;      // retained; the broker says it when the connection ends. Empty: none
   std::string will;
   std::vector<std::string> subscriptions;
+  Assurance subscribed = Assurance::at_least_once;
   BrokerLimits limits;
 };
 
@@ -81,6 +85,8 @@ class BrokerLink {
 
   // At least once, as long as the connection lasts. The number comes back in BrokerNews::acknowledged.
   Expected<int> publish(const std::string& topic, const std::string& payload, bool is_retained);
+  // At most once, for what somebody asks for again where it is lost.
+  Expected<void> publish_once(const std::string& topic, const std::string& payload);
   // The connection is of use: the next failure is the first one again.
   void note_progress() { back_off_.reset(); }
 
@@ -103,6 +109,8 @@ class BrokerLink {
   bool is_shaking_hands() const;
   std::int16_t events() const;
   void subscribe();
+  Expected<int> publish(const std::string& topic, const std::string& payload, bool is_retained,
+                        Assurance assurance);
   void end(int result);
   void fail(const std::string& problem, bool is_refused);
 

@@ -10,7 +10,11 @@ namespace traygauge {
 namespace {
 
 // MQTT 3.1.1, 3.2.2.3.
-enum Refusal { kProtocol = 1, kIdentifier = 2, kUnavailable = 3, kPassword = 4, kNotAuthorised = 5 };
+constexpr int kProtocol = 1;
+constexpr int kIdentifier = 2;
+constexpr int kUnavailable = 3;
+constexpr int kPassword = 4;
+constexpr int kNotAuthorised = 5;
 
 std::string describe_refusal(int refusal, const BrokerConfig& config, const std::string& client_id) {
   switch (refusal) {
@@ -57,7 +61,9 @@ std::string describe(const BrokerProblem& problem, const BrokerConfig& config, c
            ".certificate.";
   switch (problem.result) {
     case MOSQ_ERR_ACL_DENIED:
-      return broker + " does not allow this client to listen to its topics; correct the rules of the broker.";
+      return broker +
+             " does not let this client listen to its topics; where that lasts, correct the rules of the "
+             "broker.";
     case MOSQ_ERR_TLS:
       return broker + " does not speak TLS 1.2 or later" + with_detail(problem);
     case MOSQ_ERR_PROTOCOL:
@@ -88,7 +94,8 @@ std::string describe(const BrokerProblem& problem, const BrokerConfig& config, c
 
 bool is_refusal(const BrokerProblem& problem) {
   if (!problem.distrust.empty() || is_alert(problem.detail)) return true;
-  return (problem.refusal != 0 && problem.refusal != kUnavailable) || problem.result == MOSQ_ERR_ACL_DENIED;
+  // A cluster whose nodes come and go also says so of subscriptions that it takes a moment later.
+  return problem.refusal != 0 && problem.refusal != kUnavailable;
 }
 
 }  // namespace traygauge

@@ -31,8 +31,8 @@ Expected<std::unique_ptr<Collector>> Collector::start(const CollectConfig& confi
   return std::unique_ptr<Collector>(new Collector(config, std::move(*link), std::move(*store)));
 }
 
-Collector::Collector(const CollectConfig& config, std::unique_ptr<BrokerLink> link, CollectedStore store)
-    : config_(config), link_(std::move(link)), store_(std::move(store)) {}
+Collector::Collector(CollectConfig config, std::unique_ptr<BrokerLink> link, CollectedStore store)
+    : config_(std::move(config)), link_(std::move(link)), store_(std::move(store)) {}
 
 std::vector<std::string> Collector::attend() {
   BrokerNews news = link_->attend();
@@ -80,7 +80,7 @@ void Collector::give_receipts(const std::vector<CollectedEvent>& events) {
   for (const auto& [hub, ids] : ids_by_hub) {
     for (std::span<const std::string> left(ids); !left.empty();) {
       const std::string receipt = make_receipt(left);
-      if (!link_->publish(config_.broker.prefix + "/v1/" + hub + "/receipt", receipt, false).ok()) return;
+      if (!link_->publish_once(config_.broker.prefix + "/v1/" + hub + "/receipt", receipt).ok()) return;
     }
   }
 }

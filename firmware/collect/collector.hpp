@@ -42,7 +42,7 @@ class Collector {
   CollectedStore& store() { return store_; }
 
  private:
-  Collector(const CollectConfig& config, std::unique_ptr<BrokerLink> link, CollectedStore store);
+  Collector(CollectConfig config, std::unique_ptr<BrokerLink> link, CollectedStore store);
   void take(std::vector<BrokerMessage> messages);
   void give_receipts(const std::vector<CollectedEvent>& events);
   void say(const std::string& problem);

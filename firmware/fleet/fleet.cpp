@@ -25,6 +25,9 @@ Expected<std::unique_ptr<BrokerLink>> make_link(const FleetConfig& config, const
   if (config.delivery == FleetDelivery::receipt)
     params.subscriptions.push_back(topic_of(config.broker.prefix, config.name, "receipt"));
   if (config.home_assistant == true) params.subscriptions.push_back(home_assistant_birth_topic(config));
+  // A receipt that is lost is asked for by sending again. For some brokers, such as NATS, more is a queue on
+  // three disks for each hub.
+  params.subscribed = Assurance::at_most_once;
   params.limits = limits;
   params.limits.max_message_bytes = kMaxReceiptBytes;
   return BrokerLink::create(std::move(params));
@@ -45,9 +48,9 @@ Expected<std::unique_ptr<Fleet>> Fleet::start(const FleetConfig& config, HubStor
   return std::unique_ptr<Fleet>(new Fleet(config, std::move(*link), store, std::move(health), limits));
 }
 
-Fleet::Fleet(const FleetConfig& config, std::unique_ptr<BrokerLink> link, HubStore& store, HealthText health,
+Fleet::Fleet(FleetConfig config, std::unique_ptr<BrokerLink> link, HubStore& store, HealthText health,
              const FleetLimits& limits)
-    : config_(config),
+    : config_(std::move(config)),
       link_(std::move(link)),
       store_(store),
       health_(std::move(health)),

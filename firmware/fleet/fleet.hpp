@@ -92,7 +92,7 @@ class Fleet {
  private:
   using SteadyTime = std::chrono::steady_clock::time_point;
 
-  Fleet(const FleetConfig& config, std::unique_ptr<BrokerLink> link, HubStore& store, HealthText health,
+  Fleet(FleetConfig config, std::unique_ptr<BrokerLink> link, HubStore& store, HealthText health,
         const FleetLimits& limits);
   std::string topic(const char* what) const;
   bool has_waited_long() const;

@@ -9,7 +9,6 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 
 #include "firmware/base/file_descriptor.hpp"
 #include "tests/firmware/webhook/receiver.hpp"
@@ -122,11 +121,6 @@ long NatsCluster::resident_kib(int node) const {
     if (word == "VmHWM:" && status >> kib) return kib;
   }
   return 0;
-}
-
-std::string NatsCluster::log(int node) const {
-  std::ifstream stream(folder_.path() / ("log-" + std::to_string(node)));
-  return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
 }
 
 }  // namespace traygauge::test

@@ -29,7 +29,6 @@ class NatsCluster {
   BrokerConfig config(int node) const;          // of a hub
   std::string collector_lines(int node) const;  // of the table [broker]
   long resident_kib(int node) const;
-  std::string log(int node) const;
 
  private:
   struct Node {

@@ -244,7 +244,7 @@ TEST(FleetStrange, EveryStrangeBrokerIsToldAndTriedEverLater) {
       {taken, true, "closed the connection. Where it does so again"},
       {taken, false, "No collector answered"},
       {taken + std::string("\0\0garbage", 9), false, "is not MQTT 3.1.1"},
-      {taken + std::string("\x90\x03\x00\x01\x80", 5), false, "does not allow this client to listen"},
+      {taken + std::string("\x90\x03\x00\x01\x80", 5), false, "does not let this client listen"},
   };
   for (const StrangeCase& strange : cases) {
     StrangeBroker broker(strange.greeting, strange.then_closes);
