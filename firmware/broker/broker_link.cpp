@@ -125,11 +125,13 @@ BrokerNews BrokerLink::attend() {
   if (state_ == State::waiting && SteadyClock::now() >= deadline_) begin();
   if (state_ == State::looking_up) follow_lookup();
   if (client_ != nullptr) exchange();
-  if (state_ != State::waiting && state_ != State::connected && SteadyClock::now() >= deadline_)
-    fail(shown_ + (is_shaking_hands() || state_ == State::looking_up
-                       ? " could not be reached in time."
-                       : " took the connection and did not answer in time."),
+  if (state_ != State::waiting && state_ != State::connected && SteadyClock::now() >= deadline_) {
+    // What it is told first waits until it takes the connection.
+    const bool is_reached = client_ != nullptr && !is_shaking_hands() && !mosquitto_want_write(client_.get());
+    fail(shown_ + (is_reached ? " took the connection and did not answer in time."
+                              : " could not be reached in time."),
          false);
+  }
   if (state_ == State::connected && SteadyClock::now() - connected_at_ > params_.limits.steady_after)
     note_progress();
   news_bytes_ = 0;
