@@ -27,6 +27,9 @@ namespace traygauge {
   CODE(frame_too_dark, \
        "The picture is almost black; check the light, the lens cap and the exposure.") \
   CODE(frame_too_bright, "The picture is burnt out; lower the exposure or remove the glare.") \
+  CODE(picture_without_colour, \
+       "The picture is grey, and without colour food is not told from its dish; set the camera's colour, or " \
+       "outline card, dish and food in both views.") \
   CODE(no_dish_label, "No pixel is labelled as dish; outline the dish in both views.") \
   CODE(no_card_label, \
        "No pixel is labelled as reference card (255); outline the card in both views, or leave the labels " \

@@ -13,6 +13,7 @@
 #include "core/pipeline/dish_observation.hpp"
 #include "core/pipeline/stage_clock.hpp"
 #include "core/quality/exposure.hpp"
+#include "core/quality/picture_colour.hpp"
 #include "core/quality/view_input.hpp"
 
 namespace traygauge {
@@ -94,6 +95,11 @@ void Segmenter::segment() {
     }
     const bool is_empty_tray = result_.is_bare() && params_.items == 0;
     if (result_.items == 0 && !is_empty_tray) result_.status = StatusCode::no_food_label;
+    // An empty white dish on a grey table has no colours either.
+    const bool is_grey = std::any_of(views_.begin(), views_.end(), [&](const SegmentedView& view) {
+      return !shows_colour(view.frame, params_.colour);
+    });
+    if (result_.items > 0 && is_grey) result_.status = StatusCode::picture_without_colour;
   }
   result_.status = blame_card(result_, result_.status);
   clock.stop();

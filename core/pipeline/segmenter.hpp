@@ -38,8 +38,8 @@ class Segmenter {
   // card_not_found; card_hidden where it is cut off. What fails here is also what segment() reports.
   Status add_view(const SegmentedView& view);
   // Draws the labels of both views. rim_not_found (no dish at all), dish_cut_off (none whole), no_food_label
-  // (none was found, and yet the tray is not seen to be bare); card_hidden instead of each where a card is
-  // doubtful.
+  // (none was found, and yet the tray is not seen to be bare), picture_without_colour (food in a grey
+  // picture); card_hidden instead of each where a card is doubtful.
   void segment();
 
  private:

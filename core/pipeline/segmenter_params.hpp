@@ -5,12 +5,14 @@
 
 #include "core/card/card_location.hpp"
 #include "core/dish/dish_search.hpp"
+#include "core/quality/picture_colour.hpp"
 #include "core/segmentation/food_outline.hpp"
 #include "core/segmentation/height_evidence.hpp"
 
 namespace traygauge {
 
 struct SegmenterParams {
+  PictureColourParams colour;
   CardSearchParams card;
   DishSearchParams dish;
   HeightEvidenceParams relief;

@@ -127,6 +127,34 @@ void expect_doubt(const FaultyCapture& capture) {
   }
 }
 
+// What is left of a picture's colours: 1 all, 0 none.
+void fade(test::FaultyView& view, double share) {
+  cv::Mat gray;
+  cv::cvtColor(view.picture, gray, cv::COLOR_BGR2GRAY);
+  cv::cvtColor(gray, gray, cv::COLOR_GRAY2BGR);
+  cv::Mat faded;
+  cv::addWeighted(view.picture, share, gray, 1.0 - share, 0.0, faded);
+  faded.copyTo(view.picture);
+}
+
+TEST(GreyPictures, HaveNoOutlinesAndAreMeasuredWhereTheyAreGiven) {
+  for (const char* name : {"mash_and_meatballs", "fish_and_potatoes"}) {
+    for (const double share : {0.0, 0.05, 0.1}) {
+      for (const std::vector<int>& views : {std::vector{1}, std::vector{0, 1}}) {
+        SCOPED_TRACE(testing::Message() << name << ", " << share << ", views: " << views.size());
+        FaultyCapture capture(kDemo / name, {0, 1});
+        for (const int v : views) fade(capture.view(v), share);
+        const fs::path folder = capture.store();
+        EXPECT_EQ(measure(folder)["status"], "picture_without_colour");
+        EXPECT_EQ(segment(folder)["status"], "picture_without_colour");
+        if (views.size() == 2) {
+          EXPECT_EQ(run_json({"measure", folder.string()})["status"], "ok");
+        }
+      }
+    }
+  }
+}
+
 TEST(HiddenCard, IsDoubted) {
   for (const double share : {0.2, 0.35, 0.5, 0.8, 1.0}) {
     SCOPED_TRACE(share);

@@ -137,10 +137,12 @@ def dish_not_named(pair, _):
     return bool(further)
 
 
-def grey_picture(pair, _):
+def fade(pair, percent):
+    """So much of both pictures' colours is left."""
     for v in range(2):
-        grey = cv2.cvtColor(pair.read(f"view_{v}.jpg"), cv2.COLOR_BGR2GRAY)
-        pair.replace(f"view_{v}.jpg", cv2.cvtColor(grey, cv2.COLOR_GRAY2BGR))
+        pixels = pair.read(f"view_{v}.jpg")
+        grey = cv2.cvtColor(cv2.cvtColor(pixels, cv2.COLOR_BGR2GRAY), cv2.COLOR_GRAY2BGR)
+        pair.replace(f"view_{v}.jpg", cv2.addWeighted(pixels, percent / 100.0, grey, 1.0 - percent / 100.0, 0.0))
 
 
 def food_centre(labels, rank):
@@ -215,7 +217,7 @@ KINDS = [
     ("dish size %", dish_size, [-5, -3, -2, -1, 1, 2, 3, 5], ("given", "auto")),
     ("no profile", no_profile, [0], ("given", "auto")),
     ("dish not named", dish_not_named, [0], ("given", "auto")),
-    ("grey picture", grey_picture, [0], ("given", "auto")),
+    ("colours left %", fade, [0, 5, 10, 20, 30, 50, 75], ("given", "auto")),
     ("dirt px", dirt, [30, 60, 120], ("given", "auto")),
     ("hand px", hand, [60, 120], ("given", "auto")),
     ("steam %", steam, [20, 40, 60], ("given", "auto")),
