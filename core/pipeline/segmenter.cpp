@@ -96,10 +96,9 @@ void Segmenter::segment() {
     const bool is_empty_tray = result_.is_bare() && params_.items == 0;
     if (result_.items == 0 && !is_empty_tray) result_.status = StatusCode::no_food_label;
     // An empty white dish on a grey table has no colours either.
-    const bool is_grey = std::any_of(views_.begin(), views_.end(), [&](const SegmentedView& view) {
-      return !shows_colour(view.frame, params_.colour);
-    });
-    if (result_.items > 0 && is_grey) result_.status = StatusCode::picture_without_colour;
+    const auto is_grey = [&](const auto& view) { return !shows_colour(view.frame, params_.colour); };
+    if (result_.items > 0 && std::any_of(views_.begin(), views_.end(), is_grey))
+      result_.status = StatusCode::picture_without_colour;
   }
   result_.status = blame_card(result_, result_.status);
   clock.stop();
