@@ -2,6 +2,7 @@
 
 #include "firmware/api/hub_site.hpp"
 #include "firmware/api/scan_answer.hpp"
+#include "firmware/base/json_reading.hpp"
 
 namespace traygauge {
 namespace {
@@ -10,10 +11,6 @@ using Json = nlohmann::ordered_json;
 
 // Author and reason are 1,200 bytes at most, 198 labels 800.
 constexpr std::size_t kMaxCorrectionBytes = 8192;
-
-std::string text_of(const Json& json, const char* key) {
-  return json.contains(key) && json[key].is_string() ? json[key].get<std::string>() : std::string();
-}
 
 Json correction_answer(const Correction& correction) {
   Json json = Json::parse(correction_json(correction.action));
@@ -39,9 +36,9 @@ HttpResponse add_correction(const HubSite& site, const HttpRequest& request, Sto
   const Expected<CorrectionAction> action = parse_correction(request.body);
   if (!action.ok()) return wrong_request(action.failure());
   // Who holds a named token cannot sign with another's name.
-  const std::string author = request.token_name.empty() ? text_of(body, "author") : request.token_name;
+  const std::string author = request.token_name.empty() ? json_text(body, "author") : request.token_name;
   const Expected<BookedCorrection> booked =
-      store.corrections().add(id, *action, author, text_of(body, "reason"), site.wall_clock());
+      store.corrections().add(id, *action, author, json_text(body, "reason"), site.wall_clock());
   if (!booked.ok()) return store_failure(booked.failure());
   if (!booked->refusal.empty()) return error_response(409, "refused", booked->refusal);
   site.drift.note(id);

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "firmware/api/scan_answer.hpp"
+#include "firmware/base/json_reading.hpp"
 #include "firmware/base/text.hpp"
 
 namespace traygauge {
@@ -32,11 +33,6 @@ HealthPart examine_clock(const WallTime& now) {
     return {"clock", HealthState::warning,
             "Nothing synchronises the clock; times of scans may be wrong. Connect the hub to a time server."};
   return {"clock", HealthState::ok, {}};
-}
-
-std::string text_of(const Json& json, const char* key, const char* otherwise) {
-  const auto found = json.find(key);
-  return found != json.end() && found->is_string() ? found->get<std::string>() : std::string(otherwise);
 }
 
 // Of the board on which the station runs.
@@ -75,13 +71,13 @@ void examine_state(const std::string& station, const Json& state, std::vector<He
   if (state.contains("faults") && state["faults"].is_array()) {
     for (const Json& fault : state["faults"]) {
       if (!fault.is_object()) continue;
-      parts.push_back({text_of(fault, "device", "a device") + " of " + station, HealthState::failing,
-                       text_of(fault, "message", "")});
+      parts.push_back({json_text(fault, "device", "a device") + " of " + station, HealthState::failing,
+                       json_text(fault, "message")});
     }
   }
   if (state.contains("disk") && state["disk"].is_string())
     parts.push_back({"disk of " + station, HealthState::failing, state["disk"].get<std::string>()});
-  if (const std::string problem = text_of(state, "configuration", ""); !problem.empty())
+  if (const std::string problem = json_text(state, "configuration"); !problem.empty())
     parts.push_back({"configuration of " + station, HealthState::warning, problem});
   examine_board(station, state, parts);
   examine_queue(station, state, parts);

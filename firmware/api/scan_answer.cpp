@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "firmware/base/json_number.hpp"
 #include "firmware/base/scan_id.hpp"
 #include "firmware/base/time_zone.hpp"
 #include "firmware/base/wall_clock.hpp"
@@ -10,11 +11,6 @@ namespace traygauge {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-template <class Value>
-Json or_null(const std::optional<Value>& value) {
-  return value ? Json(*value) : Json();
-}
 
 Json id_or_null(const std::optional<ScanId>& id) {
   return id ? Json(scan_id_text(*id)) : Json();
@@ -25,13 +21,13 @@ Json item_answer(const CorrectedItem& item) {
           {"dish", item.dish},
           {"status", item.status},
           {"food", text_or_null(item.food)},
-          {"volume_ml", or_null(item.volume_ml)},
-          {"sigma_ml", or_null(item.sigma_ml)},
+          {"volume_ml", value_or_null(item.volume_ml)},
+          {"sigma_ml", value_or_null(item.sigma_ml)},
           {"is_wrong", item.is_wrong},
           {"measured_food", text_or_null(item.measured_food)},
-          {"measured_volume_ml", or_null(item.measured_volume_ml)},
-          {"measured_sigma_ml", or_null(item.measured_sigma_ml)},
-          {"split_from", or_null(item.split_from)},
+          {"measured_volume_ml", value_or_null(item.measured_volume_ml)},
+          {"measured_sigma_ml", value_or_null(item.measured_sigma_ml)},
+          {"split_from", value_or_null(item.split_from)},
           {"merged", item.merged}};
 }
 

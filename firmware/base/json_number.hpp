@@ -1,7 +1,8 @@
-// Numbers in JSON documents.
+// Values in JSON documents that may be missing.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
 
 namespace traygauge {
 
@@ -10,6 +11,11 @@ namespace traygauge {
 template <class Json = nlohmann::ordered_json>
 Json number_or_null(double number, bool measured) {
   return measured ? Json(number) : Json(nullptr);
+}
+
+template <class Json = nlohmann::ordered_json, class Value>
+Json value_or_null(const std::optional<Value>& value) {
+  return value ? Json(*value) : Json(nullptr);
 }
 
 }  // namespace traygauge

@@ -35,7 +35,4 @@ const std::vector<std::string_view>& broker_keys();
 BrokerConfig read_broker_keys(const JsonNode& table, const std::string& name,
                               const std::filesystem::path& folder);
 
-// Whether a broker at this host is this machine itself.
-bool is_this_machine(std::string_view host);
-
 }  // namespace traygauge

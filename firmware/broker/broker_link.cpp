@@ -10,6 +10,7 @@
 #include <system_error>
 #include <utility>
 
+#include "firmware/base/this_machine.hpp"
 #include "firmware/broker/broker_problem.hpp"
 
 namespace traygauge {

@@ -2,6 +2,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "firmware/base/json_reading.hpp"
+
 namespace traygauge {
 namespace {
 
@@ -30,12 +32,8 @@ std::string make_receipt(std::span<const std::string>& ids) {
 
 std::optional<std::vector<std::string>> parse_receipt(const std::string& payload) {
   if (payload.size() > kMaxReceiptBytes) return std::nullopt;
-  // Nested lists would be parsed as deep as they are; ours have one level.
   constexpr int kMaxDepth = 2;
-  const auto is_flat = [](int depth, Json::parse_event_t /*event*/, Json& /*parsed*/) {
-    return depth <= kMaxDepth;
-  };
-  const Json json = Json::parse(payload, is_flat, false);
+  const Json json = parse_shallow_json(payload, kMaxDepth);
   if (!json.is_object() || !json.contains("ids") || !json["ids"].is_array()) return std::nullopt;
   std::vector<std::string> ids;
   for (const Json& id : json["ids"]) {

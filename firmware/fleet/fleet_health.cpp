@@ -1,6 +1,4 @@
 // What people are told of the fleet.
-#include <algorithm>
-
 #include "firmware/fleet/fleet.hpp"
 
 namespace traygauge {
@@ -12,13 +10,8 @@ bool Fleet::has_waited_long() const {
 Expected<std::int64_t> Fleet::count_waiting() const {
   Store* const store = store_.store();
   if (store == nullptr) return Failure{store_.problem()};
-  const Expected<std::vector<DestinationState>> states = store->deliveries().states();
-  if (!states.ok()) return Failure{states.failure()};
-  const auto own = std::find_if(states->begin(), states->end(), [](const DestinationState& state) {
-    return state.name == kFleetDestination;
-  });
-  const std::int64_t stored = own == states->end() ? 0 : own->pending;
-  return stored - static_cast<std::int64_t>(done_.size());
+  const Expected<std::int64_t> stored = store->deliveries().count_pending(kFleetDestination);
+  return stored.ok() ? Expected<std::int64_t>(*stored - static_cast<std::int64_t>(done_.size())) : stored;
 }
 
 std::string Fleet::trouble() const {

@@ -3,6 +3,8 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "firmware/base/json_reading.hpp"
+
 namespace traygauge {
 namespace {
 
@@ -12,11 +14,6 @@ using Json = nlohmann::ordered_json;
 Json object_of(const std::string& text) {
   Json json = Json::parse(text, nullptr, false);
   return json.is_object() ? json : Json::object();
-}
-
-std::string text_of(const Json& json, const char* key) {
-  const auto found = json.find(key);
-  return found != json.end() && found->is_string() ? found->get<std::string>() : std::string();
 }
 
 std::optional<HubAnswer> answer_of(MessageType type) {
@@ -116,8 +113,8 @@ Expected<std::optional<HubReply>> HubLink::read_reply(std::string_view id, Milli
     const auto answer = answer_of(message.type);
     if (!answer) continue;
     const Json json = object_of(message.text);
-    if (!id.empty() && text_of(json, "id") == id)
-      return std::optional(HubReply{*answer, text_of(json, "why")});
+    if (!id.empty() && json_text(json, "id") == id)
+      return std::optional(HubReply{*answer, json_text(json, "why")});
   }
 }
 

@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "firmware/base/json_number.hpp"
 #include "firmware/handover/scan_shape.hpp"
 #include "firmware/handover/tray_picture.hpp"
 #include "firmware/station/scan_printer.hpp"
@@ -194,8 +195,8 @@ void ScanHandover::tell_state() {
       {"disk", disk_problem_.empty() ? Json() : Json(disk_problem_)},
       {"devices", params_.facts.devices},
       {"faults", faults},
-      {"temperature_c", board_.temperature_c ? Json(*board_.temperature_c) : Json()},
-      {"under_voltage", board_.under_voltage ? Json(*board_.under_voltage) : Json()},
+      {"temperature_c", value_or_null<Json>(board_.temperature_c)},
+      {"under_voltage", value_or_null<Json>(board_.under_voltage)},
       {"calibration", calibration_json(params_.facts.calibration)}};
   link_.tell({MessageType::state, json.dump(-1, ' ', false, Json::error_handler_t::replace), {}});
   told_at_ = SteadyClock::now();

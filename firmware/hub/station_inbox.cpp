@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "firmware/base/json_reading.hpp"
 #include "firmware/base/scan_id.hpp"
 #include "firmware/store/scan_document.hpp"
 
@@ -11,12 +12,6 @@ namespace traygauge {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-std::string text_of(const Json& json, const char* key) {
-  if (!json.is_object()) return {};
-  const auto found = json.find(key);
-  return found != json.end() && found->is_string() ? found->get<std::string>() : std::string();
-}
 
 Json parsed(const std::string& text) {
   return Json::parse(text, nullptr, false);
@@ -101,12 +96,12 @@ void StationInbox::take_on(Peer& peer, Message message) {
 // Not only to stations: who asks may be a person at the command line, while the station runs.
 void StationInbox::answer_drift(Peer& peer, const Message& message) const {
   if (told_.tell_drift)
-    send(peer, {MessageType::drift, told_.tell_drift(text_of(parsed(message.text), "station")), {}});
+    send(peer, {MessageType::drift, told_.tell_drift(json_text(parsed(message.text), "station")), {}});
 }
 
 void StationInbox::greet(Peer& peer, const Message& message) {
   const Json hello = parsed(message.text);
-  const std::string station = text_of(hello, "station");
+  const std::string station = json_text(hello, "station");
   if (!is_station_name(station)) {
     report("a station's socket: expected a name of a-z, 0-9 and '-' in its hello; the connection is closed");
     return peer.connection.close();
@@ -126,13 +121,13 @@ void StationInbox::greet(Peer& peer, const Message& message) {
   peer.station = station;
   LiveStation& live = stations_[station];
   live.is_connected = true;
-  live.program = text_of(hello, "program");
+  live.program = json_text(hello, "program");
   live.heard_at = SteadyClock::now();
   if (told_.on_state) told_.on_state(station);
 }
 
 void StationInbox::keep(Peer& peer, const Message& message) {
-  const std::string id = text_of(parsed(message.text), "id");
+  const std::string id = json_text(parsed(message.text), "id");
   send(peer, store(peer, id, message.bytes));
 }
 
@@ -173,7 +168,7 @@ void StationInbox::hear_state(const Peer& peer, Message message) {
 
 void StationInbox::hear_appearance(const Peer& peer, Message message) const {
   const Json text = parsed(message.text);
-  const std::optional<ScanId> id = parse_scan_id(text_of(text, "id"));
+  const std::optional<ScanId> id = parse_scan_id(json_text(text, "id"));
   if (!id || id->station != peer.station)
     return report("station " + peer.station + ": expected the " + name(message.type) +
                   " of a scan of its own, found another");

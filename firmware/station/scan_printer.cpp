@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <ostream>
 
+#include "firmware/base/json_number.hpp"
 #include "firmware/measure/json_parts.hpp"
 
 namespace traygauge {
@@ -47,8 +48,8 @@ void add_identity(const ScanIdentity& identity, Json& json) {
   json["clock_synchronised"] = identity.taken_at.synchronised;
   json["supersedes"] = identity.supersedes ? Json(scan_id_text(*identity.supersedes)) : Json();
   const BoardState& board = identity.board;
-  json["board"] = {{"temperature_c", board.temperature_c ? Json(*board.temperature_c) : Json()},
-                   {"under_voltage", board.under_voltage ? Json(*board.under_voltage) : Json()}};
+  json["board"] = {{"temperature_c", value_or_null(board.temperature_c)},
+                   {"under_voltage", value_or_null(board.under_voltage)}};
 }
 
 void add_measurement(const Measurement& measurement, Json& json) {

@@ -114,6 +114,13 @@ Expected<std::vector<DestinationState>> Deliveries::states() {
   return states;
 }
 
+Expected<std::int64_t> Deliveries::count_pending(std::string_view destination) {
+  return database_.integer(kReadingDeliveries,
+                           "SELECT count(*) FROM deliveries"
+                           " WHERE destination = (SELECT key FROM destinations WHERE name = ?1)",
+                           destination);
+}
+
 Expected<std::vector<std::string>> Deliveries::waiting_for(std::int64_t seq) {
   std::vector<std::string> names;
   const Expected<void> read = database_.each(

@@ -64,6 +64,8 @@ class Deliveries {
 
   // All destinations that are configured or for which something waits.
   Expected<std::vector<DestinationState>> states();
+  // How many deliveries wait for this one; 0 where it is not known.
+  Expected<std::int64_t> count_pending(std::string_view destination);
   // Names of the destinations that this scan, or a correction of it, waits for.
   Expected<std::vector<std::string>> waiting_for(std::int64_t seq);
   // Nobody will be told: for a destination that is gone. Returns how many deliveries waited.

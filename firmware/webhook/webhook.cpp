@@ -100,13 +100,8 @@ bool Webhook::has_waited_long() const {
 Expected<std::int64_t> Webhook::count_waiting() const {
   Store* const store = store_.store();
   if (store == nullptr) return Failure{store_.problem()};
-  const Expected<std::vector<DestinationState>> states = store->deliveries().states();
-  if (!states.ok()) return Failure{states.failure()};
-  const auto own = std::find_if(states->begin(), states->end(), [](const DestinationState& state) {
-    return state.name == kWebhookDestination;
-  });
-  const std::int64_t stored = own == states->end() ? 0 : own->pending;
-  return stored - static_cast<std::int64_t>(told_.size());
+  const Expected<std::int64_t> stored = store->deliveries().count_pending(kWebhookDestination);
+  return stored.ok() ? Expected<std::int64_t>(*stored - static_cast<std::int64_t>(told_.size())) : stored;
 }
 
 // Keys of one store mean nothing in another. What is under way goes on to its end, without a note.

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <optional>
 
+#include "firmware/base/this_machine.hpp"
+
 namespace traygauge {
 namespace {
 
@@ -61,13 +63,6 @@ std::optional<HostAndPort> split(std::string_view authority) {
   return parts;
 }
 
-bool is_this_machine(const HostAndPort& parts) {
-  if (parts.is_literal) return parts.host == "::1";
-  if (parts.host == "localhost" || parts.host.ends_with(".localhost")) return true;
-  return parts.host.starts_with("127.") &&
-         parts.host.find_first_not_of("0123456789.") == std::string_view::npos;
-}
-
 }  // namespace
 
 Expected<WebhookAddress> parse_webhook_address(std::string_view text) {
@@ -90,7 +85,7 @@ Expected<WebhookAddress> parse_webhook_address(std::string_view text) {
     authority.remove_prefix(at + 1);
   const std::optional<HostAndPort> parts = split(authority);
   if (!parts) return Failure{"one without a host that can be asked for"};
-  address.is_local = is_this_machine(*parts);
+  address.is_local = is_this_machine(parts->host);
   address.shown = std::string(scheme) + std::string(authority);
   return address;
 }
