@@ -1,8 +1,5 @@
 #include "tests/firmware/collect/nats_cluster.hpp"
 
-#include <fcntl.h>
-#include <sys/prctl.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <csignal>
@@ -43,11 +40,11 @@ NatsCluster::NatsCluster() {
         taken.push_back(listen_anywhere(*port));
     }
   }
-  for (int node = 0; node < kNodes; ++node) start(node);
-}
-
-NatsCluster::~NatsCluster() {
-  for (int node = 0; node < kNodes; ++node) kill(node);
+  for (int node = 0; node < kNodes; ++node) {
+    nodes_[static_cast<std::size_t>(node)].process =
+        std::make_unique<LoggedProcess>(folder_.path() / ("log-" + std::to_string(node)));
+    start(node);
+  }
 }
 
 std::vector<std::string> NatsCluster::environment(int node) const {
@@ -70,32 +67,12 @@ std::vector<std::string> NatsCluster::environment(int node) const {
 }
 
 void NatsCluster::start(int node) {
-  std::vector<std::string> variables = environment(node);
-  std::vector<char*> pointers;
-  for (std::string& variable : variables) pointers.push_back(variable.data());
-  pointers.push_back(nullptr);
-  const std::string program = NatsCluster::program();
   const std::string config = std::filesystem::path(TRAYGAUGE_SOURCE_DIR) / "config" / "fleet" / "nats.conf";
-  const std::string log = folder_.path() / ("log-" + std::to_string(node));
-  const pid_t parent = ::getpid();
-  const pid_t process = ::fork();
-  nodes_[static_cast<std::size_t>(node)].process = process;
-  if (process != 0) return;
-  ::prctl(PR_SET_PDEATHSIG, SIGKILL);
-  if (::getppid() != parent) ::_exit(1);
-  const int file = ::open(log.c_str(), O_WRONLY | O_CREAT | O_APPEND, 0600);
-  ::dup2(file, STDOUT_FILENO);
-  ::dup2(file, STDERR_FILENO);
-  ::execle(program.c_str(), program.c_str(), "-c", config.c_str(), nullptr, pointers.data());
-  ::_exit(1);
+  nodes_[static_cast<std::size_t>(node)].process->start({program(), "-c", config}, environment(node));
 }
 
 void NatsCluster::kill(int node) {
-  pid_t& process = nodes_[static_cast<std::size_t>(node)].process;
-  if (process == 0) return;
-  ::kill(process, SIGKILL);
-  ::waitpid(process, nullptr, 0);
-  process = 0;
+  nodes_[static_cast<std::size_t>(node)].process->end(SIGKILL);
 }
 
 BrokerConfig NatsCluster::config(int node) const {
@@ -114,13 +91,8 @@ std::string NatsCluster::collector_lines(int node) const {
          (folder_.path() / "collector").string() + "\"\n";
 }
 
-long NatsCluster::resident_kib(int node) const {
-  std::ifstream status("/proc/" + std::to_string(nodes_[static_cast<std::size_t>(node)].process) + "/status");
-  for (std::string word; status >> word;) {
-    long kib = 0;
-    if (word == "VmHWM:" && status >> kib) return kib;
-  }
-  return 0;
+long NatsCluster::peak_kib(int node) const {
+  return nodes_[static_cast<std::size_t>(node)].process->peak_kib();
 }
 
 }  // namespace traygauge::test

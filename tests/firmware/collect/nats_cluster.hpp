@@ -1,15 +1,15 @@
 // Three nodes of NATS JetStream with config/fleet/nats.conf, which end with the test.
 #pragma once
 
-#include <sys/types.h>
-
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "firmware/broker/broker_config.hpp"
 #include "tests/firmware/store/memory_folder.hpp"
+#include "tests/support/logged_process.hpp"
 
 namespace traygauge::test {
 
@@ -20,22 +20,19 @@ class NatsCluster {
   static std::string program();
 
   NatsCluster();
-  ~NatsCluster();
-  NatsCluster(const NatsCluster&) = delete;
-  NatsCluster& operator=(const NatsCluster&) = delete;
 
   void start(int node);
   void kill(int node);                          // by SIGKILL
   BrokerConfig config(int node) const;          // of a hub
   std::string collector_lines(int node) const;  // of the table [broker]
-  long resident_kib(int node) const;
+  long peak_kib(int node) const;
 
  private:
   struct Node {
     std::uint16_t clients = 0;
     std::uint16_t cluster = 0;
     std::uint16_t mqtt = 0;
-    pid_t process = 0;
+    std::unique_ptr<LoggedProcess> process;
   };
   std::vector<std::string> environment(int node) const;
 

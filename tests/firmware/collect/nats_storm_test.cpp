@@ -31,11 +31,7 @@ TEST(NatsStorm, EverythingIsStoredOnceWhicheverNodeIsKilled) {
   for (int number = 1; number <= results; ++number) {
     storm.put_all(static_cast<std::uint64_t>(number));
     storm.step();
-    if (number % 10 == 3) {
-      collector.end(SIGKILL);
-      storm.run_for(milliseconds(random() % 200));
-      collector.start();
-    }
+    if (number % 10 == 3) storm.interrupt(collector, milliseconds(random() % 200));
     if (number % 10 == 6) {
       cluster.kill(killed);
       storm.run_for(milliseconds(500 + random() % 1500));
@@ -45,17 +41,15 @@ TEST(NatsStorm, EverythingIsStoredOnceWhicheverNodeIsKilled) {
       storm.run_for(milliseconds(3000));
     }
   }
-  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(180);
-  while (storm.waiting() > 0 && std::chrono::steady_clock::now() < end) storm.run_for(milliseconds(200));
-  EXPECT_EQ(storm.waiting(), 0) << collector.log();
+  EXPECT_TRUE(storm.drain(std::chrono::seconds(180))) << storm.waiting() << collector.log();
   const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
-  const long collector_kib = collector.resident_kib();
+  const long collector_kib = collector.peak_kib();
   EXPECT_EQ(collector.end(SIGTERM), 0) << collector.log();
   expect_each_once(collector.store(), hubs, results);
   std::cout << hubs << " hubs with " << results << " results each stored in " << took.count()
             << " s, published " << storm.published() << " times; collector " << collector_kib
             << " KiB, nodes";
-  for (int node = 0; node < NatsCluster::kNodes; ++node) std::cout << " " << cluster.resident_kib(node);
+  for (int node = 0; node < NatsCluster::kNodes; ++node) std::cout << " " << cluster.peak_kib(node);
   std::cout << " KiB" << std::endl;
 }
 

@@ -1,12 +1,8 @@
 // Many hubs in one process, and the collector that ships.
 #pragma once
 
-#include <fcntl.h>
 #include <gtest/gtest.h>
-#include <sys/prctl.h>
 #include <sys/resource.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
@@ -14,7 +10,6 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <memory>
 #include <optional>
 #include <stdexcept>
@@ -25,6 +20,7 @@
 #include "firmware/store/database.hpp"
 #include "tests/firmware/store/memory_folder.hpp"
 #include "tests/firmware/store/sample_scan.hpp"
+#include "tests/support/logged_process.hpp"
 
 namespace traygauge::test {
 
@@ -48,50 +44,18 @@ class CollectorProgram {
     std::ofstream(config()) << "store = \"collected.db\"\n[broker]\n" << broker;
     start();
   }
-  ~CollectorProgram() { end(SIGKILL); }
-  CollectorProgram(const CollectorProgram&) = delete;
-  CollectorProgram& operator=(const CollectorProgram&) = delete;
 
-  void start() {
-    const pid_t parent = ::getpid();
-    const std::string log = folder_.path() / "log";
-    const std::string file = config();
-    process_ = ::fork();
-    if (process_ != 0) return;
-    ::prctl(PR_SET_PDEATHSIG, SIGKILL);
-    if (::getppid() != parent) ::_exit(1);
-    const int out = ::open(log.c_str(), O_WRONLY | O_CREAT | O_APPEND, 0600);
-    ::dup2(out, STDOUT_FILENO);
-    ::dup2(out, STDERR_FILENO);
-    ::execl(TRAYGAUGE_COLLECT, TRAYGAUGE_COLLECT, "collect", file.c_str(), nullptr);
-    ::_exit(1);
-  }
-  int end(int signal) {
-    if (process_ == 0) return 0;
-    int status = 0;
-    ::kill(process_, signal);
-    ::waitpid(process_, &status, 0);
-    process_ = 0;
-    return status;
-  }
-  long resident_kib() const {
-    std::ifstream status("/proc/" + std::to_string(process_) + "/status");
-    for (std::string word; status >> word;) {
-      long kib = 0;
-      if (word == "VmHWM:" && status >> kib) return kib;
-    }
-    return 0;
-  }
-  std::string log() const {
-    std::ifstream stream(folder_.path() / "log");
-    return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
-  }
+  void start() { process_.start({TRAYGAUGE_COLLECT, "collect", config()}); }
+  int end(int signal) { return process_.end(signal); }
+  long peak_kib() const { return process_.peak_kib(); }
+  std::string log() const { return process_.log(); }
   std::filesystem::path store() const { return folder_.path() / "collected.db"; }
 
  private:
   std::string config() const { return folder_.path() / "collector.toml"; }
+
   MemoryFolder folder_;
-  pid_t process_ = 0;
+  LoggedProcess process_{folder_.path() / "log"};
 };
 
 // A hub without its sockets and pages: a store and what tells it to the fleet.
@@ -154,6 +118,18 @@ class Storm {
   void run_for(std::chrono::milliseconds time) {
     for (const auto end = std::chrono::steady_clock::now() + time; std::chrono::steady_clock::now() < end;)
       step();
+  }
+  // False where something still waits after that time.
+  bool drain(std::chrono::seconds limit) {
+    const auto end = std::chrono::steady_clock::now() + limit;
+    while (waiting() > 0 && std::chrono::steady_clock::now() < end) run_for(std::chrono::milliseconds(200));
+    return waiting() == 0;
+  }
+  // Kills the collector, which is away for so long.
+  void interrupt(CollectorProgram& collector, std::chrono::milliseconds away) {
+    collector.end(SIGKILL);
+    run_for(away);
+    collector.start();
   }
   // Delivered since the start, by the hubs' own count.
   std::uint64_t delivered() const {

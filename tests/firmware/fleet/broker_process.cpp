@@ -1,16 +1,11 @@
 #include "tests/firmware/fleet/broker_process.hpp"
 
-#include <fcntl.h>
 #include <netinet/in.h>
-#include <sys/prctl.h>
 #include <sys/socket.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <chrono>
-#include <csignal>
 #include <fstream>
-#include <iterator>
 #include <stdexcept>
 #include <thread>
 
@@ -48,44 +43,12 @@ void BrokerProcess::start() {
   const std::string config = folder() / "mosquitto.conf";
   // Started by root it would become a user who reads nothing of ours.
   std::ofstream(config) << "user root\nlistener " << port_ << " 127.0.0.1\n" << lines_;
-  const std::string log = folder() / "broker.log";
-  const pid_t parent = ::getpid();
-  process_ = ::fork();
-  if (process_ == 0) {
-    ::prctl(PR_SET_PDEATHSIG, SIGKILL);
-    if (::getppid() != parent) ::_exit(1);
-    const int file = ::open(log.c_str(), O_WRONLY | O_CREAT | O_APPEND, 0600);
-    ::dup2(file, STDOUT_FILENO);
-    ::dup2(file, STDERR_FILENO);
-    ::execl(kProgram, kProgram, "-c", config.c_str(), nullptr);
-    ::_exit(1);
-  }
+  process_.start({kProgram, "-c", config});
   for (int i = 0; i < 1000; ++i) {
     if (answers(port_)) return;
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
   }
-  throw std::runtime_error("mosquitto does not start: " + this->log());
-}
-
-void BrokerProcess::kill() {
-  if (process_ == 0) return;
-  ::kill(process_, SIGKILL);
-  ::waitpid(process_, nullptr, 0);
-  process_ = 0;
-}
-
-std::string BrokerProcess::log() const {
-  std::ifstream stream(folder() / "broker.log");
-  return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
-}
-
-long BrokerProcess::resident_kib() const {
-  std::ifstream status("/proc/" + std::to_string(process_) + "/status");
-  for (std::string word; status >> word;) {
-    long kib = 0;
-    if (word == "VmRSS:" && status >> kib) return kib;
-  }
-  return 0;
+  throw std::runtime_error("mosquitto does not start: " + log());
 }
 
 }  // namespace traygauge::test

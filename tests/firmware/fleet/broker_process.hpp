@@ -1,13 +1,13 @@
 // Mosquitto as a process of the test's own, which ends with it.
 #pragma once
 
-#include <sys/types.h>
-
+#include <csignal>
 #include <cstdint>
 #include <filesystem>
 #include <string>
 
 #include "tests/firmware/store/memory_folder.hpp"
+#include "tests/support/logged_process.hpp"
 
 namespace traygauge::test {
 
@@ -25,25 +25,22 @@ class BrokerProcess {
   // It listens at a free port of this machine. `lines` are of its configuration, after the listener's; FOLDER
   // in them becomes folder(). Without lines everybody may do everything. Nothing is kept on disk.
   explicit BrokerProcess(const std::string& lines = "allow_anonymous true\npersistence false\n");
-  ~BrokerProcess() { kill(); }
-  BrokerProcess(const BrokerProcess&) = delete;
-  BrokerProcess& operator=(const BrokerProcess&) = delete;
 
   // Again, at the same port; returns when it answers.
   void start();
-  void kill();  // by SIGKILL
+  void kill() { process_.end(SIGKILL); }
 
   std::uint16_t port() const { return port_; }
   // For files that it reads; there from before the constructor: see make_folder().
   const std::filesystem::path& folder() const { return folder_.path(); }
-  std::string log() const;
-  long resident_kib() const;
+  std::string log() const { return process_.log(); }
+  long resident_kib() const { return process_.resident_kib(); }
 
  private:
   MemoryFolder folder_;
   std::string lines_;
   std::uint16_t port_ = 0;
-  pid_t process_ = 0;
+  LoggedProcess process_{folder_.path() / "broker.log"};
 };
 
 }  // namespace traygauge::test

@@ -1,12 +1,11 @@
 // The fleet as part of a hub: what its log, /health and /metrics say.
 #include <gtest/gtest.h>
-#include <netinet/in.h>
-#include <sys/socket.h>
 
 #include "firmware/hub/hub.hpp"
 #include "tests/firmware/fleet/broker_process.hpp"
 #include "tests/firmware/fleet/fleet_rig.hpp"
 #include "tests/firmware/store/sample_scan.hpp"
+#include "tests/firmware/webhook/hub_answer.hpp"
 
 namespace traygauge::test {
 namespace {
@@ -31,27 +30,7 @@ class FleetHubTest : public testing::Test {
   void put(std::uint64_t number) {
     ASSERT_TRUE(hub_->store().store()->scans().put(sample_document(number), at(kMorningMs)).ok());
   }
-  std::string get(const std::string& target) {
-    const std::string addresses = hub_->web()->addresses();
-    sockaddr_in address{};
-    address.sin_family = AF_INET;
-    address.sin_port =
-        htons(static_cast<std::uint16_t>(std::stoi(addresses.substr(addresses.rfind(':') + 1))));
-    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-    const FileDescriptor socket(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0));
-    if (::connect(socket.number(), reinterpret_cast<const sockaddr*>(&address), sizeof(address)) != 0)
-      return {};
-    const std::string request = "GET " + target + " HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\n\r\n";
-    if (::send(socket.number(), request.data(), request.size(), MSG_NOSIGNAL) < 0) return {};
-    std::string text;
-    char buffer[65536];
-    for (;;) {
-      hub_->step(milliseconds(5));
-      const ssize_t count = ::recv(socket.number(), buffer, sizeof(buffer), MSG_DONTWAIT);
-      if (count > 0) text.append(buffer, static_cast<std::size_t>(count));
-      if (count == 0 || (count < 0 && errno != EAGAIN)) return text;
-    }
-  }
+  std::string get(const std::string& target) { return answer_of(*hub_, target); }
   bool answers(const std::string& target, const std::string& text) {
     const auto end = std::chrono::steady_clock::now() + milliseconds(8000);
     while (std::chrono::steady_clock::now() < end) {

@@ -1,14 +1,12 @@
 // The webhook as part of a hub: what its log, /health and /metrics say.
 #include <gtest/gtest.h>
-#include <netinet/in.h>
-#include <sys/socket.h>
 
 #include <filesystem>
 
-#include "firmware/base/file_descriptor.hpp"
 #include "firmware/hub/hub.hpp"
 #include "tests/firmware/store/memory_folder.hpp"
 #include "tests/firmware/store/sample_scan.hpp"
+#include "tests/firmware/webhook/hub_answer.hpp"
 #include "tests/firmware/webhook/receiver.hpp"
 #include "tests/firmware/webhook/webhook_rig.hpp"
 
@@ -48,27 +46,7 @@ class WebhookHubTest : public testing::Test {
   void run_for(milliseconds time) {
     run_until([] { return false; }, time);
   }
-  std::string get(const std::string& target) {
-    const std::string addresses = hub_->web()->addresses();
-    sockaddr_in address{};
-    address.sin_family = AF_INET;
-    address.sin_port =
-        htons(static_cast<std::uint16_t>(std::stoi(addresses.substr(addresses.rfind(':') + 1))));
-    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-    const FileDescriptor socket(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0));
-    if (::connect(socket.number(), reinterpret_cast<const sockaddr*>(&address), sizeof(address)) != 0)
-      return {};
-    const std::string request = "GET " + target + " HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\n\r\n";
-    if (::send(socket.number(), request.data(), request.size(), MSG_NOSIGNAL) < 0) return {};
-    std::string text;
-    char buffer[65536];
-    for (;;) {
-      hub_->step(milliseconds(5));
-      const ssize_t count = ::recv(socket.number(), buffer, sizeof(buffer), MSG_DONTWAIT);
-      if (count > 0) text.append(buffer, static_cast<std::size_t>(count));
-      if (count == 0 || (count < 0 && errno != EAGAIN)) return text;
-    }
-  }
+  std::string get(const std::string& target) { return answer_of(*hub_, target); }
   bool logged(const std::string& text) const { return log_.find(text) != std::string::npos; }
 
   MemoryFolder folder_;
