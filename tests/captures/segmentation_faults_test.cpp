@@ -139,7 +139,7 @@ void fade(test::FaultyView& view, double share) {
 
 TEST(GreyPictures, HaveNoOutlinesAndAreMeasuredWhereTheyAreGiven) {
   for (const char* name : {"mash_and_meatballs", "fish_and_potatoes"}) {
-    for (const double share : {0.0, 0.05, 0.1}) {
+    for (const double share : {0.0, 0.05}) {
       for (const std::vector<int>& views : {std::vector{1}, std::vector{0, 1}}) {
         SCOPED_TRACE(testing::Message() << name << ", " << share << ", views: " << views.size());
         FaultyCapture capture(kDemo / name, {0, 1});

@@ -38,8 +38,8 @@ TEST(PictureColour, AFewColouredPixelsAreADeadRowOrAnEdge) {
 }
 
 TEST(PictureColour, NoiseAndATingeOfTheLightAreNoColour) {
-  EXPECT_FALSE(shows(PixelFormat::bgr8, kPaintedRows, {110, 118, 126}));
-  EXPECT_TRUE(shows(PixelFormat::bgr8, kPaintedRows, {110, 118, 127}));
+  EXPECT_FALSE(shows(PixelFormat::bgr8, kPaintedRows, {110, 114, 118}));
+  EXPECT_TRUE(shows(PixelFormat::bgr8, kPaintedRows, {110, 114, 119}));
 }
 
 }  // namespace
