@@ -26,8 +26,8 @@ CheckResult check_drift(const HandoverConfig& handover) {
   std::string drifts;
   std::string medians;
   for (const ToldTrend& trend : *trends) {
-    if (!trend.drift.empty()) drifts += (drifts.empty() ? "" : " ") + std::string(trend.drift);
-    medians += (medians.empty() ? "" : ", ") + figures(trend);
+    if (!trend.drift.empty()) drifts.append(drifts.empty() ? "" : " ").append(trend.drift);
+    medians.append(medians.empty() ? "" : ", ").append(figures(trend));
   }
   result.is_good = drifts.empty();
   if (trends->empty()) medians = "not known, because the hub has stored no tray that says it";

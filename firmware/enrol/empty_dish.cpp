@@ -2,9 +2,11 @@
 
 #include <cmath>
 #include <string>
+#include <utility>
 
 #include "core/labels/label_regions.hpp"
 #include "firmware/measure/label_list.hpp"
+#include "firmware/measure/view_reduction.hpp"
 
 namespace traygauge {
 namespace {
@@ -36,12 +38,22 @@ double to_hundredths(double value) {
 
 }  // namespace
 
-EmptyDish::EmptyDish(const Capture& capture, std::array<int, 2> pair)
-    : views_{load_empty_dish(description_of(capture, pair[0])),
-             load_empty_dish(description_of(capture, pair[1]))},
-      setup_(set_up_pair(capture, pair, {})),
+EmptyDish::EmptyDish(const Capture& capture, std::array<int, 2> pair, const std::optional<RuledDish>& ruled)
+    : setup_(set_up_pair(capture, pair, {})),
       block_(survey_bytes(configure(setup_))),
       surveyor_(block_.bytes(), configure(setup_)) {
+  std::array<Picture, 2> outlines;
+  if (ruled) outlines = find_dish_outlines(capture, pair, *ruled);
+  for (std::size_t i = 0; i < 2; ++i) {
+    const ViewDescription& description = description_of(capture, pair[i]);
+    views_[i] = ruled ? load_view(description) : load_empty_dish(description);
+    const int factor = reduction_of(views_[i].picture.size);
+    if (factor > 1) {
+      reduce_view(views_[i], factor);
+      setup_.lenses[i] = lens_of(reduced(description.camera, factor));
+    }
+    if (ruled) views_[i].labels = std::move(outlines[i]);
+  }
   if (surveyor_.status().ok()) return;
   throw InputError({capture.file, ""}, "a plausible camera and card", "values that contradict each other",
                    sentence(surveyor_.status().code()));

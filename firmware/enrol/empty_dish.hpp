@@ -3,19 +3,22 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 
 #include "core/enrolment/dish_survey.hpp"
 #include "firmware/base/aligned_block.hpp"
+#include "firmware/enrol/found_outlines.hpp"
 #include "firmware/measure/pair_setup.hpp"
 #include "simulator/capture/capture.hpp"
 
 namespace traygauge {
 
-// Loads the pictures of the pair. Throws InputError; also when the labels show anything but one dish and the
-// card.
+// Loads the pictures of the pair, smaller where they are larger than what is measured (view_reduction.hpp).
+// Throws InputError; also when the labels show anything but one dish and the card.
 class EmptyDish {
  public:
-  EmptyDish(const Capture& capture, std::array<int, 2> pair);
+  // With `ruled`, the outlines are found; without, they are the capture's labels.
+  EmptyDish(const Capture& capture, std::array<int, 2> pair, const std::optional<RuledDish>& ruled);
 
   const DishSurvey& survey(std::uint64_t seed);
 

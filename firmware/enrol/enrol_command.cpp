@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
+#include <optional>
 #include <ostream>
 #include <system_error>
 
@@ -43,6 +44,14 @@ std::filesystem::path file_of(const EnrolOptions& options) {
   return file;
 }
 
+void require_outlines(const Capture& capture, const std::array<int, 2>& pair) {
+  for (const int i : pair) {
+    if (capture.views[static_cast<std::size_t>(i)].labels) continue;
+    throw InputError({capture.file, "views[" + std::to_string(i) + "].labels"}, "a label picture", "nothing",
+                     "outline dish and card, or add --size LENGTHxWIDTHxRIM, by a ruler, and they are found");
+  }
+}
+
 }  // namespace
 
 void add_enrol_command(Program& program, EnrolOptions& options) {
@@ -53,6 +62,9 @@ void add_enrol_command(Program& program, EnrolOptions& options) {
   command.add_option("--style", options.style, "The dish's name").required();
   command.add_option("--out", options.out,
                      "Folder for NAME.toml; default: dishes/ in the folder of --config");
+  command.add_option("--size", options.size,
+                     "LENGTHxWIDTHxRIM by a ruler, in mm, such as 262x262x23: find the outlines, where the "
+                     "capture has no label pictures or others shall be found");
   command.add_option("--pair", options.pair, "The two views A,B; default: the first of the capture's pairs");
   command.add_option("--seed", options.seed, "Seed of all randomness, default 0");
   command.add_option("--config", options.config, "Folder with dishes/").environment("TRAYGAUGE_CONFIG");
@@ -68,8 +80,10 @@ int run_enrol(const EnrolOptions& options, std::ostream& out) {
   const Capture capture = read_capture(options.capture);
   report.capture = options.capture;
   report.pair = choose_pair(options.pair, capture);
-  require_labels(capture, report.pair);
-  EmptyDish dish(capture, report.pair);
+  std::optional<RuledDish> ruled;
+  if (!options.size.empty()) ruled = read_ruled_dish(options.size);
+  if (!ruled) require_outlines(capture, report.pair);
+  EmptyDish dish(capture, report.pair, ruled);
   const DishSurvey& survey = dish.survey(report.seed);
   report.survey = &survey;
   if (survey.status.ok()) {

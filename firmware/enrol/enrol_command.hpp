@@ -13,6 +13,7 @@ struct EnrolOptions {
   std::string capture;
   std::string style;
   std::string out;
+  std::string size;  // by a ruler; the outlines are then found
   std::string pair;
   std::string seed;
   std::string config;

@@ -71,9 +71,10 @@ class EnrolDish : public ::testing::Test {
   TemporaryFolder spoilt_;
 };
 
-void expect_like(const DishModel& found, const DishModel& truth, double worst_mm, double volume_ml) {
+void expect_like(const DishModel& found, const DishModel& truth, double worst_mm, double volume_ml,
+                 double size_mm = 0.5) {
   for (std::size_t axis = 0; axis < 2; ++axis)
-    EXPECT_NEAR(found.outer_size_mm[axis], truth.outer_size_mm[axis], 0.5);
+    EXPECT_NEAR(found.outer_size_mm[axis], truth.outer_size_mm[axis], size_mm);
   EXPECT_NEAR(found.rim_height_mm, truth.rim_height_mm, 0.5);
   EXPECT_NEAR(found.bottom_height_mm, truth.bottom_height_mm, 0.15);
   const test::ProfileDifference difference = test::compare_profiles(found, truth, kRimMm);
@@ -134,6 +135,37 @@ TEST_F(EnrolDish, WhateverTheDishAndWhereverTheCameras) {
     SCOPED_TRACE(result.out);
     expect_like(dish_of(read_dish_file(file(style))), scene.dish, 1.2, 6.0);
   }
+}
+
+// A ruler is wrong by up to 3 mm of a length, and by 2 mm of the rim's height. The edge that this glaze shows
+// lies a pixel, 0.5 mm, inside of the rim.
+TEST_F(EnrolDish, OutlinesAreFoundWhereARulerSaysTheSize) {
+  std::mt19937 random(test::random_seed());
+  const auto ruled = [&random](double mm, double off_mm) {
+    return std::to_string(mm + std::uniform_real_distribution<double>(-off_mm, off_mm)(random));
+  };
+  for (const std::string style : {"dinner", "soup", "oval"}) {
+    const DishModel truth = test::read_dish_model(style);
+    const std::string size = ruled(truth.outer_size_mm[0], 3.0) + "x" + ruled(truth.outer_size_mm[1], 3.0) +
+                             "x" + ruled(truth.rim_height_mm, 2.0);
+    const CommandResult result = enrol(capture_of(style).folder(), style, {"--size", size});
+    ASSERT_EQ(result.status, 0) << style << " " << size << result.error << result.out;
+    SCOPED_TRACE(size + "\n" + result.out);
+    expect_like(dish_of(read_dish_file(file(style))), truth, 0.9, 6.0, 1.5);
+  }
+}
+
+TEST_F(EnrolDish, WhereNoSuchDishIsItIsTold) {
+  const fs::path folder = capture_of("soup").folder();
+  for (const char* size :
+       {"262", "262x262", "262x262x23x4", "2x2x1", "262x262x-3", "nanx262x23", "1e9x262x23"}) {
+    expect_refused(enrol(folder, "soup", {"--size", size}), 2, "such as 262x262x23");
+  }
+  expect_refused(enrol(folder, "soup", {"--size", "400x400x30"}), 2, "an empty dish of that size");
+  // Another card lies there than the capture says.
+  const fs::path other = copy_of("soup");
+  fs::copy_file(other / "view_0.png", other / "card.png", fs::copy_options::overwrite_existing);
+  expect_refused(enrol(other, "soup", {"--size", "230x230x40"}), 2, "the card in both views");
 }
 
 TEST_F(EnrolDish, TheTableSaysHowSureItIs) {
