@@ -1,6 +1,7 @@
 // The lamp that tells the diner what to do.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 
 #include "drivers/device.hpp"
@@ -20,6 +21,8 @@ enum class Signal : std::uint8_t {
   too_far,     // it has been moved too far: back a little
   fault,       // the station needs somebody
 };
+
+inline constexpr std::size_t kSignalCount = static_cast<std::size_t>(Signal::fault) + 1;
 
 // As logs spell it, e.g. "hold_still".
 const char* name(Signal signal);

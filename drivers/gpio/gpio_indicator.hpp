@@ -12,7 +12,6 @@
 
 namespace traygauge {
 
-inline constexpr std::size_t kSignalCount = static_cast<std::size_t>(Signal::fault) + 1;
 
 // Which lamps are lit for each signal: bit i is lamp i. None for `off`.
 using LampTable = std::array<std::uint32_t, kSignalCount>;

@@ -17,14 +17,6 @@
 namespace traygauge {
 namespace {
 
-using namespace std::chrono_literals;
-
-constexpr Nanoseconds kSignalShown = 300ms;
-
-CheckResult good(const Device& device, const std::string& text) {
-  return {std::string(device.description()), true, text};
-}
-
 CheckResult try_camera(V4l2Camera& camera, TakenPicture& picture) {
   CheckResult result = check_camera(camera, picture);
   if (result.is_good) {
@@ -45,43 +37,15 @@ CheckResult try_lens(const LensConfig& lens, const V4l2CameraParams& params, con
 }
 
 CheckResult try_button(GpioTrigger& trigger, const CheckOptions& options, std::ostream& out) {
-  DeviceStatus status = trigger.start();
-  if (!status.ok()) return describe_failure(trigger, status);
-  std::string text = "the line is free, the contact open";
   if (options.press_s > 0.0) {
     out << "Press the button now." << std::endl;
-    Press press;
-    const auto wait = std::chrono::round<Nanoseconds>(std::chrono::duration<double>(options.press_s));
-    status = trigger.wait_for_press(wait, press);
-    text = "pressed";
+    return check_press(trigger,
+                       std::chrono::round<Nanoseconds>(std::chrono::duration<double>(options.press_s)));
   }
+  const DeviceStatus status = trigger.start();
+  if (!status.ok()) return describe_failure(trigger, status);
   trigger.stop();
-  if (status.code() == DeviceCode::timed_out) {
-    return {std::string(trigger.description()), false,
-            "No press came; check the wire, active_low and bias of [button]."};
-  }
-  return status.ok() ? good(trigger, text) : describe_failure(trigger, status);
-}
-
-CheckResult try_lamp(GpioIndicator& lamp, Clock& clock) {
-  DeviceStatus status = lamp.start();
-  for (std::size_t i = 1; status.ok() && i < kSignalCount; ++i) {
-    status = lamp.show(static_cast<Signal>(i));
-    clock.sleep_for(kSignalShown);
-  }
-  lamp.stop();
-  return status.ok() ? good(lamp, "showed every signal") : describe_failure(lamp, status);
-}
-
-CheckResult try_homing(Arm& arm, Nanoseconds timeout) {
-  DeviceStatus status = arm.start();
-  if (status.ok()) status = arm.home(timeout);
-  return status.ok() ? good(arm, "at home") : describe_failure(arm, status);
-}
-
-CheckResult try_move(Arm& arm, double angle_deg, Nanoseconds timeout) {
-  const DeviceStatus status = arm.move_to(angle_deg, timeout);
-  return status.ok() ? good(arm, "at " + fixed(angle_deg, 1) + " degrees") : describe_failure(arm, status);
+  return {std::string(trigger.description()), true, "the line is free, the contact open"};
 }
 
 CheckResult try_geometry(const StationFile& station, Picture& pattern) {
@@ -119,13 +83,13 @@ class StationCheck {
     knows_geometry_ = tell(try_geometry(station_, pattern_));
     tell(try_trays(station_, knows_geometry_));
     if (station_.handover) tell(check_drift(*station_.handover));
-    const bool arm_works = !station_.arm || tell(try_homing(*hardware_.arm(), longest_move(*station_.arm)));
+    const bool arm_works = !station_.arm || tell(check_homing(*hardware_.arm(), longest_move(*station_.arm)));
     const auto first = look(hardware_.camera(), station_.camera, station_.lens, "lens");
     if (station_.second_camera) {
       look(*hardware_.second_camera(), *station_.second_camera, station_.second_lens, "second lens");
     }
     tell(try_button(hardware_.trigger(), options_, out_));
-    if (!station_.lamp.lines.empty()) tell(try_lamp(hardware_.lamp(), hardware_.clock()));
+    if (!station_.lamp.lines.empty()) tell(check_lamp(hardware_.lamp(), hardware_.clock()));
     if (station_.arm && arm_works) move_arm(first);
     hardware_.camera().stop();
     return all_good_;
@@ -158,12 +122,12 @@ class StationCheck {
     Arm& arm = *hardware_.arm();
     const double second_deg = station_.arm->second_view_deg;
     const Nanoseconds timeout = longest_move(*station_.arm);
-    if (tell(try_move(arm, second_deg, timeout))) {
+    if (tell(check_turn(arm, second_deg, timeout))) {
       if (first && take_pictures(hardware_.camera(), 1, picture_).ok()) {
         if (const auto second = find_card(*station_.lens))
           tell(check_move(*second * first->inverse(), second_deg, station_.arm_geometry));
       }
-      tell(try_move(arm, 0.0, timeout));
+      tell(check_turn(arm, 0.0, timeout));
     }
     arm.stop();
   }

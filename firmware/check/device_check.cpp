@@ -8,6 +8,11 @@ namespace traygauge {
 namespace {
 
 constexpr Nanoseconds kPictureTimeout = std::chrono::seconds(2);
+constexpr Nanoseconds kSignalShown = std::chrono::milliseconds(300);
+
+CheckResult good(const Device& device, const std::string& text) {
+  return {std::string(device.description()), true, text};
+}
 
 }  // namespace
 
@@ -53,6 +58,40 @@ CheckResult check_camera(Camera& camera, TakenPicture& picture, const PictureChe
     return {name, false, "The picture is too bright, " + brightness + "; lower exposure_us or gain."};
   }
   return {name, true, brightness};
+}
+
+CheckResult check_press(Trigger& trigger, Nanoseconds timeout) {
+  DeviceStatus status = trigger.start();
+  if (!status.ok()) return describe_failure(trigger, status);
+  Press press;
+  status = trigger.wait_for_press(timeout, press);
+  trigger.stop();
+  if (status.code() == DeviceCode::timed_out) {
+    return {std::string(trigger.description()), false,
+            "No press came; check the wire, active_low and bias of [button]."};
+  }
+  return status.ok() ? good(trigger, "pressed") : describe_failure(trigger, status);
+}
+
+CheckResult check_lamp(Indicator& lamp, Clock& clock) {
+  DeviceStatus status = lamp.start();
+  for (std::size_t i = 1; status.ok() && i < kSignalCount; ++i) {
+    status = lamp.show(static_cast<Signal>(i));
+    clock.sleep_for(kSignalShown);
+  }
+  lamp.stop();
+  return status.ok() ? good(lamp, "showed every signal") : describe_failure(lamp, status);
+}
+
+CheckResult check_homing(Arm& arm, Nanoseconds timeout) {
+  DeviceStatus status = arm.start();
+  if (status.ok()) status = arm.home(timeout);
+  return status.ok() ? good(arm, "at home") : describe_failure(arm, status);
+}
+
+CheckResult check_turn(Arm& arm, double angle_deg, Nanoseconds timeout) {
+  const DeviceStatus status = arm.move_to(angle_deg, timeout);
+  return status.ok() ? good(arm, "at " + fixed(angle_deg, 1) + " degrees") : describe_failure(arm, status);
 }
 
 }  // namespace traygauge

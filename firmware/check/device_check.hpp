@@ -5,9 +5,13 @@
 #include <string>
 #include <vector>
 
+#include "drivers/arm.hpp"
 #include "drivers/camera.hpp"
+#include "drivers/clock.hpp"
 #include "drivers/device.hpp"
 #include "drivers/device_status.hpp"
+#include "drivers/indicator.hpp"
+#include "drivers/trigger.hpp"
 
 namespace traygauge {
 
@@ -40,6 +44,16 @@ DeviceStatus take_pictures(Camera& camera, int count, TakenPicture& picture);
 // Starts the camera, takes pictures and looks at their brightness; it stays started. The last picture stays
 // in `picture`.
 CheckResult check_camera(Camera& camera, TakenPicture& picture, const PictureCheckParams& params = {});
+
+// Waits so long for a press; the button is closed afterwards.
+CheckResult check_press(Trigger& trigger, Nanoseconds timeout);
+
+// Shows every signal for a moment; the lamp is closed afterwards.
+CheckResult check_lamp(Indicator& lamp, Clock& clock);
+
+// The arm stays started.
+CheckResult check_homing(Arm& arm, Nanoseconds timeout);
+CheckResult check_turn(Arm& arm, double angle_deg, Nanoseconds timeout);
 
 // The mean grey of a picture.
 double mean_grey(const FrameView& frame);

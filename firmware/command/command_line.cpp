@@ -1,5 +1,6 @@
 #include "firmware/command/command_line.hpp"
 
+#include <iostream>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,7 @@
 #include "firmware/network/network_command.hpp"
 #include "firmware/record/record_command.hpp"
 #include "firmware/segment/segment_command.hpp"
+#include "firmware/setup/setup_command.hpp"
 #include "firmware/station/open_captures.hpp"
 #include "firmware/station/station_command.hpp"
 #include "firmware/support/backup_command.hpp"
@@ -38,6 +40,7 @@ struct Options {
   CheckOptions check;
   ConfigCheckOptions config_check;
   SelfCheckOptions self_check;
+  SetupOptions setup;
   RecordOptions record;
   SupportOptions support;
   BackupOptions backup;
@@ -79,6 +82,7 @@ int run_command(const Program& program, const Options& options, std::ostream& ou
     return run_station(options.station, open_recorded_captures, stop_on_signals(), out, error);
   }
   if (command == "check") return run_check(options.check, out);
+  if (command == "setup") return run_setup(options.setup, system_setup_tools(), std::cin, out);
   if (command == "self-check") return run_self_check(options.self_check, out);
   if (command == "config check") return run_config_check(options.config_check, out);
   if (command == "calibrate") {
@@ -123,6 +127,7 @@ int run_command_line(int argument_count, const char* const* arguments, std::ostr
   add_check_command(program, options.check);
   add_config_command(program, options.config_check);
   add_self_check_command(program, options.self_check);
+  add_setup_command(program, options.setup);
   add_record_command(program, options.record);
   add_support_command(program, options.support);
   add_backup_command(program, options.backup);

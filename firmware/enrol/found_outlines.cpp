@@ -10,6 +10,7 @@
 #include "core/dish/rim_tracer.hpp"
 #include "core/labels/convex_fill.hpp"
 #include "firmware/base/aligned_block.hpp"
+#include "firmware/base/exit_status.hpp"
 #include "firmware/measure/capture_session.hpp"
 #include "firmware/measure/missing_card.hpp"
 #include "simulator/capture/picture_file.hpp"

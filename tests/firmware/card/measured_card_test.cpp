@@ -1,5 +1,5 @@
 // What a caliper may say of a card, and what is made of it.
-#include "firmware/card_sheet/measured_card.hpp"
+#include "firmware/card/measured_card.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "firmware/card_sheet/measured_card.hpp"
+#include "firmware/card/measured_card.hpp"
 
 #include <algorithm>
 #include <charconv>
@@ -131,14 +131,17 @@ std::string describe_print(const MeasuredCard& card) {
   return text;
 }
 
+std::string compose_card_table(const MeasuredCard& card) {
+  return "[card]\npattern = \"card.png\"\nwidth_mm = " + fixed(card.width_mm, 2) +
+         "\nheight_mm = " + fixed(card.height_mm, 2) +
+         "\nthickness_mm = " + fixed(card.thickness_mm.value_or(kPlasticMm), 2) + "\n";
+}
+
 std::string compose_card_lines(const MeasuredCard& card) {
-  const std::string width = fixed(card.width_mm, 2);
-  const std::string height = fixed(card.height_mm, 2);
-  const std::string thickness = fixed(card.thickness_mm.value_or(kPlasticMm), 2);
-  return "For the station file:\n\n[card]\npattern = \"card.png\"\nwidth_mm = " + width +
-         "\nheight_mm = " + height + "\nthickness_mm = " + thickness +
-         "\n\nFor capture.json:\n\n\"card\": {\"pattern\": \"card.png\", \"width_mm\": " + width +
-         ", \"height_mm\": " + height + ", \"thickness_mm\": " + thickness + "}\n";
+  return "For the station file:\n\n" + compose_card_table(card) +
+         "\nFor capture.json:\n\n\"card\": {\"pattern\": \"card.png\", \"width_mm\": " +
+         fixed(card.width_mm, 2) + ", \"height_mm\": " + fixed(card.height_mm, 2) +
+         ", \"thickness_mm\": " + fixed(card.thickness_mm.value_or(kPlasticMm), 2) + "}\n";
 }
 
 }  // namespace traygauge

@@ -22,7 +22,10 @@ MeasuredCard read_measured_card(const std::string& text);
 // How the print differs from what was drawn, a sentence or two.
 std::string describe_print(const MeasuredCard& card);
 
-// For the station file and for capture.json.
+// The table [card] of a station file; the print's picture is card.png beside it.
+std::string compose_card_table(const MeasuredCard& card);
+
+// The same, and its like for capture.json, with what they are for.
 std::string compose_card_lines(const MeasuredCard& card);
 
 }  // namespace traygauge
