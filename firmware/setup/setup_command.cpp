@@ -13,13 +13,15 @@
 namespace traygauge {
 namespace {
 
+constexpr const char* kInstalledFile = "/etc/traygauge/station.toml";
+
 struct SetupStep {
   std::string_view name;
   std::string_view title;
   bool (*run)(SetupSite& site);
 };
 
-constexpr std::array<SetupStep, 8> kSteps = {{
+constexpr std::array<SetupStep, 9> kSteps = {{
     {"camera", "The camera", set_up_camera},
     {"button", "Button and lamp", set_up_button},
     {"card", "The reference card", set_up_card},
@@ -27,6 +29,7 @@ constexpr std::array<SetupStep, 8> kSteps = {{
     {"view", "The card in view", set_up_view},
     {"arm", "The second view", set_up_arm},
     {"dishes", "The dishes", set_up_dishes},
+    {"hub", "Where results go", set_up_hub},
     {"tray", "The first tray", measure_first_tray},
 }};
 
@@ -34,6 +37,16 @@ std::string step_names() {
   std::string names;
   for (const SetupStep& step : kSteps) names.append(names.empty() ? "" : ", ").append(step.name);
   return names;
+}
+
+std::string how_to_start(const std::string& station) {
+  const std::string file = printable(station);
+  const std::string start =
+      station == kInstalledFile
+          ? "`systemctl enable --now traygauge-hub traygauge-station` starts it, now and at every boot."
+          : "`traygauge hub --config " + file + "` and `traygauge station --devices hardware:" + file +
+                "` start it.";
+  return start + " `traygauge verify plan` begins the acceptance test.";
 }
 
 bool is_step(const std::string& name) {
@@ -44,7 +57,7 @@ bool is_step(const std::string& name) {
 
 void add_setup_command(Program& program, SetupOptions& options) {
   Command command = program.add_command(
-      "setup", "Set up a station step by step: camera, card, lens, arm, dishes, first tray");
+      "setup", "Set up a station step by step: camera, card, lens, arm, dishes, hub, first tray");
   command.add_option("STATION", options.station, "The station file, see config/station.toml; it is written")
       .required();
   command.add_option("--step", options.step, "One step alone: " + step_names());
@@ -81,12 +94,7 @@ int run_setup(const SetupOptions& options, const SetupTools& tools, std::istream
                  "` goes on with them.");
     return kExitNotMeasurable;
   }
-  if (options.step.empty()) {
-    dialogue.say(
-        "\nThe station is set up. `systemctl enable --now traygauge-hub traygauge-station` starts it at "
-        "every boot; "
-        "`traygauge verify plan` begins the acceptance test.");
-  }
+  if (options.step.empty()) dialogue.say("\nThe station is set up. " + how_to_start(options.station));
   return kExitMeasured;
 }
 

@@ -14,6 +14,7 @@ bool set_up_lens(SetupSite& site);    // [lens], [second_lens], by a chessboard
 bool set_up_view(SetupSite& site);    // the card in the camera's picture
 bool set_up_arm(SetupSite& site);     // [arm_geometry]
 bool set_up_dishes(SetupSite& site);  // [trays] dishes; learns new ones
+bool set_up_hub(SetupSite& site);     // [station], [hub]
 bool measure_first_tray(SetupSite& site);
 
 }  // namespace traygauge

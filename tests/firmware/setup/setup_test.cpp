@@ -145,8 +145,9 @@ class Setup : public testing::Test {
   std::string said_;
 };
 
-// Camera 2, the lamp lit, paper a4, the card's size, corners 9x6, card laid down, dish.
-const std::string kAnswers = "2\n\n\n85.6x53.98x0.2\n\n\ndinner\n";
+// Camera 2, the lamp lit, paper a4, the card's size, corners 9x6, card laid down, dish, a hub, its name and
+// folder.
+const std::string kAnswers = "2\n\n\n85.6x53.98x0.2\n\n\ndinner\n\nbar\n\n";
 
 TEST_F(Setup, LeadsFromAFileWithWiresToAMeasuredTray) {
   ASSERT_EQ(set_up(kAnswers), kExitMeasured) << said_;
@@ -161,6 +162,8 @@ TEST_F(Setup, LeadsFromAFileWithWiresToAMeasuredTray) {
   EXPECT_TRUE(written.lens.has_value());
   EXPECT_TRUE(written.arm_geometry.has_value());
   EXPECT_EQ(written.dishes, std::vector<std::string>{"dinner"});
+  EXPECT_EQ(written.handover->name, "bar");
+  EXPECT_TRUE(written.has_hub);
   EXPECT_NEAR(all_food_ml(), kTrueMl, 0.05 * kTrueMl) << said_;
   EXPECT_TRUE(was_said("Card and dish 1 agree about the scale to 0.")) << said_;
   EXPECT_TRUE(was_said("volumes right to 0.31 %")) << said_;
@@ -174,7 +177,7 @@ TEST_F(Setup, WhatIsDoneIsKeptByEnterAlone) {
   ASSERT_EQ(set_up(kAnswers), kExitMeasured) << said_;
   const std::string before = read_text(file());
   called_.clear();
-  EXPECT_EQ(set_up("\n\n\n\n\n\n\n\n"), kExitMeasured) << said_;
+  EXPECT_EQ(set_up("\n\n\n\n\n\n\n\n\n"), kExitMeasured) << said_;
   EXPECT_EQ(read_text(file()), before);
   EXPECT_TRUE(called_.empty());
 }
@@ -238,6 +241,18 @@ TEST_F(Setup, ADishThatIsNotKnownIsAskedForAgain) {
   EXPECT_EQ(station().dishes, (std::vector<std::string>{"dinner", "soup"}));
   EXPECT_EQ(set_up("any\n", "dishes"), kExitMeasured);
   EXPECT_TRUE(station().dishes.empty());
+}
+
+TEST_F(Setup, ResultsGoToAHubOrArePrintedAlone) {
+  EXPECT_EQ(set_up("n\n", "hub"), kExitMeasured);
+  EXPECT_FALSE(station().handover.has_value());
+  EXPECT_EQ(set_up("y\nKitchen 1\nkitchen-1\n" + (folder_.path() / "kept").string() + "\n", "hub"),
+            kExitMeasured);
+  EXPECT_TRUE(was_said("Expected 1 to 32 of a-z")) << said_;
+  EXPECT_EQ(station().handover->socket, folder_.path() / "kept" / "hub");
+  EXPECT_EQ(read_hub_file(file(), file()).hub.store, folder_.path() / "kept" / "results.db");
+  EXPECT_EQ(set_up("n\nbar\n\n", "hub"), kExitMeasured);
+  EXPECT_EQ(station().handover->socket, "/run/traygauge/hub");  // as the units have it
 }
 
 // The demo's dish is full of food, and plain: it cannot be learnt, and nothing is left behind.
