@@ -2,6 +2,7 @@
 #pragma once
 
 #include <chrono>
+#include <filesystem>
 #include <functional>
 #include <string>
 
@@ -24,8 +25,9 @@ struct SiteFacts {
   std::string name;       // for people; empty: none
   std::string time_zone;  // such as "Europe/Berlin"; empty: it has no name
   std::string program_version;
-  std::string commit;                 // that it was built from; empty: not known
-  std::string configuration_problem;  // empty: the configuration is the one that somebody wrote
+  std::string commit;                  // that it was built from; empty: not known
+  std::string configuration_problem;   // empty: the configuration is the one that somebody wrote
+  std::filesystem::path station_file;  // that the hub was started with; empty: with none
 };
 
 struct HubSite {

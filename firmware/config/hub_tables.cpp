@@ -10,7 +10,6 @@
 namespace traygauge {
 namespace {
 
-constexpr std::size_t kMaxFileBytes = std::size_t{1} << 16U;
 constexpr int kStationFileVersion = 1;
 constexpr int kMaxMib = 1024;
 constexpr int kMaxFreeMib = 1024 * 1024;
@@ -123,7 +122,7 @@ void check_station_version(const JsonNode& root) {
 }
 
 HubFile read_hub_file(const std::filesystem::path& file, const std::filesystem::path& content) {
-  const JsonDocument document = read_toml(content, kMaxFileBytes, "a station in TOML");
+  const JsonDocument document = read_toml(content, kMaxStationFileBytes, "a station in TOML");
   const JsonNode root = document.root();
   check_station_version(root);
   const std::filesystem::path folder = file.parent_path();

@@ -1,6 +1,7 @@
 // The tables of a station file that say where results go: [station], [hub] and [fleet].
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -12,6 +13,9 @@
 #include "simulator/capture/json_node.hpp"
 
 namespace traygauge {
+
+// A station file is larger only by mistake.
+inline constexpr std::size_t kMaxStationFileBytes = std::size_t{1} << 16U;
 
 // What becomes of the trays' photographs.
 enum class PicturePolicy : std::uint8_t {

@@ -102,6 +102,7 @@ int run_hub(const HubCommand& command, const std::atomic<bool>& stop, std::ostre
   const auto write = [&log](const std::string& sentence) { log << sentence << std::endl; };
   HubParams params = params_of(file);
   params.web.configuration_problem = chosen.problem;
+  params.web.station_file = command.config;
   params.web.page = find_page_folder();
   const bool has_page = params.web.page.has_value();
   const Expected<std::unique_ptr<Hub>> hub = Hub::start(std::move(params), write);

@@ -83,6 +83,7 @@ Expected<std::unique_ptr<HubWeb>> HubWeb::start(const HubWebParams& params, cons
   Expected<Parts> parts = parts_of(params.config);
   if (!parts.ok()) return Failure{parts.failure()};
   parts->facts.configuration_problem = params.configuration_problem;
+  parts->facts.station_file = params.station_file;
   const std::vector<ListenAddress> addresses = parts->addresses;
   std::unique_ptr<HubWeb> web(new HubWeb(std::move(*parts), hub));
   if (const Expected<void> may = web->access_.check_listen(addresses); !may.ok())

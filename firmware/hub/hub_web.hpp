@@ -24,6 +24,7 @@ struct HubWebParams {
   WebConfig config;                           // without addresses nothing is served
   std::optional<std::filesystem::path> page;  // the folder of the page's files; none: only the API is served
   std::string configuration_problem;          // for people; empty: there is none
+  std::filesystem::path station_file;         // that the hub was started with; empty: with none
 };
 
 // What is served. All of it outlives the server.

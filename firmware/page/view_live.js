@@ -1,5 +1,6 @@
 // The live view: what each station does, and the last tray.
 import { element } from './elements.js';
+import { show_first_steps } from './first_steps.js';
 import { follow, live } from './live_data.js';
 import { scan_body } from './scan_figures.js';
 import { no_scan_text, scan_line } from './scan_head.js';
@@ -26,7 +27,7 @@ function show_stations(frame) {
 function show_scan(frame, scan) {
   if (scan === null) {
     frame.replaceChildren(element('p', { class: 'quiet' }, no_scan_text()));
-    return () => {};
+    return live.is_latest_known && live.store_problem === null ? show_first_steps(frame) : () => {};
   }
   const selection = new Selection();
   const tray = element('div', {});

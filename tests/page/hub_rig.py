@@ -67,9 +67,10 @@ class HubRig:
             'site_name = "North canteen"\ntime_zone = "Asia/Tokyo"\n'
             'base_path = "/kitchen"\nview_tokens = "view.tokens"\nmanage_tokens = "manage.tokens"\n')
 
-    def start(self):
-        options = ["--config", "station.toml"] if self.with_tokens else [
-            "--socket", str(self.socket), "--store", "results.db", "--listen", f"127.0.0.1:{self.port}"]
+    def start(self, options=None):
+        if options is None:
+            options = ["--config", "station.toml"] if self.with_tokens else [
+                "--socket", str(self.socket), "--store", "results.db", "--listen", f"127.0.0.1:{self.port}"]
         log = open(self.folder / "hub.log", "a")
         self.process = subprocess.Popen([PROGRAM, "hub", *options], cwd=self.folder, stdout=log, stderr=log)
         wait_for(self._answers, f"an answer of the hub; it said: {(self.folder / 'hub.log').read_text()}")

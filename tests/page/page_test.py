@@ -12,7 +12,7 @@ import unittest
 
 sys.dont_write_bytecode = True
 sys.path.insert(0, str(pathlib.Path(__file__).parent))
-MODULES = ["views_test", "health_test", "live_test", "tray_test", "roles_test", "history_test",
+MODULES = ["views_test", "first_steps_test", "health_test", "live_test", "tray_test", "roles_test", "history_test",
            "modules_test", "screenshots_test"]
 
 

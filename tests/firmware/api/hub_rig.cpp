@@ -79,7 +79,8 @@ Answer parsed(const std::string& text) {
 
 }  // namespace
 
-HubRig::HubRig(WebConfig web) : web_(std::move(web)) {
+HubRig::HubRig(WebConfig web, std::filesystem::path station_file)
+    : web_(std::move(web)), station_file_(std::move(station_file)) {
   web_.listen = {"127.0.0.1:0"};
   start_hub();
 }
@@ -89,6 +90,7 @@ void HubRig::start_hub() {
   params.socket = folder_.path() / "hub";
   params.store.options.file = folder_.path() / "results.db";
   params.web.config = web_;
+  params.web.station_file = station_file_;
   auto hub = Hub::start(params, [](const std::string&) {});
   if (!hub.ok()) throw std::runtime_error(hub.failure());
   hub_ = std::move(*hub);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <atomic>
+#include <filesystem>
 #include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -27,7 +28,7 @@ struct Listening {
 
 class HubRig {
  public:
-  explicit HubRig(WebConfig web = {});
+  explicit HubRig(WebConfig web = {}, std::filesystem::path station_file = {});
   ~HubRig();
   HubRig(const HubRig&) = delete;
   HubRig& operator=(const HubRig&) = delete;
@@ -68,6 +69,7 @@ class HubRig {
   Answer checked(Exchange exchange) const;
 
   WebConfig web_;
+  std::filesystem::path station_file_;
   TemporaryFolder folder_;
   std::unique_ptr<Hub> hub_;
   std::unique_ptr<HubLink> station_;

@@ -2,6 +2,7 @@
 
 #include <cstdlib>
 #include <ctime>
+#include <fstream>
 #include <nlohmann/json.hpp>
 #include <string>
 
@@ -35,6 +36,25 @@ TEST_F(Site, HasANameAndATimeZoneInEveryAnswer) {
   const std::string local = "2026-11-27T12:45:00.000+05:45";
   EXPECT_EQ(rig.get("/api/v1/scans/latest").json()["taken_at_local"], local);
   EXPECT_NE(rig.get("/api/v1/export.csv").body.find("," + local + ","), std::string::npos);
+}
+
+TEST_F(Site, SaysWhatOfTheStationFileIsFilledIn) {
+  const TemporaryFolder folder;
+  const auto file = folder.path() / "station.toml";
+  HubRig rig({}, file);
+  EXPECT_TRUE(rig.get("/api/v1/site").json()["setup"].is_null());
+  const auto expect_setup = [&](const char* text, bool card, bool lens, bool arm) {
+    std::ofstream(file) << text;
+    const nlohmann::json setup = rig.get("/api/v1/site").json()["setup"];
+    EXPECT_EQ(setup, (nlohmann::json{{"card", card}, {"lens", lens}, {"arm", arm}})) << text;
+  };
+  expect_setup("", false, false, true);
+  expect_setup("[arm]\n[card]\n", true, false, false);
+  expect_setup("[arm]\n[arm_geometry]\n[lens]\n", false, true, true);
+  expect_setup("[lens]\n[second_camera]\n", false, false, true);
+  expect_setup("[lens]\n[second_camera]\n[second_lens]\n", false, true, true);
+  std::ofstream(file) << "[lens\n";
+  EXPECT_TRUE(rig.get("/api/v1/site").json()["setup"].is_null());
 }
 
 TEST_F(Site, OfNoTimeZoneDoesNotStart) {
