@@ -61,6 +61,7 @@ std::vector<cv::Point2f> lay_on_level(std::span<const Vec2> rays, const Pose& ca
                                       double height_mm) {
   const Pose table_from_camera = camera_from_table.inverse();
   std::vector<cv::Point2f> points;
+  points.reserve(rays.size());
   for (const Vec2& ray : rays) {
     const Vec3 along = table_from_camera.rotation * ray.homogeneous();
     const Vec3& centre = table_from_camera.translation;
@@ -117,6 +118,7 @@ class RimFit {
     for (int round = 0; round < 3; ++round) {
       ellipse = cv::fitEllipseDirect(points);
       std::vector<double> distances;
+      distances.reserve(points.size());
       for (const cv::Point2f& point : points) distances.push_back(distance_mm(ellipse, point));
       std::vector<double> sorted = distances;
       std::ranges::nth_element(sorted, sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2));
