@@ -1,5 +1,3 @@
-#include <cmath>
-
 #include "firmware/base/exit_status.hpp"
 #include "firmware/base/text.hpp"
 #include "firmware/check/device_check.hpp"
