@@ -52,4 +52,15 @@ Expected<std::string> read_secret_file(const std::string& path, const std::strin
   return text;
 }
 
+Expected<std::string> read_password_file(const std::string& path, const std::string& key) {
+  constexpr std::size_t kMaxCharacters = 256;
+  Expected<std::string> password = read_secret_file(path, "a password");
+  if (!password.ok()) return Failure{key + ": " + password.failure()};
+  while (password->ends_with('\n') || password->ends_with('\r')) password->pop_back();
+  const bool is_line = password->find_first_of(std::string("\n\0", 2)) == std::string::npos;
+  if (is_line && !password->empty() && password->size() <= kMaxCharacters) return password;
+  return Failure{key + ": " + path + ": expected one line of 1 to 256 characters, found " +
+                 (is_line ? std::to_string(password->size()) : "several")};
+}
+
 }  // namespace traygauge

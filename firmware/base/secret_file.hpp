@@ -11,4 +11,7 @@ namespace traygauge {
 // Failures call the content `what`, such as "tokens", and never repeat it.
 Expected<std::string> read_secret_file(const std::string& path, const std::string& what);
 
+// The one line of such a file, 1 to 256 characters. Failures name the key that names the file.
+Expected<std::string> read_password_file(const std::string& path, const std::string& key);
+
 }  // namespace traygauge

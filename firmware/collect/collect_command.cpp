@@ -28,12 +28,12 @@ int run_collect(const CollectCommand& command, const std::atomic<bool>& stop, st
   const Expected<std::int64_t> count = collector.store().count();
   if (!count.ok()) throw UsageError(command.config + ": store: " + count.failure());
   if (command.only_check) {
-    out << command.config << ": as expected for a collector; " << config.store.string() << " has " << *count
+    out << command.config << ": as expected for a collector; " << config.store.shown() << " has " << *count
         << " results." << std::endl;
     return kExitMeasured;
   }
   out << "The collector stores what hubs publish at " << config.broker.shown() << " in "
-      << config.store.string() << ", which has " << *count << " results." << std::endl;
+      << config.store.shown() << ", which has " << *count << " results." << std::endl;
   if (const std::string warning = collector.warning(); !warning.empty()) log << warning << std::endl;
   std::vector<pollfd> descriptors;
   while (!stop) {

@@ -1,16 +1,15 @@
-// Events of many hubs in one SQLite file, each once.
+// Events of many hubs, each once.
 #pragma once
 
 #include <cstdint>
-#include <filesystem>
 #include <memory>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "firmware/base/expected.hpp"
+#include "firmware/collect/collect_config.hpp"
 #include "firmware/collect/collected_event.hpp"
-#include "firmware/store/database.hpp"
 
 namespace traygauge {
 
@@ -20,22 +19,21 @@ struct StoredBatch {
   std::vector<std::string> twins;  // ids that another tray has, too; both are kept, the later ones in `twins`
 };
 
+// A body that came again may say more, after a correction. But where hub or time differ, it is another tray,
+// of a station whose name is given twice or whose numbers began anew.
 class CollectedStore {
  public:
-  // Made where it is missing; its folder is not. Holds the file for this process alone. Fails where it is
-  // another program's, or of a newer version.
-  static Expected<CollectedStore> open(const std::filesystem::path& file);
+  CollectedStore() = default;
+  CollectedStore(const CollectedStore&) = delete;
+  CollectedStore& operator=(const CollectedStore&) = delete;
+  virtual ~CollectedStore() = default;
 
   // All of it is on disk when this returns ok, else nothing of it. `received_ms`: UTC.
-  Expected<StoredBatch> put(std::span<const CollectedEvent> events, std::int64_t received_ms);
-  Expected<std::int64_t> count();
-
- private:
-  explicit CollectedStore(std::unique_ptr<Database> database) : database_(std::move(database)) {}
-  Expected<void> prepare_tables();
-  Expected<void> put_one(const CollectedEvent& event, std::int64_t received_ms, StoredBatch& batch);
-
-  std::unique_ptr<Database> database_;
+  virtual Expected<StoredBatch> put(std::span<const CollectedEvent> events, std::int64_t received_ms) = 0;
+  virtual Expected<std::int64_t> count() = 0;
 };
+
+// The one that a configuration names. The failure names it, and says what to do.
+Expected<std::unique_ptr<CollectedStore>> open_collected_store(const StoreConfig& config);
 
 }  // namespace traygauge

@@ -26,12 +26,13 @@ Expected<std::unique_ptr<Collector>> Collector::start(const CollectConfig& confi
   params.limits.max_message_bytes = kMaxEventBytes;
   Expected<std::unique_ptr<BrokerLink>> link = BrokerLink::create(std::move(params));
   if (!link.ok()) return Failure{link.failure()};
-  Expected<CollectedStore> store = CollectedStore::open(config.store);
+  Expected<std::unique_ptr<CollectedStore>> store = open_collected_store(config.store);
   if (!store.ok()) return Failure{"store: " + store.failure()};
   return std::unique_ptr<Collector>(new Collector(config, std::move(*link), std::move(*store)));
 }
 
-Collector::Collector(CollectConfig config, std::unique_ptr<BrokerLink> link, CollectedStore store)
+Collector::Collector(CollectConfig config, std::unique_ptr<BrokerLink> link,
+                     std::unique_ptr<CollectedStore> store)
     : config_(std::move(config)), link_(std::move(link)), store_(std::move(store)) {}
 
 std::vector<std::string> Collector::attend() {
@@ -60,7 +61,7 @@ void Collector::take(std::vector<BrokerMessage> messages) {
     }
   }
   if (events.empty()) return;
-  const Expected<StoredBatch> batch = store_.put(events, read_wall_clock().unix_ms);
+  const Expected<StoredBatch> batch = store_->put(events, read_wall_clock().unix_ms);
   // Without a receipt hubs send everything again.
   if (!batch.ok()) return say(batch.failure());
   ++counts_.batches;

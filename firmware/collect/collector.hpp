@@ -39,17 +39,17 @@ class Collector {
 
   const CollectorCounts& counts() const { return counts_; }
   bool is_connected() const { return link_->is_connected(); }
-  CollectedStore& store() { return store_; }
+  CollectedStore& store() { return *store_; }
 
  private:
-  Collector(CollectConfig config, std::unique_ptr<BrokerLink> link, CollectedStore store);
+  Collector(CollectConfig config, std::unique_ptr<BrokerLink> link, std::unique_ptr<CollectedStore> store);
   void take(std::vector<BrokerMessage> messages);
   void give_receipts(const std::vector<CollectedEvent>& events);
   void say(const std::string& problem);
 
   CollectConfig config_;
   std::unique_ptr<BrokerLink> link_;
-  CollectedStore store_;
+  std::unique_ptr<CollectedStore> store_;
   CollectorCounts counts_;
   std::string last_said_;
   std::vector<std::string> sentences_;

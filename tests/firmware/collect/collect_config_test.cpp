@@ -48,6 +48,11 @@ TEST_F(CollectConfigTest, ErrorsNameFileKeyExpectedAndFound) {
   expect("store = \"r.db\"\n", {"collector.toml", "broker"});
   expect("version = 2\nstore = \"r.db\"\n" + broker, {"version", "found 2"});
   expect("name = \"A b\"\nstore = \"r.db\"\n" + broker, {"name", "1 to 32 of a-z"});
+  expect("store = \"r.db\"\nstore_password_file = \"p\"\n" + broker,
+         {"store_password_file", "beside a file of SQLite"});
+  expect("store = \"postgresql://a@b/c\"\nstore_password_file = \"absent\"\n" + broker,
+         {"store_password_file: ", "absent"});
+  expect("store = \"postgresql://a:b@c/d\"\n" + broker, {"store: ", "without a password"});
   expect("stores = \"r.db\"\n" + broker, {"stores"});
   expect("store = \"r.db\"\n" + broker + "hosts = 1\n", {"broker.hosts"});
   expect("store = \"r.db\"\n" + broker + "port = 70000\n", {"broker.port", "1 to 65535"});

@@ -1,4 +1,4 @@
-#include "firmware/collect/collected_store.hpp"
+#include "firmware/collect/sqlite_store.hpp"
 
 #include <gtest/gtest.h>
 
@@ -37,7 +37,7 @@ TEST(CollectedEvent, IsReadFromItsOwnTopicAlone) {
     EXPECT_FALSE(read_event("traygauge", other)) << other.topic << other.payload.substr(0, 80);
 }
 
-TEST(CollectedStore, KeepsEachIdOnceAndTwinsBeside) {
+TEST(SqliteStore, KeepsEachIdOnceAndTwinsBeside) {
   const MemoryFolder folder;
   const auto events = [](std::initializer_list<BrokerMessage> messages) {
     std::vector<CollectedEvent> read;
@@ -45,26 +45,26 @@ TEST(CollectedStore, KeepsEachIdOnceAndTwinsBeside) {
     return read;
   };
   {
-    auto store = CollectedStore::open(folder.path() / "r.db");
+    auto store = SqliteStore::open(folder.path() / "r.db");
     ASSERT_TRUE(store.ok()) << store.failure();
     const auto batch =
-        store->put(events({message("kitchen-1"), message("kitchen-2"), message("kitchen-1")}), 1);
+        (*store)->put(events({message("kitchen-1"), message("kitchen-2"), message("kitchen-1")}), 1);
     ASSERT_TRUE(batch.ok()) << batch.failure();
     EXPECT_EQ(batch->stored, 2U);
     EXPECT_EQ(batch->repeated, 1U);
-    EXPECT_FALSE(CollectedStore::open(folder.path() / "r.db").ok()) << "another program has it";
+    EXPECT_FALSE(SqliteStore::open(folder.path() / "r.db").ok()) << "another program has it";
   }
-  auto store = CollectedStore::open(folder.path() / "r.db");
+  auto store = SqliteStore::open(folder.path() / "r.db");
   ASSERT_TRUE(store.ok()) << store.failure();
   const auto other_time = message("kitchen-2", "2026-11-28T07:40:00.000Z");
   const auto other_hub = message("kitchen-1", "2026-11-27T07:40:00.000Z", "bar");
-  auto batch = store->put(events({message("kitchen-1"), other_time, other_hub}), 2);
+  auto batch = (*store)->put(events({message("kitchen-1"), other_time, other_hub}), 2);
   ASSERT_TRUE(batch.ok()) << batch.failure();
   EXPECT_EQ(batch->repeated, 1U);
   EXPECT_EQ(batch->twins, (std::vector<std::string>{"kitchen-2", "kitchen-1"}));
-  batch = store->put(events({other_time}), 3);
+  batch = (*store)->put(events({other_time}), 3);
   EXPECT_EQ(batch->repeated, 1U) << "a twin that came again is no news";
-  EXPECT_EQ(*store->count(), 2);
+  EXPECT_EQ(*(*store)->count(), 2);
 }
 
 }  // namespace

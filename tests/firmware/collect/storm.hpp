@@ -39,9 +39,10 @@ inline void allow_many_files() {
 
 class CollectorProgram {
  public:
-  // `broker`: the lines of that table.
-  explicit CollectorProgram(const std::string& broker) {
-    std::ofstream(config()) << "store = \"collected.db\"\n[broker]\n" << broker;
+  // `broker`: the lines of that table. `head`: those above it.
+  explicit CollectorProgram(const std::string& broker,
+                            const std::string& head = "store = \"collected.db\"\n") {
+    std::ofstream(config()) << head << "[broker]\n" << broker;
     start();
   }
 

@@ -1,4 +1,4 @@
-#include "firmware/collect/collected_store.hpp"
+#include "firmware/collect/sqlite_store.hpp"
 
 #include <utility>
 
@@ -21,16 +21,16 @@ constexpr const char* kTables =
 
 }  // namespace
 
-Expected<CollectedStore> CollectedStore::open(const std::filesystem::path& file) {
+Expected<std::unique_ptr<CollectedStore>> SqliteStore::open(const std::filesystem::path& file) {
   Expected<std::unique_ptr<Database>> database = Database::open(file, "unix");
   if (!database.ok()) return Failure{database.failure()};
   if (const Expected<void> set = (*database)->apply_settings(); !set.ok()) return Failure{set.failure()};
-  CollectedStore store(std::move(*database));
-  if (const Expected<void> made = store.prepare_tables(); !made.ok()) return Failure{made.failure()};
-  return store;
+  std::unique_ptr<SqliteStore> store(new SqliteStore(std::move(*database)));
+  if (const Expected<void> made = store->prepare_tables(); !made.ok()) return Failure{made.failure()};
+  return std::unique_ptr<CollectedStore>(std::move(store));
 }
 
-Expected<void> CollectedStore::prepare_tables() {
+Expected<void> SqliteStore::prepare_tables() {
   constexpr const char* kReading = "the file cannot be read";
   const auto tables = database_->integer(kReading, "SELECT count(*) FROM sqlite_schema");
   if (!tables.ok()) return Failure{tables.failure()};
@@ -49,7 +49,7 @@ Expected<void> CollectedStore::prepare_tables() {
                  std::to_string(*version) + "; install the newer program again."};
 }
 
-Expected<StoredBatch> CollectedStore::put(std::span<const CollectedEvent> events, std::int64_t received_ms) {
+Expected<StoredBatch> SqliteStore::put(std::span<const CollectedEvent> events, std::int64_t received_ms) {
   StoredBatch batch;
   const Expected<void> done = database_->transaction(kWriting, [&]() -> Expected<void> {
     batch = {};
@@ -62,10 +62,8 @@ Expected<StoredBatch> CollectedStore::put(std::span<const CollectedEvent> events
   return batch;
 }
 
-// A body that came again may say more, after a correction. But where hub or time differ, it is another tray,
-// of a station whose name is given twice or whose numbers began anew.
-Expected<void> CollectedStore::put_one(const CollectedEvent& event, std::int64_t received_ms,
-                                       StoredBatch& batch) {
+Expected<void> SqliteStore::put_one(const CollectedEvent& event, std::int64_t received_ms,
+                                    StoredBatch& batch) {
   Expected<void> done = database_->execute(
       kWriting,
       "INSERT INTO events (id, hub, station, kind, taken_at, received_ms, body)"
@@ -98,7 +96,7 @@ Expected<void> CollectedStore::put_one(const CollectedEvent& event, std::int64_t
   return {};
 }
 
-Expected<std::int64_t> CollectedStore::count() {
+Expected<std::int64_t> SqliteStore::count() {
   return database_->integer("results cannot be counted", "SELECT count(*) FROM events");
 }
 
