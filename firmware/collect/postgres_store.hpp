@@ -4,6 +4,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <utility>
 
 #include "firmware/collect/collected_store.hpp"
 
@@ -27,7 +28,7 @@ class PostgresStore final : public CollectedStore {
   };
   using Connection = std::unique_ptr<pg_conn, Finish>;
 
-  explicit PostgresStore(const StoreConfig& config) : config_(config) {}
+  explicit PostgresStore(StoreConfig config) : config_(std::move(config)) {}
   Expected<void> connect();
   Expected<void> prepare();
   Expected<StoredBatch> put_all(std::span<const CollectedEvent> events, std::int64_t received_ms);
