@@ -19,8 +19,6 @@ TRAYS = int(sys.argv[3]) if len(sys.argv) > 3 else 10_000
 EVERY = max(1, min(100, TRAYS // 20))  # trays from one look at the memory to the next
 MAX_KIB = {"station": 64 * 1024, "hub": 24 * 1024}
 MAX_GROWTH_KIB = 1024  # of the most, after a fifth of the trays, when caches are full
-# What the station adds where it hands a document over; the rest is as it was printed.
-IDENTITY = ("id", "station", "number", "taken_at", "clock_synchronised", "supersedes")
 
 
 def memory_kib(process):
@@ -29,8 +27,10 @@ def memory_kib(process):
 
 
 def key_of(document):
-    """Times of the stages tell every scan from all others, also of the same tray."""
-    return json.dumps({name: value for name, value in document.items() if name not in IDENTITY}, sort_keys=True)
+    """What a document is known by: times of the stages tell every scan from all others, also of the same tray. What the
+    station adds where it hands a document over, such as an id, is not printed and does not count."""
+    told = {"scan", "tray", "status", "items", "duration_ms", "timing_ms"}
+    return json.dumps({name: document[name] for name in told}, sort_keys=True)
 
 
 def look_at_page(base):
