@@ -241,9 +241,10 @@ test-debian13: packages
 packages:
 	@config/install_packages.sh
 
-# The browser, which is larger than all others together, what checks the hub's figures, and a broker that is a cluster.
+# The browser, which is larger than all others together, what checks the hub's figures, a database, and a broker that is a cluster.
 page-packages: packages
 	@config/install_packages.sh tests/page/packages.txt
+	@config/install_packages.sh tests/firmware/collect/packages.txt
 	@tests/firmware/api/get_promtool.sh build/promtool
 	@tests/firmware/collect/get_nats.sh build/nats
 
