@@ -3,7 +3,7 @@ import { element } from './elements.js';
 import { get_if_there } from './hub_api.js';
 import { live } from './live_data.js';
 import { mark } from './marks.js';
-import { word } from './words.js';
+import { word, word_of } from './words.js';
 
 const kAskAgainMs = 3000;  // somebody is at the terminal meanwhile
 const kCommand = 'sudo traygauge setup /etc/traygauge/station.toml';
@@ -15,7 +15,7 @@ function steps(setup) {
 
 function step_line([name, is_done]) {
   return element('li', { class: is_done ? 'is-done' : null }, mark(is_done ? 'good' : 'away'),
-    element('span', {}, `${word(is_done ? 'setup.done' : 'setup.open')} `, word(`setup.${name}`)));
+    element('span', {}, `${word(is_done ? 'setup.done' : 'setup.open')} `, word_of('setup', name)));
 }
 
 function fill(frame, setup) {
