@@ -12,7 +12,6 @@
 
 namespace traygauge {
 
-
 // Which lamps are lit for each signal: bit i is lamp i. None for `off`.
 using LampTable = std::array<std::uint32_t, kSignalCount>;
 

@@ -6,8 +6,8 @@
 
 #include "firmware/base/exit_status.hpp"
 #include "firmware/card/card_drawing.hpp"
-#include "firmware/card_sheet/card_sheet.hpp"
 #include "firmware/card/measured_card.hpp"
+#include "firmware/card_sheet/card_sheet.hpp"
 #include "firmware/command/program.hpp"
 #include "simulator/capture/input_error.hpp"
 #include "simulator/capture/picture_file.hpp"
