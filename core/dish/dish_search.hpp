@@ -122,6 +122,14 @@ Result<FoundDish> search_dish(const DishSearchViews& views, const RimEdges& edge
                               std::span<const DishModel> candidates, std::span<const FoundDish> taken,
                               const DishSearchParams& params, DishSearchWorkspace& workspace);
 
+// Of the polygon that an ellipse is drawn as; it leaves a plate's by 0.02 mm.
+inline constexpr std::size_t kRimCorners = 180;
+using RimOutline = std::array<Vec2, kRimCorners>;
+
+// A ring parallel to the rim, in pixels.
+RimOutline rim_outline(const DishPose& place, const DishSearchView& camera, double beyond_mm,
+                       double above_mm);
+
 // The dish's outer edge at this angle from the first axis (of the ellipse's parameter).
 RimNormal rim_normal(const DishPose& place, const Vec2& cosine_sine);
 

@@ -177,6 +177,18 @@ RimTrace RimTracer::trace(std::size_t view, const DishPose& place, int inside_si
   return trace;
 }
 
+RimOutline rim_outline(const DishPose& place, const DishSearchView& camera, double beyond_mm,
+                       double above_mm) {
+  RimOutline outline;
+  for (std::size_t i = 0; i < outline.size(); ++i) {
+    const double angle = 2.0 * std::numbers::pi * static_cast<double>(i) / kRimCorners;
+    Vec3 point = rim_normal(place, {std::cos(angle), std::sin(angle)}).beyond(beyond_mm);
+    point.z() += above_mm;
+    outline[i] = camera.lens.pixel((camera.camera_from_table * point).hnormalized());
+  }
+  return outline;
+}
+
 RimNormal rim_normal(const DishPose& place, const Vec2& cosine_sine) {
   const Vec2 semi(0.5 * place.size_mm[0], 0.5 * place.size_mm[1]);
   const Vec2 axis = direction_of(place.azimuth_rad);

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <numbers>
 
 #include "core/base/units.hpp"
 #include "core/card/card_location.hpp"
@@ -19,29 +18,13 @@
 namespace traygauge {
 namespace {
 
-constexpr double kMostFlange = 0.3;       // of the smaller axis
-constexpr int kSeedStep = 2;              // cells, a power of two
-constexpr std::size_t kRimCorners = 180;  // of the polygon that an ellipse is drawn as
+constexpr double kMostFlange = 0.3;  // of the smaller axis
+constexpr int kSeedStep = 2;         // cells, a power of two
 
 bool is_within(const FrameView& frame, std::span<const Vec2> outline_px) {
   return std::all_of(outline_px.begin(), outline_px.end(), [&](const Vec2& corner) {
     return corner.minCoeff() > 0.0 && corner.x() < frame.width - 1 && corner.y() < frame.height - 1;
   });
-}
-
-using RimOutline = std::array<Vec2, kRimCorners>;
-
-// A ring parallel to the rim, in pixels.
-RimOutline rim_outline(const DishPose& place, const DishSearchView& camera, double beyond_mm,
-                       double above_mm) {
-  RimOutline outline;
-  for (std::size_t i = 0; i < outline.size(); ++i) {
-    const double angle = 2.0 * std::numbers::pi * static_cast<double>(i) / kRimCorners;
-    Vec3 point = rim_normal(place, {std::cos(angle), std::sin(angle)}).beyond(beyond_mm);
-    point.z() += above_mm;
-    outline[i] = camera.lens.pixel((camera.camera_from_table * point).hnormalized());
-  }
-  return outline;
 }
 
 void clear(ImageView<std::uint8_t> labels) {

@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
+#include <cmath>
 #include <cstdio>
+#include <system_error>
 
 namespace traygauge {
 namespace {
@@ -39,6 +42,23 @@ std::string pad_left(const std::string& text, std::size_t width) {
 
 std::string pad_right(const std::string& text, std::size_t width) {
   return text + padding(text, width);
+}
+
+std::vector<double> read_sizes(const std::string& text) {
+  std::vector<double> numbers;
+  std::string plain = text;
+  std::replace(plain.begin(), plain.end(), ',', '.');
+  const char* at = plain.data();
+  const char* const end = at + plain.size();
+  while (true) {
+    double number = 0.0;
+    const auto [stop, error] = std::from_chars(at, end, number, std::chars_format::fixed);
+    if (error != std::errc() || !std::isfinite(number)) return {};
+    numbers.push_back(number);
+    if (stop == end) return numbers;
+    if (*stop != 'x' && *stop != 'X') return {};
+    at = stop + 1;
+  }
 }
 
 }  // namespace traygauge

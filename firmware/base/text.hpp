@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <string>
+#include <vector>
 
 namespace traygauge {
 
@@ -18,5 +19,9 @@ std::size_t count_characters(const std::string& text);
 // Padded with spaces to `width` characters; the text stands right or left.
 std::string pad_left(const std::string& text, std::size_t width);
 std::string pad_right(const std::string& text, std::size_t width);
+
+// Numbers with an x between, as people write sizes: "85.4x53.9x1.0", also with decimal commas. Empty where
+// the text is anything else.
+std::vector<double> read_sizes(const std::string& text);
 
 }  // namespace traygauge

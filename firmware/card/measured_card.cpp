@@ -1,7 +1,6 @@
 #include "firmware/card/measured_card.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <vector>
 
@@ -49,23 +48,6 @@ std::string percent(double scale) {
   throw UsageError("--measured " + printable(text) + ": " + why);
 }
 
-std::vector<double> read_numbers(const std::string& text) {
-  std::vector<double> numbers;
-  std::string plain = text;
-  std::replace(plain.begin(), plain.end(), ',', '.');
-  const char* at = plain.data();
-  const char* const end = at + plain.size();
-  while (true) {
-    double number = 0.0;
-    const auto [stop, error] = std::from_chars(at, end, number, std::chars_format::fixed);
-    if (error != std::errc() || !std::isfinite(number)) return {};
-    numbers.push_back(number);
-    if (stop == end) return numbers;
-    if (*stop != 'x' && *stop != 'X') return {};
-    at = stop + 1;
-  }
-}
-
 // What explains a size that the card cannot have.
 std::string explain(const MeasuredCard& card) {
   constexpr double kNear = 0.9;
@@ -96,7 +78,7 @@ std::string explain(const MeasuredCard& card) {
 }  // namespace
 
 MeasuredCard read_measured_card(const std::string& text) {
-  const std::vector<double> numbers = read_numbers(text);
+  const std::vector<double> numbers = read_sizes(text);
   const bool are_positive =
       std::all_of(numbers.begin(), numbers.end(), [](double number) { return number > 0.0; });
   if (numbers.size() < 2 || numbers.size() > 3 || !are_positive) {

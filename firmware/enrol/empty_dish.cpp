@@ -47,11 +47,7 @@ EmptyDish::EmptyDish(const Capture& capture, std::array<int, 2> pair, const std:
   for (std::size_t i = 0; i < 2; ++i) {
     const ViewDescription& description = description_of(capture, pair[i]);
     views_[i] = ruled ? load_view(description) : load_empty_dish(description);
-    const int factor = reduction_of(views_[i].picture.size);
-    if (factor > 1) {
-      reduce_view(views_[i], factor);
-      setup_.lenses[i] = lens_of(reduced(description.camera, factor));
-    }
+    setup_.lenses[i] = lens_of(reduce_where_larger(views_[i], description.camera));
     if (ruled) views_[i].labels = std::move(outlines[i]);
   }
   if (surveyor_.status().ok()) return;

@@ -1,7 +1,6 @@
 #include "firmware/enrol/found_outlines.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <numbers>
 #include <opencv2/imgproc.hpp>
@@ -11,6 +10,7 @@
 #include "core/labels/convex_fill.hpp"
 #include "firmware/base/aligned_block.hpp"
 #include "firmware/base/exit_status.hpp"
+#include "firmware/base/text.hpp"
 #include "firmware/measure/capture_session.hpp"
 #include "firmware/measure/missing_card.hpp"
 #include "simulator/capture/picture_file.hpp"
@@ -31,7 +31,6 @@ constexpr double kLeastStrayMm = 0.5;  // two pixels of the edge
 // Of the rim; below, several edges run around the dish. Plain glaze on a plain table has all of it, a
 // patterned dish on a patterned table 0.77.
 constexpr double kLeastOnEllipse = 0.6;
-constexpr int kCorners = 360;  // of the polygon; it leaves a plate's ellipse by 0.005 mm
 
 DishDescription describe(const RuledDish& ruled) {
   DishDescription dish;
@@ -150,31 +149,17 @@ Picture draw_outline(const Picture& found, const DishSearchView& view, const Dis
   Picture labels = found;
   std::ranges::replace_if(
       labels.pixels, [](std::uint8_t label) { return label != kCardLabel; }, kBackgroundLabel);
-  std::vector<Vec2> corners;
-  for (int i = 0; i < kCorners; ++i) {
-    const double angle = 2.0 * std::numbers::pi * i / kCorners;
-    const Vec3 point = rim_normal(place, {std::cos(angle), std::sin(angle)}).point_mm;
-    corners.push_back(view.lens.pixel((view.camera_from_table * point).hnormalized()));
-  }
-  fill_convex({labels.pixels.data(), labels.size.width, labels.size.height}, corners, kDishLabel);
+  fill_convex({labels.pixels.data(), labels.size.width, labels.size.height},
+              rim_outline(place, view, 0.0, 0.0), kDishLabel);
   return labels;
 }
 
 }  // namespace
 
 RuledDish read_ruled_dish(const std::string& text) {
-  std::array<double, 3> numbers_mm{};
-  const char* at = text.data();
-  const char* const end = at + text.size();
-  bool is_good = true;
-  for (std::size_t i = 0; i < numbers_mm.size() && is_good; ++i) {
-    if (i > 0) is_good = at != end && *at++ == 'x';
-    const auto [stop, error] = std::from_chars(at, end, numbers_mm[i]);
-    is_good = is_good && error == std::errc();
-    at = stop;
-  }
+  const std::vector<double> numbers_mm = read_sizes(text);
   const auto is_side = [](double mm) { return mm >= kLeastSideMm && mm <= kLargestSideMm; };
-  if (!is_good || at != end || !is_side(numbers_mm[0]) || !is_side(numbers_mm[1]) ||
+  if (numbers_mm.size() != 3 || !is_side(numbers_mm[0]) || !is_side(numbers_mm[1]) ||
       !(numbers_mm[2] >= kLeastRimMm && numbers_mm[2] <= kHighestRimMm)) {
     throw UsageError(
         "--size: expected length, width and height of the rim in mm, such as 262x262x23, found " +

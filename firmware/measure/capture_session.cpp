@@ -49,10 +49,7 @@ CaptureSession::CaptureSession(const Capture& capture, std::array<int, 2> pair,
 
 void CaptureSession::reduce_large_views() {
   for (std::size_t i = 0; i < 2; ++i) {
-    const int factor = reduction_of(views_[i].picture.size);
-    if (factor == 1) continue;
-    reduce_view(views_[i], factor);
-    setup_.lenses[i] = lens_of(reduced(descriptions_[i]->camera, factor));
+    setup_.lenses[i] = lens_of(reduce_where_larger(views_[i], descriptions_[i]->camera));
   }
 }
 

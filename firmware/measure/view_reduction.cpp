@@ -79,6 +79,13 @@ void reduce_view(LoadedView& view, int factor) {
   if (!view.labels.pixels.empty()) view.labels = majority_of(view.labels, factor);
 }
 
+CameraDescription reduce_where_larger(LoadedView& view, const CameraDescription& camera) {
+  const int factor = reduction_of(view.picture.size);
+  if (factor == 1) return camera;
+  reduce_view(view, factor);
+  return reduced(camera, factor);
+}
+
 CameraDescription reduced(const CameraDescription& camera, int factor) {
   CameraDescription cut = camera;  // by what does not fill a block
   const PictureSize size = reduced_size(camera.size, factor);

@@ -13,6 +13,9 @@ inline constexpr int kMaxMeasuredSide = 3264;
 // 1: as it is; 2: half its sides; and so on.
 int reduction_of(PictureSize size);
 
+// Reduces a view where it is larger; the camera of what is left.
+CameraDescription reduce_where_larger(LoadedView& view, const CameraDescription& camera);
+
 // Each pixel is the mean of factor x factor, each label the most frequent among them; rows and columns that
 // are left over at the right and below are dropped.
 void reduce_view(LoadedView& view, int factor);
