@@ -10,6 +10,7 @@ namespace traygauge {
 namespace {
 
 constexpr std::uint64_t kMoves = 5;  // two more than the calibration needs
+
 bool turns(SetupSite& site) {
   const StationFile station = site.read();
   const std::unique_ptr<SetupDevices> opened = site.tools.open_devices(station);
@@ -60,18 +61,11 @@ bool set_up_arm(SetupSite& site) {
   if (!station.arm) {
     site.dialogue.say(
         "The file has no [arm]: a hand moves the camera or turns the tray, 15 to 25 degrees, and a second "
-        "press "
-        "takes the second view.");
+        "press takes the second view.");
     return true;
   }
-  do {
-    try {
-      if (turns(site) && (is_calibrated(site) || calibrate_move(site))) return true;
-    } catch (const InputError& error) {
-      site.dialogue.say(error.what());
-    }
-  } while (site.dialogue.try_again());
-  return false;
+  return try_until_done(site,
+                        [&site] { return turns(site) && (is_calibrated(site) || calibrate_move(site)); });
 }
 
 }  // namespace traygauge

@@ -26,10 +26,7 @@ bool try_button_and_lamp(SetupSite& site) {
 }  // namespace
 
 bool set_up_button(SetupSite& site) {
-  do {
-    if (try_button_and_lamp(site)) return true;
-  } while (site.dialogue.try_again());
-  return false;
+  return try_until_done(site, [&site] { return try_button_and_lamp(site); });
 }
 
 }  // namespace traygauge

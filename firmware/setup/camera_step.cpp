@@ -57,17 +57,17 @@ bool look_through_cameras(SetupSite& site) {
 }  // namespace
 
 bool set_up_camera(SetupSite& site) {
-  do {
+  return try_until_done(site, [&site] {
     const CameraList list = site.tools.list_cameras();
-    if (!list.cameras.empty()) choose_camera(site, list.cameras);
-    if (list.cameras.empty() && !list.closed_node.empty()) {
+    if (!list.cameras.empty()) {
+      choose_camera(site, list.cameras);
+    } else if (!list.closed_node.empty()) {
       site.dialogue.say(list.closed_node + " could not be opened: " + sentence(list.closed_status.code()));
-    } else if (list.cameras.empty()) {
+    } else {
       site.dialogue.say("No camera is connected.");
     }
-    if (look_through_cameras(site)) return true;
-  } while (site.dialogue.try_again());
-  return false;
+    return look_through_cameras(site);
+  });
 }
 
 }  // namespace traygauge

@@ -32,36 +32,27 @@ bool record_empty_dish(SetupSite& site, const fs::path& folder) {
   const std::unique_ptr<SetupDevices> opened = site.tools.open_devices(station);
   site.dialogue.say(
       "Draw a fine pattern on the dish's inner side with a washable pen, unless it has one: plain glaze "
-      "shows nothing to be "
-      "measured. Lay it empty beside the card, and press the button.");
+      "shows nothing to be measured. Lay it empty beside the card, and press the button.");
   return record_captures(station, opened->devices(), {folder, 1, kSetupRetries}, site.stop,
                          site.dialogue.out(), site.dialogue.out());
 }
 
 bool learn_dish(SetupSite& site) {
   EnrolOptions options;
-  do {
-    try {
-      require_geometry(site.read());
-      options.style = site.dialogue.ask("What is it called? Letters, digits, - and _", options.style);
-      options.size = site.dialogue.ask(
-          "Its size by a ruler, in mm, as LENGTHxWIDTHxRIM such as 262x262x23; RIM is the height of "
-          "its rim over the table",
-          options.size);
-      const PassingFolder folder;
-      if (record_empty_dish(site, folder.path())) {
-        own_dishes(site);
-        options.capture = fs::directory_iterator(folder.path())->path().string();
-        options.out = site.beside("dishes").string();
-        if (run_enrol(options, site.dialogue.out()) == kExitMeasured) return true;
-      }
-    } catch (const InputError& error) {
-      site.dialogue.say(error.what());
-    } catch (const UsageError& error) {
-      site.dialogue.say(error.what());
-    }
-  } while (site.dialogue.try_again());
-  return false;
+  return try_until_done(site, [&] {
+    require_geometry(site.read());
+    options.style = site.dialogue.ask("What is it called? Letters, digits, - and _", options.style);
+    options.size = site.dialogue.ask(
+        "Its size by a ruler, in mm, as LENGTHxWIDTHxRIM such as 262x262x23; RIM is the height of its rim "
+        "over the table",
+        options.size);
+    const PassingFolder folder;
+    if (!record_empty_dish(site, folder.path())) return false;
+    own_dishes(site);
+    options.capture = fs::directory_iterator(folder.path())->path().string();
+    options.out = site.beside("dishes").string();
+    return run_enrol(options, site.dialogue.out()) == kExitMeasured;
+  });
 }
 
 std::string list_dishes(const std::vector<DishDescription>& dishes) {
@@ -106,12 +97,12 @@ bool set_up_dishes(SetupSite& site) {
       continue;
     }
     if (answer == usual) return true;
-    const std::vector<std::string> styles = words_of(answer);
-    const auto found = find_dishes(styles, known);
     if (answer == "any") {
       remove_station_value(site.file, "trays", "dishes");
       return true;
     }
+    const std::vector<std::string> styles = words_of(answer);
+    const auto found = find_dishes(styles, known);
     if (found.ok()) {
       write_station_value(site.file, "trays", "dishes", as_toml(styles));
       return true;

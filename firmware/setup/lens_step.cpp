@@ -29,22 +29,19 @@ bool take_board_pictures(SetupSite& site, bool second, const PictureRecording& r
 bool calibrate_by_board(SetupSite& site, bool second) {
   site.dialogue.say(
       "A chessboard is needed, printed and glued onto something flat, about as large as a dish. Its inner "
-      "corners are those "
-      "where four fields meet: 9x6 of a board of 10 x 7 fields.");
+      "corners are those where four fields meet: 9x6 of a board of 10 x 7 fields.");
   const PassingFolder folder;
   std::string board = "9x6";
   std::uint64_t count = site.tools.board_pictures;
-  do {
+  return try_until_done(site, [&] {
     board = site.dialogue.ask("How many inner corners has it?", board);
-    if (take_board_pictures(site, second, {folder.path(), count})) {
-      std::vector<std::string> arguments = {"lens", site.file.string(), folder.path().string(), "--board",
-                                            board};
-      if (second) arguments.emplace_back("--second");
-      if (site.tools.run_program("traygauge-calibrate", arguments) == kExitMeasured) return true;
-      count = site.tools.more_pictures;  // beside those that are there
-    }
-  } while (site.dialogue.try_again());
-  return false;
+    if (!take_board_pictures(site, second, {folder.path(), count})) return false;
+    std::vector<std::string> arguments = {"lens", site.file.string(), folder.path().string(), "--board",
+                                          board};
+    if (second) arguments.emplace_back("--second");
+    count = site.tools.more_pictures;  // beside those that are there
+    return site.tools.run_program("traygauge-calibrate", arguments) == kExitMeasured;
+  });
 }
 
 bool set_up_one(SetupSite& site, const std::optional<LensConfig>& lens, bool second) {

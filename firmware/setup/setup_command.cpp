@@ -72,8 +72,8 @@ int run_setup(const SetupOptions& options, const SetupTools& tools, std::istream
   static_cast<void>(site.read());
   dialogue.say(
       "What is asked in [] is taken at Enter. Ctrl-C ends; what was set up until then stays, and this "
-      "command "
-      "goes on from there.\nA station that runs has its devices to itself: end it first (systemctl stop "
+      "command goes on from there.\nA station that runs has its devices to itself: end it first (systemctl "
+      "stop "
       "traygauge-station).");
   std::string left_out;
   std::size_t number = 0;

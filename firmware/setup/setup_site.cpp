@@ -3,6 +3,7 @@
 #include <cstdlib>
 #include <system_error>
 
+#include "firmware/base/exit_status.hpp"
 #include "firmware/command/sibling_program.hpp"
 #include "firmware/station/hardware.hpp"
 #include "simulator/capture/input_error.hpp"
@@ -33,6 +34,19 @@ SetupTools system_setup_tools() {
 bool tell(SetupSite& site, const CheckResult& result) {
   site.dialogue.say(printable(result.device) + ": " + printable(result.text));
   return result.is_good;
+}
+
+bool try_until_done(SetupSite& site, const std::function<bool()>& attempt) {
+  do {
+    try {
+      if (attempt()) return true;
+    } catch (const InputError& error) {
+      site.dialogue.say(error.what());
+    } catch (const UsageError& error) {
+      site.dialogue.say(error.what());
+    }
+  } while (site.dialogue.try_again());
+  return false;
 }
 
 PassingFolder::PassingFolder() {

@@ -57,6 +57,10 @@ inline constexpr int kSetupRetries = 10;
 // Says what became of a device; whether it is good.
 bool tell(SetupSite& site, const CheckResult& result);
 
+// Tries until it is done, or the person leaves the step out: then false. What is wrong with a file or an
+// answer is said.
+bool try_until_done(SetupSite& site, const std::function<bool()>& attempt);
+
 // A folder for pictures that nobody needs afterwards.
 class PassingFolder {
  public:

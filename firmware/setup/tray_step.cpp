@@ -16,14 +16,14 @@ namespace {
 // What the tray says of the station: all its food, and how card and dish agree.
 std::string grade_tray(const Measurement& measurement) {
   double sum_ml = 0.0;
-  double variance_ml2 = 0.0;
+  double sigma_ml = 0.0;  // errors of one tray's items go the same way, as that of its scale does
   for (const ItemResult& item : measurement.items) {
     if (item.status != StatusCode::ok) continue;
     sum_ml += item.volume_ml;
-    variance_ml2 += item.sigma_ml * item.sigma_ml;
+    sigma_ml += item.sigma_ml;
   }
-  std::string text = "All food: " + fixed(sum_ml, 0) + " ml, standard deviation " +
-                     fixed(std::sqrt(variance_ml2), 0) + " ml.";
+  std::string text =
+      "All food: " + fixed(sum_ml, 0) + " ml, standard deviation " + fixed(sigma_ml, 0) + " ml.";
   for (const Check& check : measurement.checks.items()) {
     if (check.kind != CheckKind::scale_percent) continue;
     text += " Card and dish " + std::to_string(check.label) + " agree about the scale to " +
@@ -80,14 +80,7 @@ bool measure_tray(SetupSite& site) {
 }  // namespace
 
 bool measure_first_tray(SetupSite& site) {
-  do {
-    try {
-      if (measure_tray(site)) return true;
-    } catch (const InputError& error) {
-      site.dialogue.say(error.what());
-    }
-  } while (site.dialogue.try_again());
-  return false;
+  return try_until_done(site, [&site] { return measure_tray(site); });
 }
 
 }  // namespace traygauge

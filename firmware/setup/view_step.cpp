@@ -32,16 +32,11 @@ bool all_see_card(SetupSite& site) {
 }  // namespace
 
 bool set_up_view(SetupSite& site) {
-  do {
+  return try_until_done(site, [&site] {
     static_cast<void>(
         site.dialogue.ask("Lay the card on the tray, where it will lie beside the dishes, and press Enter"));
-    try {
-      if (all_see_card(site)) return true;
-    } catch (const InputError& error) {
-      site.dialogue.say(error.what());
-    }
-  } while (site.dialogue.try_again());
-  return false;
+    return all_see_card(site);
+  });
 }
 
 }  // namespace traygauge
