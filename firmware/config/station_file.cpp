@@ -18,7 +18,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kMaxFileBytes = std::size_t{1} << 16U;
 constexpr std::size_t kMaxLamps = 32;
 constexpr int kMaxControl = 10'000'000;
 constexpr double kLeastTurnDeg = 1.0;  // less is no second view
@@ -277,7 +276,7 @@ void read_trays(const JsonNode& table, const fs::path& folder, StationFile& stat
 }  // namespace
 
 StationFile read_station_file(const fs::path& file, const fs::path& content) {
-  const JsonDocument document = read_toml(content, kMaxFileBytes, "a station in TOML");
+  const JsonDocument document = read_toml(content, kMaxStationFileBytes, "a station in TOML");
   const JsonNode root = document.root();
   check_station_version(root);
   expect(root, {"version", "camera", "second_camera", "button", "lamp", "arm", "arm_geometry", "lens",

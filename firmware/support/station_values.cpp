@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "firmware/base/toml_text.hpp"
+#include "firmware/config/hub_tables.hpp"
 #include "firmware/support/durable_files.hpp"
 #include "firmware/webhook/webhook_address.hpp"
 #include "simulator/capture/input_error.hpp"
@@ -16,7 +17,6 @@
 namespace traygauge {
 namespace {
 
-constexpr std::size_t kMaxStationBytes = std::size_t{1} << 16U;
 constexpr std::string_view kBlanks = " \t\r";
 
 // Keys whose texts hold no secret, a space around each. A text of any other key is not shown.
@@ -96,7 +96,7 @@ void scan_value(std::string_view rest, const std::string& key, int line, std::ve
 std::vector<StationValue> scan_lines(const std::filesystem::path& file) {
   std::vector<StationValue> values;
   std::ifstream stream(file, std::ios::binary);
-  std::string content(kMaxStationBytes, '\0');
+  std::string content(kMaxStationFileBytes, '\0');
   stream.read(content.data(), static_cast<std::streamsize>(content.size()));
   content.resize(static_cast<std::size_t>(std::max<std::streamsize>(stream.gcount(), 0)));
   std::string table;
@@ -170,7 +170,7 @@ StationValues read_station_values(const std::filesystem::path& file) {
   StationValues station;
   station.file = file;
   try {
-    flatten(read_toml(file, kMaxStationBytes, "a station in TOML").value(), "", station.values);
+    flatten(read_toml(file, kMaxStationFileBytes, "a station in TOML").value(), "", station.values);
   } catch (const InputError& error) {
     station.problem = error.what();
     std::error_code ignored;
