@@ -15,7 +15,7 @@ namespace traygauge {
 namespace {
 
 constexpr const char* kTablesVersion = "1";
-// Of any program's; collectors that start at once make the tables one after the other.
+// Under a lock, so that collectors that start at once make the tables one after the other. Its number is any.
 constexpr const char* kMakeTables =
     "BEGIN;"
     "SELECT pg_advisory_xact_lock(5283459176203);"
@@ -171,8 +171,7 @@ Expected<void> PostgresStore::prepare() {
   if (field(version, 0, 1) != "on")
     return Failure{config_.shown() +
                    ": expected a server that writes to disk, found fsync off: a power cut would lose what "
-                   "hubs have forgotten. "
-                   "Turn it on."};
+                   "hubs have forgotten. Turn it on."};
   if (field(version, 0, 0) == kTablesVersion) return {};
   return Failure{config_.shown() + ": expected tables of version " + kTablesVersion + ", found " +
                  field(version, 0, 0) + "; install the newer program again."};
