@@ -72,6 +72,9 @@ namespace traygauge {
   CODE(dish_differs, \
        "The dish's surface does not lie where its description puts it; check which dish it is and its " \
        "description, or describe it anew with traygauge enrol-dish.") \
+  CODE(lens_does_not_fit, \
+       "Card and dishes agree through another lens than the one described; calibrate the camera anew, or " \
+       "check that its values were made for this lens and this mode of the camera.") \
   CODE(card_not_found, \
        "The reference card was not found in both pictures; lay it flat beside the dish, fully visible " \
        "and without glare.") \

@@ -8,6 +8,7 @@
 #include "core/image/specular_suppression.hpp"
 #include "core/labels/dish_membership.hpp"
 #include "core/pipeline/food_agreement_params.hpp"
+#include "core/pipeline/lens_doubt.hpp"
 #include "core/pipeline/segmenter_params.hpp"
 #include "core/pipeline/tray_check_params.hpp"
 #include "core/pipeline/tray_setup.hpp"
@@ -59,6 +60,7 @@ struct Configuration : TraySetup {
   DishOutlineParams outline;
   BundleParams bundle;
   TrayCheckParams checks;
+  LensDoubtParams lens_doubt;
   SpecularParams specular;
   DenseStereoParams surface;
   RoundBodyParams round_body;

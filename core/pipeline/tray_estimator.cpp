@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "core/pipeline/lens_doubt.hpp"
 #include "core/pipeline/segmenter.hpp"
 #include "core/pipeline/stage_clock.hpp"
 #include "core/pipeline/tray_measurement.hpp"
@@ -179,6 +180,13 @@ const Measurement& TrayEstimator::estimate(std::uint64_t seed, StageObserver* ob
   measurement_ = {};
   measurement_.status = status_;
   if (!status_.ok()) return measurement_;
+  measure(seed, observer);
+  if (state_->views == 2 && may_be_the_lens(measurement_)) doubt_lens(seed);
+  return measurement_;
+}
+
+void TrayEstimator::measure(std::uint64_t seed, StageObserver* observer) {
+  measurement_ = {};
   EstimatorState& state = *state_;
   StageClock clock = state.preparation_clock;
   measurement_.status = check_views(state);
@@ -197,7 +205,37 @@ const Measurement& TrayEstimator::estimate(std::uint64_t seed, StageObserver* ob
   measurement_.stage_ms = clock.stage_ms();
   measurement_.segmentation_ms = is_found ? state.segmentation.total_ms() : 0.0;
   measurement_.total_ms = clock.total_ms() + measurement_.segmentation_ms;
-  return measurement_;
+}
+
+// Measures through other lenses, then as given, so that every surface and outline is what it was before.
+void TrayEstimator::doubt_lens(std::uint64_t seed) {
+  const LensDoubtParams& params = state_->configuration.lens_doubt;
+  const std::array<ViewInput, 2> given = state_->inputs;
+  const LensChange* best = nullptr;
+  double least_scale = params.max_scale_percent;
+  double spent_ms = measurement_.total_ms;
+  for (const LensChange& change : params.tried) {
+    std::array<ViewInput, 2> changed = given;
+    for (ViewInput& view : changed) view.lens = change.of(view.lens.value_or(state_->configuration.lens));
+    take_again(changed);
+    measure(seed, nullptr);
+    spent_ms += measurement_.total_ms;
+    const std::optional<double> scale = scale_if_all_agrees(measurement_);
+    if (!scale || *scale > least_scale) continue;
+    least_scale = *scale;
+    best = &change;
+  }
+  take_again(given);
+  measure(seed, nullptr);
+  measurement_.total_ms += spent_ms;
+  if (best != nullptr)
+    blame_lens(*best, params, {state_->memory.dish.items.begin(), measurement_.items.size()}, measurement_);
+}
+
+void TrayEstimator::take_again(const std::array<ViewInput, 2>& inputs) {
+  reset();
+  // What goes wrong with them, measure() finds again.
+  for (const ViewInput& input : inputs) static_cast<void>(add_view(input));
 }
 
 const Segmentation* TrayEstimator::segmentation() const {

@@ -2,6 +2,7 @@
 // memory.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -43,8 +44,9 @@ class TrayEstimator {
   // wrong_call, which changes nothing: a third view.
   Status add_view(const ViewInput& input);
 
-  // Measures the two views, as often as is liked; the same input and seed give the same bits. Shows its
-  // stages to `observer`, which may be null.
+  // Measures the two views, as often as is liked; the same input and seed give the same bits. Where card and
+  // dishes contradict each other, some other lenses are tried, which takes as long again for each. Shows the
+  // stages of the views as given to `observer`, which may be null.
   const Measurement& estimate(std::uint64_t seed, StageObserver* observer = nullptr);
 
   // What was found where no labels were given; null where they were. Valid until reset().
@@ -59,6 +61,10 @@ class TrayEstimator {
   void reset();
 
  private:
+  void measure(std::uint64_t seed, StageObserver* observer);
+  void doubt_lens(std::uint64_t seed);
+  void take_again(const std::array<ViewInput, 2>& inputs);
+
   EstimatorState* state_ = nullptr;  // in the block
   Status status_;
   Measurement measurement_;

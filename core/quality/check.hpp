@@ -24,10 +24,12 @@ enum class CheckKind : std::uint8_t {
   item_unlike_percent,  // share of an item that looks different in the two pictures
   object_height_mm,     // of what stands beside the dishes and is none of them, 0 without any; of the
                         // background's label
+  focal_percent,        // how much longer or shorter a focal length makes card and dishes agree, where one
+                        // does; of the background's label
 };
 inline constexpr auto kCheckNames = std::to_array<const char*>(
     {"dish_slip_mm", "scale_percent", "dish_height_mm", "glaze_height_mm", "table_height_mm", "own_motion_mm",
-     "item_slip_mm", "item_foot_mm", "item_unlike_percent", "object_height_mm"});
+     "item_slip_mm", "item_foot_mm", "item_unlike_percent", "object_height_mm", "focal_percent"});
 inline const char* name(CheckKind kind) {
   return kCheckNames[static_cast<std::size_t>(kind)];
 }
@@ -56,8 +58,8 @@ constexpr Verdict judge(double value, double warning, double most) {
 
 class CheckList {
  public:
-  // Eight dishes with five each, sixteen items with three, the table and what stands on it.
-  static constexpr std::size_t kCapacity = 90;
+  // Eight dishes with five each, sixteen items with three, the table, what stands on it, and the lens.
+  static constexpr std::size_t kCapacity = 91;
 
   // What does not fit is left out.
   void add(const Check& check) {

@@ -182,6 +182,25 @@ TEST_P(DishChecks, TellOfACardThatIsStatedTooLarge) {
   }
 }
 
+// As after another mode of the sensor was chosen. One 5 % off of which a dish is not told by more than 0.6 %
+// of scale passes: not of this capture.
+TEST_P(DishChecks, NameALensThatDoesNotFit) {
+  for (const double scale : {0.90, 0.94, 1.06, 1.10}) {
+    const test::FaultyCapture capture(kDemoCaptures / "fish_and_potatoes", {0, 1});
+    const fs::path folder = capture.store();
+    json document = json::parse(read_text(folder / "capture.json"));
+    for (const char* const key : {"fx", "fy"}) {
+      json& focal_px = document["camera"][key];
+      focal_px = focal_px.get<double>() * scale;
+    }
+    write_text(folder / "capture.json", document.dump());
+    const json measured = measure(folder);
+    EXPECT_EQ(measured.at("status"), "lens_does_not_fit") << scale << ": " << measured;
+    EXPECT_NEAR(value(measured, "focal_percent"), 100.0 * (1.0 / scale - 1.0), 2.6) << scale;
+    for (const json& item : measured.at("items")) EXPECT_TRUE(item.at("volume_ml").is_null()) << item;
+  }
+}
+
 // Its print lies at 0.8 mm.
 TEST_P(DishChecks, TellOfACardThatLiesElsewhereThanSaid) {
   const json document = measure_with_card({{"thickness_mm", 4.3}});

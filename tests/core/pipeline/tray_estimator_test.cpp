@@ -52,6 +52,23 @@ TEST_P(TrayEstimatorTest, NothingLeaksFromGivenLabelsIntoFoundOnesOrBack) {
   EXPECT_TRUE(have_equal_bits(before, numbers_of(bench.measure(views_[0], views_[1], 5))));
 }
 
+// Other lenses are tried in the memory of the measurement, and nothing of them stays.
+TEST_P(TrayEstimatorTest, ALensThatDoesNotFitIsRefusedAgainAndAgain) {
+  Configuration configuration = demo().configuration();
+  const LensModel lens = configuration.lens;
+  configuration.lens = LensChange{1.1}.of(lens);
+  MeasuringBench bench(configuration);
+  const auto first = numbers_of(bench.measure(views_[0], views_[1], 5));
+  ASSERT_EQ(first.front(), static_cast<double>(StatusCode::lens_does_not_fit));
+  EXPECT_TRUE(have_equal_bits(first, numbers_of(bench.estimator.estimate(5))));
+  std::array<ViewInput, 2> right = views_;
+  for (ViewInput& view : right) view.lens = lens;
+  const auto measured = numbers_of(bench.measure(right[0], right[1], 5));
+  MeasuringBench other(demo().configuration());
+  EXPECT_TRUE(have_equal_bits(measured, numbers_of(other.measure(views_[0], views_[1], 5))));
+  EXPECT_TRUE(have_equal_bits(first, numbers_of(bench.measure(views_[0], views_[1], 5))));
+}
+
 TEST_P(TrayEstimatorTest, ScratchMayBeOverwrittenBetweenCalls) {
   MeasuringBench bench(demo().configuration());
   const std::span<std::byte> scratch = bench.estimator.scratch();
