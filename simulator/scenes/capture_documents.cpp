@@ -151,6 +151,8 @@ Json compose_truth(const LaidScene& laid, const std::vector<std::vector<std::siz
     const Eigen::Vector3d at = card * corner;
     json["card_corners_mm"].push_back({at.x(), at.y(), at.z()});
   }
+  json["card_tilt_deg"] = scene.card.tilt_deg;
+  json["card_curl_mm"] = scene.card.curl_mm;
   json["card_corner_order"] = "pattern image TL,TR,BR,BL";
   json["table"] = surface_kind_names()[static_cast<std::size_t>(scene.table.kind)];
   for (const Photograph& view : scene.views) {

@@ -12,6 +12,7 @@
 #include "simulator/scenes/colour.hpp"
 #include "simulator/scenes/draws.hpp"
 #include "simulator/scenes/noise.hpp"
+#include "simulator/scenes/scene_poses.hpp"
 
 namespace traygauge {
 namespace {
@@ -149,10 +150,11 @@ void paint_text(cv::Mat& print, Draws& draws) {
 
 class CardMaterial : public Material {
  public:
-  CardMaterial(std::shared_ptr<const Picture> print, const Eigen::Vector2d& px_per_mm,
+  CardMaterial(std::shared_ptr<const Picture> print, const Eigen::Vector2d& px_per_mm, const LaidCard& card,
                const Eigen::Isometry3d& card_from_world)
       : print_(std::move(print)),
         px_per_mm_(px_per_mm.cast<float>()),
+        card_(card),
         card_from_world_(card_from_world.cast<float>()) {
     for (std::size_t i = 0; i < linear_.size(); ++i)
       linear_[i] = linear_colour(static_cast<std::uint32_t>(i) << 16U).x();
@@ -162,7 +164,8 @@ class CardMaterial : public Material {
     const Eigen::Vector3f at = card_from_world_ * point_mm;
     Reflectance reflectance;
     reflectance.roughness = 0.3F;
-    reflectance.base = static_cast<double>(at.z()) > kTopMm ? Eigen::Vector3f::Constant(0.8F) : printed(at);
+    const double depth_mm = at.z() + card_lift_mm(card_, at.x());
+    reflectance.base = depth_mm > kTopMm ? Eigen::Vector3f::Constant(0.8F) : printed(at);
     return reflectance;
   }
 
@@ -188,6 +191,7 @@ class CardMaterial : public Material {
 
   std::shared_ptr<const Picture> print_;
   Eigen::Vector2f px_per_mm_;
+  LaidCard card_;
   Eigen::Isometry3f card_from_world_;
   std::array<float, 256> linear_{};
 };
@@ -224,9 +228,9 @@ Picture read_print(const std::filesystem::path& file) {
 }
 
 std::shared_ptr<const Material> make_card_material(std::shared_ptr<const Picture> print,
-                                                   const Eigen::Vector2d& px_per_mm,
+                                                   const Eigen::Vector2d& px_per_mm, const LaidCard& card,
                                                    const Eigen::Isometry3d& card_from_world) {
-  return std::make_shared<CardMaterial>(std::move(print), px_per_mm, card_from_world);
+  return std::make_shared<CardMaterial>(std::move(print), px_per_mm, card, card_from_world);
 }
 
 }  // namespace traygauge

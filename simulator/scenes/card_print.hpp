@@ -8,6 +8,7 @@
 
 #include "simulator/capture/picture.hpp"
 #include "simulator/render/material.hpp"
+#include "simulator/scenes/scene_description.hpp"
 
 namespace traygauge {
 
@@ -19,10 +20,10 @@ Picture print_card(double width_mm, double height_mm, std::uint64_t seed);
 // RGB, from a file; it fills the card. Throws InputError.
 Picture read_print(const std::filesystem::path& file);
 
-// The print on the card's upper side, white elsewhere. Card coordinates: origin at the top left corner of the
-// print, x along its width, y along its height downwards, z down into the card.
+// The print on the upper side of `card`, white elsewhere. Card coordinates: origin at the top left corner of
+// the print, x along its width, y along its height downwards, z down into the card.
 std::shared_ptr<const Material> make_card_material(std::shared_ptr<const Picture> print,
-                                                   const Eigen::Vector2d& px_per_mm,
+                                                   const Eigen::Vector2d& px_per_mm, const LaidCard& card,
                                                    const Eigen::Isometry3d& card_from_world);
 
 }  // namespace traygauge

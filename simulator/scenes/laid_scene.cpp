@@ -4,6 +4,7 @@
 #include <stdexcept>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "simulator/scenes/card_print.hpp"
 #include "simulator/scenes/mesh_tools.hpp"
@@ -41,6 +42,24 @@ TruthKind kind_of_dish(const DishShell& shell, const Eigen::Isometry3f& dish_fro
 
 Eigen::Isometry3d moved(const Eigen::Isometry3d& pose, double x, double y, double z) {
   return pose * Eigen::Translation3d(x, y, z);
+}
+
+// In the card's coordinates.
+TriangleMesh card_mesh(const LaidCard& card) {
+  const double depth_mm = card.thickness_mm - kClearanceMm;
+  if (card.curl_mm == 0.0) return box_mesh({0.0, 0.0, 0.0}, {card.width_mm, card.height_mm, depth_mm});
+  constexpr int kStrips = 64;
+  std::vector<std::vector<Eigen::Vector3f>> loops;
+  for (int strip = 0; strip <= kStrips; ++strip) {
+    const double x = card.width_mm * strip / kStrips;
+    const double top = -card_lift_mm(card, x);
+    std::vector<Eigen::Vector3f>& loop = loops.emplace_back();
+    for (const Eigen::Vector3d& corner :
+         {Eigen::Vector3d(x, 0.0, top), Eigen::Vector3d(x, 0.0, top + depth_mm),
+          Eigen::Vector3d(x, card.height_mm, top + depth_mm), Eigen::Vector3d(x, card.height_mm, top)})
+      loop.push_back(corner.cast<float>());
+  }
+  return skin_of_loops(loops);
 }
 
 }  // namespace
@@ -87,9 +106,8 @@ void LaidScene::add_card() {
           ? Eigen::Vector2d::Constant(kCardPrintPxPerMm)
           : Eigen::Vector2d(print_->size.width / card.width_mm, print_->size.height / card.height_mm);
   const Eigen::Isometry3d pose = world_from_card(card);
-  SceneObject object{
-      box_mesh({0.0, 0.0, 0.0}, {card.width_mm, card.height_mm, card.thickness_mm - kClearanceMm}),
-      make_card_material(print_, px_per_mm, pose.inverse()), kCardLabel, TruthKind::card};
+  SceneObject object{card_mesh(card), make_card_material(print_, px_per_mm, card, pose.inverse()), kCardLabel,
+                     TruthKind::card};
   transform(object.mesh, pose);
   scene_.objects.push_back(std::move(object));
 }

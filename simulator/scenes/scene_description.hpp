@@ -55,6 +55,8 @@ struct LaidCard {
   double rotation_deg = 0.0;  // of the print's width
   std::uint64_t design = 1;
   std::filesystem::path print;  // a picture of the printed side, instead of a design; may be empty
+  double tilt_deg = 0.0;        // it stands on its lower long edge and leans on something
+  double curl_mm = 0.0;         // its right edge is bent up so far, as a parabola
 };
 
 struct Table {

@@ -90,10 +90,12 @@ class Digest {
     if (!body.empty()) add(body);
   }
   void write(const LaidCard& card) {
-    const auto& [width_mm, height_mm, thickness_mm, centre_mm, rotation_deg, design, print] = card;
+    const auto& [width_mm, height_mm, thickness_mm, centre_mm, rotation_deg, design, print, tilt_deg,
+                 curl_mm] = card;
     add(width_mm, height_mm, thickness_mm, centre_mm, rotation_deg, design);
-    // Captures whose card has a design keep the digest that they have.
+    // Captures whose card has a design and lies flat keep the digest that they have.
     if (!print.empty()) add(content_hash(to_gray(read_picture({print, ""})).pixels));
+    if (tilt_deg != 0.0 || curl_mm != 0.0) add(tilt_deg, curl_mm);
   }
   void write(const Table& table) {
     const auto& [kind, rotation_deg, seed] = table;

@@ -194,14 +194,16 @@ LaidFood read_food(const JsonNode& node, const SceneDescription& scene, const st
 }
 
 void read_card(const JsonNode& node, const std::filesystem::path& folder, LaidCard& card) {
-  const SceneTable table(
-      node, {"width_mm", "height_mm", "thickness_mm", "centre_mm", "rotation_deg", "design", "print"});
+  const SceneTable table(node, {"width_mm", "height_mm", "thickness_mm", "centre_mm", "rotation_deg",
+                                "design", "print", "tilt_deg", "curl_mm"});
   table.read("width_mm", card.width_mm, {20.0, 300.0});
   table.read("height_mm", card.height_mm, {20.0, 300.0});
   table.read("thickness_mm", card.thickness_mm, {0.05, 10.0});
   table.read("centre_mm", card.centre_mm, kPlaceMm);
   table.read("rotation_deg", card.rotation_deg, kAngleDeg);
   table.read("design", card.design);
+  table.read("tilt_deg", card.tilt_deg, {0.0, 30.0});
+  table.read("curl_mm", card.curl_mm, {0.0, 30.0});
   if (const auto print = table.find("print")) card.print = folder / print->text();
 }
 

@@ -18,6 +18,9 @@ Eigen::Isometry3d world_from_dish(const LaidDish& dish);
 // From the card's print (origin top left, x along its width, y downwards, z into the card).
 Eigen::Isometry3d world_from_card(const LaidCard& card);
 
+// How far a bent card lies over a flat one, so far along its width.
+double card_lift_mm(const LaidCard& card, double along_mm);
+
 // The tray's frame is the world's: where the room (camera, table, lamps) is in it when a view is taken.
 Eigen::Isometry3d world_from_room(const Photograph& view);
 

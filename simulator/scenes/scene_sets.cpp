@@ -21,6 +21,7 @@ constexpr auto kSets = std::to_array<SceneSet>({
     {"trays-8", "8 trays with several dishes and cutlery"},
     {"moved-4", "4 trays, each moved under a still camera"},
     {"slips-10", "10 meals and trays whose card, dish or food slips by 0.5 to 15 mm between two pictures"},
+    {"cards-8", "8 meals whose card leans by 0.5 to 4 degrees, or is bent up by 1 to 8 mm at one edge"},
 });
 
 constexpr double kPhoneFocalPx = 1400.0;  // 60 degrees across: the phones of the paper
@@ -253,6 +254,22 @@ std::vector<SceneDescription> make_slips(std::uint64_t seed) {
   return scenes;
 }
 
+std::vector<SceneDescription> make_spoilt_cards(std::uint64_t seed) {
+  Draws menu_draws(seed, "cards-8 menu");
+  Menu menu(menu_draws, {FoodGroup::canteen, FoodGroup::fast_food}, FoodServing::solid);
+  constexpr std::array kTiltsDeg = {0.5, 1.0, 2.0, 4.0};
+  constexpr std::array kCurlsMm = {1.0, 2.0, 4.0, 8.0};
+  return make_each(8, "c", "cards-8", seed, [&](std::size_t i, const std::string& name, Draws& draws) {
+    SceneDescription scene = lay_meal(name, draws, kPlates[i % 3], 1.0, menu.deal(2), kTables);
+    if (i < kTiltsDeg.size())
+      scene.card.tilt_deg = kTiltsDeg[i];
+    else
+      scene.card.curl_mm = kCurlsMm[i - kTiltsDeg.size()];
+    draw_views(scene, draws, 2, {});
+    return scene;
+  });
+}
+
 // A quarter of the pixels.
 void halve(CameraDescription& camera) {
   camera.size = {camera.size.width / 2, camera.size.height / 2};
@@ -295,6 +312,9 @@ std::vector<SceneDescription> make_scenes(std::string_view set, std::uint64_t se
   } else if (set == "slips-10") {
     scenes = make_slips(seed);
     reduced_count = 10;
+  } else if (set == "cards-8") {
+    scenes = make_spoilt_cards(seed);
+    reduced_count = 8;
   } else {
     throw std::invalid_argument("no set is called " + std::string(set));
   }

@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
-"""What a measurement makes of captures in which something slipped between the pictures.
+"""What a measurement makes of captures in which something slipped between the pictures, or whose card does not lie flat.
 
     build/traygauge-simulate render slips-10 --seed 71 --reduced --out slips
-    tests/evaluation/perturb/slips.py build/traygauge slips --labels auto
+    build/traygauge-simulate render cards-8 --seed 71 --reduced --out cards
+    tests/evaluation/perturb/slips.py build/traygauge slips cards --labels auto
 
-Measures every pair and prints, by what slipped and how far, how many were refused, left a dish or an item out,
+Measures every pair and prints, by what is wrong and how much, how many were refused, left a dish or an item out,
 were warned of by name, gave the sum of all food within 10 %, were wrong with a warning that a volume may be far off,
 or were wrong in silence.
 """
@@ -23,14 +24,18 @@ FAR_OFF = 0.10  # of the sum
 OUTCOMES = ["refused", "left out", "warned", "right", "unsure", "silent"]
 
 
-def kind_of(displaced):
-    if not displaced:
+def kind_of(truth, view):
+    if truth.get("card_tilt_deg"):
+        return "card leans, degrees", truth["card_tilt_deg"]
+    if truth.get("card_curl_mm"):
+        return "card bent, mm", truth["card_curl_mm"]
+    if not truth["displaced"][view]:
         return "nothing", 0.0
-    slip = displaced[0]
+    slip = truth["displaced"][view][0]
     length_mm = round((slip["shift_mm"][0] ** 2 + slip["shift_mm"][1] ** 2) ** 0.5, 1)
     if slip["label"] == CARD:
-        return "card", length_mm
-    return ("food" if FIRST_FOOD <= slip["label"] <= LAST_FOOD else "dish"), length_mm
+        return "card slipped, mm", length_mm
+    return ("food slipped, mm" if FIRST_FOOD <= slip["label"] <= LAST_FOOD else "dish slipped, mm"), length_mm
 
 
 def outcome_of(document, truth_ml):
@@ -58,21 +63,21 @@ def measure(program, folder, pair, labels):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("program", help="the program traygauge")
-    parser.add_argument("captures", type=pathlib.Path, help="folder of captures of the set slips-10")
+    parser.add_argument("captures", type=pathlib.Path, nargs="+", help="folders of captures of the sets slips-10, cards-8")
     parser.add_argument("--labels", choices=["given", "auto"], default="auto")
     options = parser.parse_args()
     counts = collections.defaultdict(collections.Counter)
-    for folder in sorted(path.parent for path in options.captures.glob("*/truth.json")):
+    for folder in sorted(path.parent for folder in options.captures for path in folder.glob("*/truth.json")):
         truth = json.loads((folder / "truth.json").read_text())
         truth_ml = sum(item["volume_ml"] for item in truth["items"])
         for pair in json.loads((folder / "capture.json").read_text())["pairs"]:
             document = measure(options.program, folder, pair, options.labels)
-            counts[kind_of(truth["displaced"][pair[1]])][outcome_of(document, truth_ml)] += 1
+            counts[kind_of(truth, pair[1])][outcome_of(document, truth_ml)] += 1
     if not counts:
-        sys.exit(f"{options.captures}: no captures; render some with traygauge-simulate render slips-10")
-    print(f"{'slipped':9} {'mm':>5} " + " ".join(f"{name:>9}" for name in OUTCOMES))
-    for (kind, length_mm), of_kind in sorted(counts.items()):
-        print(f"{kind:9} {length_mm:5.1f} " + " ".join(f"{of_kind[name]:9d}" for name in OUTCOMES))
+        sys.exit("no captures; render some with traygauge-simulate render slips-10")
+    print(f"{'what':19} {'much':>5} " + " ".join(f"{name:>9}" for name in OUTCOMES))
+    for (kind, amount), of_kind in sorted(counts.items()):
+        print(f"{kind:19} {amount:5.1f} " + " ".join(f"{of_kind[name]:9d}" for name in OUTCOMES))
 
 
 if __name__ == "__main__":

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
@@ -14,6 +15,7 @@
 
 #include "simulator/scenes/dish_shell.hpp"
 #include "simulator/scenes/laid_scene.hpp"
+#include "simulator/scenes/mesh_tools.hpp"
 #include "simulator/scenes/scene_poses.hpp"
 #include "simulator/scenes/scene_views.hpp"
 
@@ -168,6 +170,35 @@ TEST(SceneSets, SlipsMoveOneThingInTheSecondView) {
       EXPECT_NEAR(of_label.back(), 15.0, 1e-9) << +label;
     }
   }
+}
+
+// A card leans on its lower edge, or is bent up at its right one: neither goes into the table, and a bent one
+// keeps its thickness everywhere.
+TEST(SceneSets, SpoiltCardsLeanOrAreBent) {
+  std::vector<double> leans_deg;
+  std::vector<double> bends_mm;
+  for (SceneDescription& scene : make_scenes("cards-8", kSeed, false)) {
+    const LaidCard card = scene.card;
+    leans_deg.push_back(card.tilt_deg);
+    bends_mm.push_back(card.curl_mm);
+    EXPECT_TRUE((card.tilt_deg > 0.0) != (card.curl_mm > 0.0)) << scene.name;
+    LaidScene laid(scene, 1);
+    const Scene& rendered = laid.scene_of(scene.views[0]);
+    const auto of_card = std::ranges::find(rendered.objects, kCardLabel, &SceneObject::label);
+    ASSERT_NE(of_card, rendered.objects.end());
+    EXPECT_TRUE(is_closed(of_card->mesh));
+    EXPECT_NEAR(enclosed_volume_mm3(of_card->mesh), card.width_mm * card.height_mm * card.thickness_mm,
+                0.05 * card.width_mm * card.height_mm);
+    const auto [lowest, highest] =
+        std::ranges::minmax(of_card->mesh.vertices, {}, [](const Eigen::Vector3f& at) { return at.z(); });
+    EXPECT_NEAR(lowest.z(), 0.0, 0.06);
+    EXPECT_NEAR(highest.z(),
+                card.height_mm * std::sin(radians(card.tilt_deg)) +
+                    card.thickness_mm * std::cos(radians(card.tilt_deg)) + card.curl_mm,
+                0.01);
+  }
+  EXPECT_EQ(leans_deg, (std::vector<double>{0.5, 1.0, 2.0, 4.0, 0.0, 0.0, 0.0, 0.0}));
+  EXPECT_EQ(bends_mm, (std::vector<double>{0.0, 0.0, 0.0, 0.0, 1.0, 2.0, 4.0, 8.0}));
 }
 
 // A dish takes its food along, a food moves alone; what is painted on them moves with them.
