@@ -28,8 +28,11 @@ void warn_about_lens(const ViewPair& views, const ViewCheckParams& params, Warni
     const ItemPixels& item = views[0]->quality().items[label];
     const bool has_texture_elsewhere =
         item.textured >= params.textured_warning * static_cast<double>(item.blocks - blank[label]);
-    warnings.raise_if(blank[label] >= params.min_blank_blocks && has_texture_elsewhere, Warning::lens_dirty,
-                      static_cast<std::uint8_t>(label));
+    if (blank[label] < params.min_blank_blocks || !has_texture_elsewhere) continue;
+    // Food that is refused as smooth has little texture anywhere.
+    const auto of_item = static_cast<std::uint8_t>(label);
+    const StatusCode pixels = judge_item_pixels(of_item, views[0]->quality(), views[1]->quality(), params);
+    warnings.raise_if(pixels == StatusCode::ok, Warning::lens_dirty, of_item);
   }
 }
 
