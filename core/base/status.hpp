@@ -69,6 +69,9 @@ namespace traygauge {
   CODE(card_lifted, \
        "Reference card and dish disagree about where the table is; lay the card flat on what the dish " \
        "stands on, and check its thickness and the dish's height as described.") \
+  CODE(card_not_flat, \
+       "Reference card and dish do not lie in parallel planes; lay the card flat on what the dish stands on, " \
+       "with nothing under card or dish, and use a card that is not bent.") \
   CODE(dish_differs, \
        "The dish's surface does not lie where its description puts it; check which dish it is and its " \
        "description, or describe it anew with traygauge enrol-dish.") \

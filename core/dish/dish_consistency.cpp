@@ -22,6 +22,32 @@ double explain(const Evidence& evidence, const EvidenceMatrix& information, cons
   return amount;
 }
 
+// Both views together, whose cameras may both be off.
+void find_lean(const std::array<DishSighting, 2>& sightings, const TableCameras& cameras,
+               const CamerasMatrix& covariance, DishConsistency& result) {
+  Eigen::Matrix2d information = Eigen::Matrix2d::Zero();
+  Vec2 weighted = Vec2::Zero();
+  Eigen::Matrix<double, 2, kCameraParameters> by_cameras;
+  for (std::size_t v = 0; v < 2; ++v) {
+    const SightedLean& lean = sightings[v].lean;
+    const Eigen::Matrix<double, 2, 6> by_camera = lean.by_camera.cast<double>();
+    information += lean.information.cast<double>();
+    weighted += lean.weighted.cast<double>() +
+                by_camera.lazyProduct(step_between(sightings[v].camera_from_table, cameras[v]));
+    by_cameras.middleCols<6>(6 * static_cast<Eigen::Index>(v)) = by_camera;
+  }
+  if (!(information.determinant() > 0.0)) return;
+  const Eigen::Matrix2d inverse = information.inverse();
+  const Eigen::Matrix<double, 2, kCameraParameters> by_camera_errors = by_cameras.lazyProduct(covariance);
+  const Eigen::Matrix2d of_cameras = by_camera_errors.lazyProduct(by_cameras.transpose());
+  const Eigen::Matrix2d spread = inverse + inverse * of_cameras * inverse;
+  const Vec2 lean = inverse * weighted;
+  result.lean_rad = lean.norm();
+  const Vec2 along = result.lean_rad > 0.0 ? Vec2(lean / result.lean_rad) : Vec2::UnitX();
+  result.lean_sigma_rad = std::sqrt(along.dot(spread * along));
+  result.lean_deviation = lean.dot(spread.inverse() * lean);
+}
+
 }  // namespace
 
 std::array<DishFault, kDishFaults> DishConsistency::best_first() const {
@@ -77,6 +103,7 @@ DishConsistency compare_sightings(const std::array<DishSighting, 2>& sightings, 
   const Vec2 along = slip_mm > 0.0 ? Vec2(result.slip_mm / slip_mm) : Vec2::UnitX();
   result.slip_sigma_mm = std::sqrt(along.dot(slip_covariance * along));
   result.turn_rad = second[kPlaceAzimuth] - first[kPlaceAzimuth];
+  find_lean(sightings, cameras, covariance, result);
   return result;
 }
 

@@ -30,6 +30,11 @@ struct DishConsistency {
   double scale_sigma = 0.0;
   double height_mm = 0.0;  // of dish and table over where the card puts them
   double height_sigma_mm = 0.0;
+  // Between the planes of the dish's edge and of the card. Of an oval dish hardly known: seen from above, a
+  // turn about the vertical looks much like it.
+  double lean_rad = 0.0;
+  double lean_sigma_rad = 0.0;  // along the lean
+  double lean_deviation = 0.0;  // squared, in its sigmas; two degrees of freedom
 
   double explained_by(DishFault fault) const {
     return squared_deviation - left[static_cast<std::size_t>(fault)];

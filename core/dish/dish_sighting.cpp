@@ -15,6 +15,18 @@ constexpr double kFixedAzimuth = 1e12;
 
 using SightingEquations = NormalEquations<kSightedParameters>;
 
+// Steps of the camera that show the same as a dish which leans, one column for each axis: it turns about the
+// middle of its edge.
+Eigen::Matrix<double, 6, 2> steps_of_lean(const DishPose& place, const Pose& camera_from_table) {
+  const Vec3 pivot_mm(place.centre_mm.x(), place.centre_mm.y(), place.edge_height_mm);
+  Eigen::Matrix<double, 6, 2> steps;
+  for (int axis = 0; axis < 2; ++axis) {
+    const Vec3 turn = Vec3::Unit(axis);
+    steps.col(axis) << camera_from_table.rotation * turn, camera_from_table.rotation * pivot_mm.cross(turn);
+  }
+  return steps;
+}
+
 // Sums over an outline about one place.
 class RimFit {
  public:
@@ -26,6 +38,8 @@ class RimFit {
     equations_ = {};
     by_camera_.setZero();
     by_height_.setZero();
+    camera_squares_.setZero();
+    camera_gradient_.setZero();
     squares_px2_ = 0.0;
     agreeing_ = 0;
     if (is_round) equations_.add(0.0, SightedVector::Unit(kPlaceAzimuth), kFixedAzimuth);
@@ -42,6 +56,8 @@ class RimFit {
           by_place[kPlaceSize] * place.size_mm[0] + by_place[kPlaceSize + 1] * place.size_mm[1];
       equations_.add(residual_px, sighted, weight);
       by_camera_ += weight * sighted * by_camera.transpose();
+      camera_squares_ += weight * by_camera * by_camera.transpose();
+      camera_gradient_ += weight * residual_px * by_camera;
       by_height_ += weight * by_place[kPlaceHeight] * sighted;
       if (std::abs(residual_px) > scale_px) continue;
       squares_px2_ += residual_px * residual_px;
@@ -50,6 +66,21 @@ class RimFit {
     return true;
   }
 
+  // `variance_px2`: of a residual with weight one.
+  SightedLean lean(const DishPose& place, const SightedMatrix& inverse, double variance_px2) const {
+    const Eigen::Matrix<double, 6, 2> steps = steps_of_lean(place, camera_);
+    // What place and size leave of a step of the camera.
+    const Eigen::Matrix<double, 6, kSightedParameters> explained =
+        by_camera_.transpose().lazyProduct(inverse);
+    const Mat6 left = camera_squares_ - Mat6(explained.lazyProduct(by_camera_));
+    const Eigen::Matrix<double, 2, 6> by_camera = -steps.transpose().lazyProduct(left) / variance_px2;
+    const Vec6 gradient = camera_gradient_ - Vec6(explained.lazyProduct(equations_.gradient));
+    SightedLean lean;
+    lean.by_camera = by_camera.cast<float>();
+    lean.information = -by_camera.lazyProduct(steps).eval().cast<float>();
+    lean.weighted = (-steps.transpose().lazyProduct(gradient) / variance_px2).eval().cast<float>();
+    return lean;
+  }
   const SightingEquations& equations() const { return equations_; }
   const Eigen::Matrix<double, kSightedParameters, 6>& by_camera() const { return by_camera_; }
   const SightedVector& by_height() const { return by_height_; }
@@ -64,6 +95,8 @@ class RimFit {
   Eigen::Matrix<double, kSightedParameters, 6> by_camera_ =
       Eigen::Matrix<double, kSightedParameters, 6>::Zero();
   SightedVector by_height_ = SightedVector::Zero();
+  Mat6 camera_squares_ = Mat6::Zero();
+  Vec6 camera_gradient_ = Vec6::Zero();
   double squares_px2_ = 0.0;
   int agreeing_ = 0;
 };
@@ -98,7 +131,9 @@ DishSighting sight_dish(std::span<const Vec2> outline, const Pose& camera_from_t
   sighting.is_known = true;
   sighting.camera_from_table = camera_from_table;
   sighting.place << place.centre_mm, place.azimuth_rad, size - 1.0;
-  sighting.covariance = params.points_for_one * fit.rms_px() * fit.rms_px() * inverse;
+  const double variance_px2 = params.points_for_one * fit.rms_px() * fit.rms_px();
+  sighting.covariance = variance_px2 * inverse;
+  sighting.lean = fit.lean(place, inverse, variance_px2);
   sighting.by_camera = -inverse * fit.by_camera();
   sighting.by_height = -inverse * fit.by_height();
   sighting.points = fit.agreeing();

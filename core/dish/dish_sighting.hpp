@@ -38,6 +38,16 @@ inline constexpr int kSightedSize = 3;
 using SightedVector = Eigen::Matrix<double, kSightedParameters, 1>;
 using SightedMatrix = Eigen::Matrix<double, kSightedParameters, kSightedParameters>;
 
+// How the dish's edge leans against the table: by so many rad about the table's x and y, through its middle.
+// To first order; the sighting's place and size give way. Floats: a tray's segmentation holds sixteen of
+// them.
+struct SightedLean {
+  Eigen::Matrix2f information = Eigen::Matrix2f::Zero();  // 1 / rad², with the camera taken for exact
+  Eigen::Vector2f weighted = Eigen::Vector2f::Zero();     // information · lean
+  // What a step of the camera as in `moved` adds to `weighted`.
+  Eigen::Matrix<float, 2, 6> by_camera = Eigen::Matrix<float, 2, 6>::Zero();
+};
+
 struct DishSighting {
   bool is_known = false;
   Pose camera_from_table;  // that it was seen from
@@ -47,6 +57,7 @@ struct DishSighting {
   Eigen::Matrix<double, kSightedParameters, 6> by_camera =
       Eigen::Matrix<double, kSightedParameters, 6>::Zero();
   SightedVector by_height = SightedVector::Zero();
+  SightedLean lean;
   int points = 0;       // that agree
   double rms_px = 0.0;  // of those
 

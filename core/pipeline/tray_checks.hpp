@@ -22,7 +22,8 @@ struct CheckedTray {
 };
 
 // Once the cameras are known well. Adds the checks of each dish and raises warnings; a dish that fails one is
-// not measured: its verdict in `geometry` is dish_moved, scale_disagrees, card_lifted or dish_differs.
+// not measured: its verdict in `geometry` is dish_moved, scale_disagrees, card_lifted, card_not_flat or
+// dish_differs.
 void check_dishes(const CheckedTray& tray, const SceneGeometryWorkspace& workspace,
                   const Configuration& configuration, SceneGeometry& geometry, CheckList& checks,
                   WarningSet& warnings);

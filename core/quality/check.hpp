@@ -16,6 +16,7 @@ enum class CheckKind : std::uint8_t {
   dish_slip_mm,     // how far dish and card moved against each other between the pictures
   scale_percent,    // by how much the card's size would have to be wrong for the dish's to be right
   dish_height_mm,   // how far the dish's edge lies over where card and description put it
+  dish_lean_deg,    // between the planes of the dish's edge and of the card
   glaze_height_mm,  // how far a dish's bare glaze lies over where its description puts it
   table_height_mm,  // how far the table around the card lies over where the card puts it; of the card's label
   own_motion_mm,    // how far dishes slid over the table, which were measured all the same
@@ -27,9 +28,10 @@ enum class CheckKind : std::uint8_t {
   focal_percent,        // how much longer or shorter a focal length makes card and dishes agree, where one
                         // does; of the background's label
 };
-inline constexpr auto kCheckNames = std::to_array<const char*>(
-    {"dish_slip_mm", "scale_percent", "dish_height_mm", "glaze_height_mm", "table_height_mm", "own_motion_mm",
-     "item_slip_mm", "item_foot_mm", "item_unlike_percent", "object_height_mm", "focal_percent"});
+inline constexpr auto kCheckNames =
+    std::to_array<const char*>({"dish_slip_mm", "scale_percent", "dish_height_mm", "dish_lean_deg",
+                                "glaze_height_mm", "table_height_mm", "own_motion_mm", "item_slip_mm",
+                                "item_foot_mm", "item_unlike_percent", "object_height_mm", "focal_percent"});
 inline const char* name(CheckKind kind) {
   return kCheckNames[static_cast<std::size_t>(kind)];
 }
@@ -58,8 +60,8 @@ constexpr Verdict judge(double value, double warning, double most) {
 
 class CheckList {
  public:
-  // Eight dishes with five each, sixteen items with three, the table, what stands on it, and the lens.
-  static constexpr std::size_t kCapacity = 91;
+  // Eight dishes with six each, sixteen items with three, the table, what stands on it, and the lens.
+  static constexpr std::size_t kCapacity = 99;
 
   // What does not fit is left out.
   void add(const Check& check) {

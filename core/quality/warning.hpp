@@ -50,9 +50,15 @@ namespace traygauge {
   CODE(card_lifted, \
        "Reference card and dish disagree about where the table is; check that the card lies flat, its " \
        "thickness and the dish's description.") \
+  CODE(card_not_flat, \
+       "Reference card and dish do not quite lie in parallel planes; check that the card is not bent, and that " \
+       "nothing lies under card or dish.") \
   CODE(dish_differs, \
        "A dish's surface lies a little off where its description puts it; check which dish it is, and its " \
        "description.") \
+  CODE(lens_does_not_fit, \
+       "Card and dishes agree better through another lens than the one described; calibrate the camera anew, " \
+       "or check that its values were made for this lens and this mode of the camera.") \
   CODE(dish_shape_unknown, \
        "A dish is described without the profile of its inner wall, so what lies on the wall may be far " \
        "off; traygauge enrol-dish measures the profile.") \

@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <random>
 #include <vector>
 
@@ -31,12 +32,17 @@ class DishConsistencies : public ::testing::Test {
   }
   // What both views show of dishes that stand like this, and what the description says of it.
   DishConsistency compare(const DishPose& described, const DishPose& first, const DishPose& second) {
+    return compare(described, first, second, cameras_);
+  }
+  // Seen by other cameras than are believed.
+  DishConsistency compare(const DishPose& described, const DishPose& first, const DishPose& second,
+                          const TableCameras& seen_by) {
     std::normal_distribution<double> noise(0.0, kNoisePx / test::kOutlineFocalPx);
     DishSightingParams params;
     params.points_for_one = 1.0;
     std::array<DishSighting, 2> sightings;
     for (std::size_t v = 0; v < 2; ++v) {
-      std::vector<Vec2> rays = test::outline_of(v == 0 ? first : second, cameras_[v], 160);
+      std::vector<Vec2> rays = test::outline_of(v == 0 ? first : second, seen_by[v], 160);
       for (Vec2& ray : rays) ray += Vec2(noise(random_), noise(random_));
       sightings[v] = sight_dish(rays, cameras_[v], test::kOutlineFocalPx, described, params);
       EXPECT_TRUE(sightings[v].is_known);
@@ -134,6 +140,33 @@ TEST_F(DishConsistencies, BlameTheCamerasFirst) {
   };
   EXPECT_GT(squared_deviation(0.1), 28.5);
   EXPECT_LT(squared_deviation(3.0), 5.0);
+}
+
+// A dish that turned about a level axis through the middle of its edge looks as it does to cameras that
+// turned the other way.
+TEST_F(DishConsistencies, TellHowFarADishLeansAgainstTheCard) {
+  constexpr double kDegree = std::numbers::pi / 180.0;
+  for (int round = 0; round < 20; ++round) {
+    DishPose place = described();
+    place.size_mm = {260.0, 260.0};
+    const double axis_rad = std::numbers::pi * unit();
+    const double lean_rad = 0.2 * (round % 4) * kDegree;
+    const Vec3 axis(std::cos(axis_rad), std::sin(axis_rad), 0.0);
+    const Mat3 turn = rotation_about(lean_rad * axis);
+    const Vec3 pivot_mm(place.centre_mm.x(), place.centre_mm.y(), place.edge_height_mm);
+    TableCameras seen_by = cameras_;
+    for (Pose& camera : seen_by)
+      camera = {camera.rotation * turn, camera.translation + camera.rotation * (pivot_mm - turn * pivot_mm)};
+    const DishConsistency dish = compare(place, place, place, seen_by);
+    EXPECT_NEAR(dish.lean_rad, lean_rad, 5.0 * dish.lean_sigma_rad + 0.15 * lean_rad) << lean_rad / kDegree;
+    EXPECT_LT(dish.lean_sigma_rad, 0.2 * kDegree);
+    // Two degrees of freedom: by chance once in a million.
+    if (round % 4 == 0) {
+      EXPECT_LT(dish.lean_deviation, 27.6);
+    } else if (round % 4 == 3) {
+      EXPECT_GT(dish.lean_deviation, 10.8);
+    }
+  }
 }
 
 }  // namespace

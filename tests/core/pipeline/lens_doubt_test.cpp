@@ -41,8 +41,9 @@ TEST(LensDoubt, IsRaisedByContradictionsAlone) {
     of_item.items = items;
     EXPECT_TRUE(may_be_the_lens(of_item)) << name(code);
   }
-  for (const StatusCode code : {StatusCode::card_not_found, StatusCode::too_blurred,
-                                StatusCode::views_identical, StatusCode::item_textureless}) {
+  for (const StatusCode code :
+       {StatusCode::card_not_found, StatusCode::too_blurred, StatusCode::views_identical,
+        StatusCode::item_textureless, StatusCode::item_moved, StatusCode::card_not_flat}) {
     Measurement pair;
     pair.status = code;
     EXPECT_FALSE(may_be_the_lens(pair)) << name(code);
@@ -51,9 +52,8 @@ TEST(LensDoubt, IsRaisedByContradictionsAlone) {
     const auto warning = static_cast<Warning>(i);
     Measurement doubted;
     doubted.warnings.raise(warning, 2);
-    const bool is_contradiction = warning == Warning::dish_moved || warning == Warning::item_moved ||
-                                  warning == Warning::scale_disagrees || warning == Warning::card_lifted ||
-                                  warning == Warning::dish_differs;
+    const bool is_contradiction = warning == Warning::dish_moved || warning == Warning::scale_disagrees ||
+                                  warning == Warning::card_lifted || warning == Warning::dish_differs;
     EXPECT_EQ(may_be_the_lens(doubted), is_contradiction) << name(warning);
   }
 }
@@ -67,17 +67,19 @@ TEST(LensDoubt, ALensExplainsOnlyWhereEveryDishConfirmsTheScale) {
   EXPECT_EQ(scale_if_all_agrees(measurement), 0.7) << "the worst of all dishes";
   measurement.status = StatusCode::partial;
   EXPECT_FALSE(scale_if_all_agrees(measurement));
-  for (const Warning warning : {Warning::dish_moved, Warning::dish_not_found, Warning::unknown_object}) {
+  for (const Warning warning : {Warning::dish_moved, Warning::item_moved, Warning::card_not_flat,
+                                Warning::dish_not_found, Warning::unknown_object}) {
     Measurement doubted = agreeing(0.1);
     doubted.warnings.raise(warning);
     EXPECT_FALSE(scale_if_all_agrees(doubted)) << name(warning);
   }
 }
 
-TEST(LensDoubt, RefusesThePairAndEveryItemWithTheFocalLengthThatFits) {
+TEST(LensDoubt, NamesTheLensOfAPairThatWasRefused) {
   std::array<ItemResult, 2> items;
-  items[1].status = StatusCode::item_moved;
+  for (ItemResult& item : items) item.status = StatusCode::card_lifted;
   Measurement measurement = agreeing(1.5);
+  measurement.status = StatusCode::card_lifted;
   measurement.items = items;
   blame_lens({1.1}, {}, items, measurement);
   EXPECT_EQ(measurement.status.code(), StatusCode::lens_does_not_fit);
@@ -87,11 +89,20 @@ TEST(LensDoubt, RefusesThePairAndEveryItemWithTheFocalLengthThatFits) {
   EXPECT_NEAR(check.value, 10.0, 1e-9);
   EXPECT_NEAR(check.sigma, 1.4434, 1e-3);
   EXPECT_EQ(check.verdict, Verdict::refused);
+}
 
-  Measurement bent = agreeing(1.5);
-  blame_lens({1.0, -0.1}, {}, {}, bent);
-  EXPECT_EQ(bent.status.code(), StatusCode::lens_does_not_fit);
-  EXPECT_EQ(bent.checks.items().size(), 1U) << "no focal length is blamed";
+TEST(LensDoubt, WarnsOfTheLensOfAPairThatWasMeasured) {
+  std::array<ItemResult, 2> items;
+  items[1].status = StatusCode::dish_moved;
+  Measurement measurement = agreeing(1.5);
+  measurement.status = StatusCode::partial;
+  measurement.items = items;
+  blame_lens({1.0, -0.1}, {}, items, measurement);
+  EXPECT_EQ(measurement.status.code(), StatusCode::partial);
+  EXPECT_EQ(items[0].status, StatusCode::ok);
+  EXPECT_EQ(items[1].status, StatusCode::dish_moved);
+  EXPECT_TRUE(measurement.warnings.holds(Warning::lens_does_not_fit));
+  EXPECT_EQ(measurement.checks.items().size(), 1U) << "no focal length is blamed";
 }
 
 }  // namespace

@@ -224,7 +224,8 @@ KINDS = [
     ("outline inside px", outline_inside, [3, 8, 15], ("given",)),
 ]
 # The warnings that name what was spoilt: card and dishes disagree.
-NAMES = {"scale_disagrees", "card_lifted", "dish_differs", "dish_shape_unknown", "unknown_object", "lens_dirty"}
+NAMES = {"scale_disagrees", "card_lifted", "card_not_flat", "dish_differs", "dish_shape_unknown", "unknown_object", "lens_dirty",
+         "lens_does_not_fit"}
 
 
 def wrong_by_ml(volume_ml, truth_ml, sigma_ml):

@@ -18,7 +18,7 @@ import sys
 
 CARD = 255
 FIRST_FOOD, LAST_FOOD = 2, 199
-NAMED = {"dish_moved", "item_moved", "scale_disagrees", "card_lifted", "dish_differs"}
+NAMED = {"dish_moved", "item_moved", "scale_disagrees", "card_lifted", "card_not_flat", "dish_differs"}
 UNSURE = {"item_hardly_matched", "item_uncertain"}
 FAR_OFF = 0.10  # of the sum
 OUTCOMES = ["refused", "left out", "warned", "right", "unsure", "silent"]
