@@ -81,6 +81,7 @@ class RimFit {
     lean.weighted = (-steps.transpose().lazyProduct(gradient) / variance_px2).eval().cast<float>();
     return lean;
   }
+
   const SightingEquations& equations() const { return equations_; }
   const Eigen::Matrix<double, kSightedParameters, 6>& by_camera() const { return by_camera_; }
   const SightedVector& by_height() const { return by_height_; }

@@ -21,6 +21,7 @@ struct LensChange {
 };
 
 struct LensDoubtParams {
+  // Chosen on the captures (tests/evaluation/experiments.md).
   std::array<LensChange, 6> tried = {{{0.9}, {0.95}, {1.05}, {1.1}, {1.0, -0.1}, {1.0, 0.1}}};
   double focal_step = 0.05;  // from one of them to the next
   // Of the card's scale by each dish, in per cent. Pairs through their right lens reach 0.16, the errors

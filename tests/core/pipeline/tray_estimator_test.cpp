@@ -56,7 +56,7 @@ TEST_P(TrayEstimatorTest, NothingLeaksFromGivenLabelsIntoFoundOnesOrBack) {
 TEST_P(TrayEstimatorTest, ALensThatDoesNotFitIsRefusedAgainAndAgain) {
   Configuration configuration = demo().configuration();
   const LensModel lens = configuration.lens;
-  configuration.lens = LensChange{1.1}.of(lens);
+  configuration.lens = LensChange{0.9}.of(lens);
   MeasuringBench bench(configuration);
   const auto first = numbers_of(bench.measure(views_[0], views_[1], 5));
   ASSERT_EQ(first.front(), static_cast<double>(StatusCode::lens_does_not_fit));
