@@ -67,6 +67,11 @@ void PostgresProcess::start(const std::vector<std::string>& options) {
   process_.start(as_its_user(arguments));
   while (PQping(address().c_str()) != PQPING_OK) {
     if (std::chrono::steady_clock::now() > end) throw std::runtime_error(log());
+    // A server that was killed leaves children for a moment; until they are gone the next one does not start.
+    if (process_.resident_kib() == 0) {
+      process_.end(0);
+      process_.start(as_its_user(arguments));
+    }
     std::this_thread::sleep_for(std::chrono::milliseconds(50));
   }
 }
