@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <opencv2/imgproc.hpp>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "simulator/capture/picture_file.hpp"
@@ -150,11 +151,11 @@ void paint_text(cv::Mat& print, Draws& draws) {
 
 class CardMaterial : public Material {
  public:
-  CardMaterial(std::shared_ptr<const Picture> print, const Eigen::Vector2d& px_per_mm, const LaidCard& card,
+  CardMaterial(std::shared_ptr<const Picture> print, const Eigen::Vector2d& px_per_mm, LaidCard card,
                const Eigen::Isometry3d& card_from_world)
       : print_(std::move(print)),
         px_per_mm_(px_per_mm.cast<float>()),
-        card_(card),
+        card_(std::move(card)),
         card_from_world_(card_from_world.cast<float>()) {
     for (std::size_t i = 0; i < linear_.size(); ++i)
       linear_[i] = linear_colour(static_cast<std::uint32_t>(i) << 16U).x();
@@ -228,9 +229,9 @@ Picture read_print(const std::filesystem::path& file) {
 }
 
 std::shared_ptr<const Material> make_card_material(std::shared_ptr<const Picture> print,
-                                                   const Eigen::Vector2d& px_per_mm, const LaidCard& card,
+                                                   const Eigen::Vector2d& px_per_mm, LaidCard card,
                                                    const Eigen::Isometry3d& card_from_world) {
-  return std::make_shared<CardMaterial>(std::move(print), px_per_mm, card, card_from_world);
+  return std::make_shared<CardMaterial>(std::move(print), px_per_mm, std::move(card), card_from_world);
 }
 
 }  // namespace traygauge

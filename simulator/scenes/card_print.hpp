@@ -23,7 +23,7 @@ Picture read_print(const std::filesystem::path& file);
 // The print on the upper side of `card`, white elsewhere. Card coordinates: origin at the top left corner of
 // the print, x along its width, y along its height downwards, z down into the card.
 std::shared_ptr<const Material> make_card_material(std::shared_ptr<const Picture> print,
-                                                   const Eigen::Vector2d& px_per_mm, const LaidCard& card,
+                                                   const Eigen::Vector2d& px_per_mm, LaidCard card,
                                                    const Eigen::Isometry3d& card_from_world);
 
 }  // namespace traygauge

@@ -57,7 +57,7 @@ TriangleMesh card_mesh(const LaidCard& card) {
     for (const Eigen::Vector3d& corner :
          {Eigen::Vector3d(x, 0.0, top), Eigen::Vector3d(x, 0.0, top + depth_mm),
           Eigen::Vector3d(x, card.height_mm, top + depth_mm), Eigen::Vector3d(x, card.height_mm, top)})
-      loop.push_back(corner.cast<float>());
+      loop.emplace_back(corner.cast<float>());
   }
   return skin_of_loops(loops);
 }

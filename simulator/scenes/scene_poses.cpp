@@ -34,8 +34,8 @@ Eigen::Isometry3d world_from_dish(const LaidDish& dish) {
 Eigen::Isometry3d world_from_card(const LaidCard& card) {
   const Eigen::Isometry3d middle =
       placement({card.centre_mm.x(), card.centre_mm.y(), card.thickness_mm}, card.rotation_deg);
-  const Eigen::Isometry3d flat = middle * Eigen::AngleAxisd(std::numbers::pi, Eigen::Vector3d::UnitX()) *
-                                 Eigen::Translation3d(-0.5 * card.width_mm, -0.5 * card.height_mm, 0.0);
+  Eigen::Isometry3d flat = middle * Eigen::AngleAxisd(std::numbers::pi, Eigen::Vector3d::UnitX()) *
+                           Eigen::Translation3d(-0.5 * card.width_mm, -0.5 * card.height_mm, 0.0);
   if (card.tilt_deg == 0.0) return flat;
   const Eigen::Translation3d edge(0.0, card.height_mm, card.thickness_mm);
   return flat * edge * Eigen::AngleAxisd(radians(card.tilt_deg), Eigen::Vector3d::UnitX()) * edge.inverse();
