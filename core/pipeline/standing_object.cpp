@@ -59,9 +59,6 @@ double standing_height_mm(const LevelPatch& patch, const Vec2& place_mm, const S
   const auto correlation = [&](double height_mm) {
     return patch.correlation({place_mm.x(), place_mm.y(), height_mm});
   };
-  // What a dish hides in one picture cannot be compared with the table, and a pattern that repeats itself
-  // fits at another height.
-  if (!patch.is_bare({place_mm.x(), place_mm.y(), 0.0})) return 0.0;
   double on_table = -1.0;
   for (std::size_t i = 0; i < steps_between(-params.low_mm, params.low_mm, params.height_step_mm); ++i) {
     on_table = std::max(on_table, correlation(at_step(-params.low_mm, i, params.height_step_mm)));

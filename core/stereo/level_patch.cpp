@@ -26,27 +26,16 @@ double LevelPatch::correlation(const Vec3& middle_mm) const {
   return (product / kSamples - first.mean * second.mean) / (first.deviation * second.deviation);
 }
 
-bool LevelPatch::is_bare(const Vec3& middle_mm) const {
-  Corners corners;
-  return find_corners(0, middle_mm, corners) && find_corners(1, middle_mm, corners);
-}
-
-// False where one of them is not bare.
-bool LevelPatch::find_corners(std::size_t view, const Vec3& middle_mm, Corners& corners) const {
+bool LevelPatch::read(std::size_t view, const Vec3& middle_mm, Samples& samples) const {
+  const SurfaceView& of_view = *views_[view];
+  const auto is_bare = [&](const Vec2& pixel) { return of_view.label_at(pixel) == label_; };
+  std::array<Vec2, 4> corners;
   for (std::size_t i = 0; i < corners.size(); ++i) {
     const Vec2 side(i % 2 == 0 ? -1.0 : 1.0, i < 2 ? -1.0 : 1.0);
     Vec3 corner_mm = middle_mm;
     corner_mm.head<2>() += 0.5 * params_.side_mm * side;
-    if (!views_[view]->find_pixel(corner_mm, corners[i]) || views_[view]->label_at(corners[i]) != label_)
-      return false;
+    if (!of_view.find_pixel(corner_mm, corners[i]) || !is_bare(corners[i])) return false;
   }
-  return true;
-}
-
-bool LevelPatch::read(std::size_t view, const Vec3& middle_mm, Samples& samples) const {
-  const SurfaceView& of_view = *views_[view];
-  Corners corners;
-  if (!find_corners(view, middle_mm, corners)) return false;
   const GraySampler sampler(of_view.gray.levels[levels_[view]]);
   double sum = 0.0;
   double squares = 0.0;
@@ -58,7 +47,7 @@ bool LevelPatch::read(std::size_t view, const Vec3& middle_mm, Samples& samples)
     const Vec2 pixel =
         (1.0 - v) * ((1.0 - u) * corners[0] + u * corners[1]) + v * ((1.0 - u) * corners[2] + u * corners[3]);
     float& gray = samples.gray[i];
-    if (of_view.label_at(pixel) != label_ ||
+    if (!is_bare(pixel) ||
         !sampler.sample({to_level(pixel.x(), levels_[view]), to_level(pixel.y(), levels_[view])}, gray))
       return false;
     sum += gray;

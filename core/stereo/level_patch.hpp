@@ -26,11 +26,7 @@ class LevelPatch {
   // where the patch is not bare or shows nothing.
   double correlation(const Vec3& middle_mm) const;
 
-  // Whether both pictures see the corners of the square around `middle_mm`, and no other label there.
-  bool is_bare(const Vec3& middle_mm) const;
-
  private:
-  using Corners = std::array<Vec2, 4>;
   static constexpr int kSide = 8;  // samples
   static constexpr std::size_t kSamples = static_cast<std::size_t>(kSide) * kSide;
 
@@ -40,7 +36,6 @@ class LevelPatch {
     double deviation = 0.0;
   };
 
-  bool find_corners(std::size_t view, const Vec3& middle_mm, Corners& corners) const;
   bool read(std::size_t view, const Vec3& middle_mm, Samples& samples) const;
 
   LevelPatchParams params_;
