@@ -35,7 +35,7 @@ bool may_be_the_lens(const Measurement& measurement);
 // Where nothing contradicts anything, and a dish confirms the card's scale: by how much they still differ.
 std::optional<double> scale_if_all_agrees(const Measurement& measurement);
 
-// A pair that was refused is so as lens_does_not_fit, with its `items`; one that was measured, in part at
+// A refused pair and its `items` get the status lens_does_not_fit. A pair that was measured, in part at
 // least, gets the warning: a slip of half a millimetre is sometimes explained by a lens as well. Adds the
 // check focal_percent where the focal length is what changed.
 void blame_lens(const LensChange& change, const LensDoubtParams& params, std::span<ItemResult> items,

@@ -94,13 +94,18 @@ Finding find_fault(const DishConsistency& dish, const std::array<FaultCheck, kDi
   return {};
 }
 
-Check lean_check(const DishConsistency& dish, std::uint8_t label, const TrayCheckParams& params) {
+// Told only of a dish with which nothing else is wrong: a card that leans looks lifted as well, and either
+// way it has to be laid flat.
+Verdict add_lean_check(const DishConsistency& dish, std::uint8_t label, bool is_right_otherwise,
+                       const TrayCheckParams& params, CheckList& checks) {
   constexpr double kDegrees = 180.0 / std::numbers::pi;
   Check check{CheckKind::dish_lean_deg, label, kDegrees * dish.lean_rad, kDegrees * dish.lean_sigma_rad,
               params.lean_warning_deg};
-  if (check.sigma <= params.most_lean_sigma_deg && dish.lean_deviation > params.max_explained_by_size)
+  if (check.sigma > params.most_lean_sigma_deg) return Verdict::passed;
+  if (is_right_otherwise && dish.lean_deviation > params.max_explained_by_size)
     check.verdict = judge(check.value, params.lean_warning_deg, params.max_lean_deg);
-  return check;
+  checks.add(check);
+  return check.verdict;
 }
 
 Finding add_checks(const DishConsistency& dish, std::uint8_t label, const TrayCheckParams& params,
@@ -159,12 +164,10 @@ void check_dishes(const CheckedTray& tray, const SceneGeometryWorkspace& workspa
     if (finding.verdict == Verdict::refused) dish.verdict = status_of(finding.fault, geometry.table, params);
     warnings.raise_if(finding.verdict == Verdict::warned, warning_of(finding.fault, geometry.table, params),
                       dish.label);
-    Check lean = lean_check(consistency, dish.label, params);
-    // A card that leans looks lifted as well, and either way it has to be laid flat.
-    if (finding.verdict != Verdict::passed) lean.verdict = Verdict::passed;
-    if (lean.sigma <= params.most_lean_sigma_deg) checks.add(lean);
-    if (lean.verdict == Verdict::refused) dish.verdict = StatusCode::card_not_flat;
-    warnings.raise_if(lean.verdict == Verdict::warned, Warning::card_not_flat, dish.label);
+    const Verdict lean =
+        add_lean_check(consistency, dish.label, finding.verdict == Verdict::passed, params, checks);
+    if (lean == Verdict::refused) dish.verdict = StatusCode::card_not_flat;
+    warnings.raise_if(lean == Verdict::warned, Warning::card_not_flat, dish.label);
   }
 }
 
