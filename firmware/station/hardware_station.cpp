@@ -8,6 +8,7 @@
 #include "firmware/config/dish_choice.hpp"
 #include "firmware/config/last_good.hpp"
 #include "firmware/handover/result_route.hpp"
+#include "firmware/station/background_measurer.hpp"
 #include "firmware/station/hardware.hpp"
 #include "firmware/station/scan_printer.hpp"
 #include "firmware/station/site_scene.hpp"
@@ -42,7 +43,8 @@ int run_hardware_station(const StationCommand& command, const std::filesystem::p
   if (command.by_hand && station_file.arm) {
     throw UsageError("--by-hand: " + station_file.file.string() + " has an [arm]; remove one of the two");
   }
-  EstimatorMeasurer measurer(*scene, scene->limits(), command.seed);
+  EstimatorMeasurer estimator(*scene, scene->limits(), command.seed);
+  BackgroundMeasurer measurer(estimator);
   ScanPrinter printer(out, log, command.json ? ScanPrinter::Format::json : ScanPrinter::Format::text);
   Hardware hardware(station_file);
   const ResultRoute route(station_file.handover,
@@ -52,6 +54,7 @@ int run_hardware_station(const StationCommand& command, const std::filesystem::p
   warn_of_changed_lenses(station_file, hardware, log);
   StationParams params = hardware_params(station_file);
   params.max_scans = command.scans;
+  params.takes_next_tray_early = true;
   if (station_file.handover) params.repeat_within = repeat_time(*station_file.handover);
   Station station(hardware.devices(), measurer, route.sink(), stop, params);
   ServiceManager manager;

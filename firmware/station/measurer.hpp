@@ -7,6 +7,7 @@
 
 #include "core/base/status.hpp"
 #include "core/image_view/image_view.hpp"
+#include "drivers/clock.hpp"
 #include "firmware/station/tray_hint.hpp"
 
 namespace traygauge {
@@ -20,7 +21,7 @@ struct StationView {
   std::optional<double> arm_angle_deg;  // where the arm stood, 0 at home; none without an arm
 };
 
-// begin_scan, add_view up to twice, measure. Used by one thread.
+// begin_scan, add_view up to twice, measure. Called by one thread.
 class Measurer {
  public:
   Measurer() = default;
@@ -35,6 +36,10 @@ class Measurer {
   virtual Status add_view(const StationView& view) = 0;
   // Valid until the next call of any function.
   virtual const Measurement& measure() = 0;
+  // The same in two steps, between which the caller may do something else. await_measurement() waits at most
+  // `timeout`; null: not there yet. Who cannot work meanwhile measures when awaited.
+  virtual void begin_measuring() {}
+  virtual const Measurement* await_measurement(Nanoseconds /*timeout*/) { return &measure(); }
   // Whether turned_deg() is of use; else a hand that moves the camera gets no guidance.
   virtual bool can_guide() const { return false; }
   // After the first view: by how many degrees the line of sight to the tray has turned since, in a picture

@@ -12,18 +12,8 @@
 namespace traygauge {
 namespace {
 
-// What spoils one scan and leaves the camera usable; anything else needs the device to be opened again.
-bool spoils_one_scan(DeviceCode code) {
-  return code == DeviceCode::torn_frame || code == DeviceCode::unsteady || code == DeviceCode::unreadable;
-}
-
 bool shows_wrong_exposure(StatusCode code) {
   return code == StatusCode::frame_too_dark || code == StatusCode::frame_too_bright;
-}
-
-Signal signal_for(std::optional<double> turned_deg, const HandGuideParams& params) {
-  if (!turned_deg || *turned_deg < params.enough_from_deg) return Signal::move_on;
-  return *turned_deg <= params.enough_to_deg ? Signal::far_enough : Signal::too_far;
 }
 
 bool contradicts_arm(const Measurement& measurement) {
@@ -43,6 +33,10 @@ Signal signal_after(Delivery delivery, Signal signal) {
 }
 
 }  // namespace
+
+bool spoils_one_scan(DeviceCode code) {
+  return code == DeviceCode::torn_frame || code == DeviceCode::unsteady || code == DeviceCode::unreadable;
+}
 
 std::vector<std::string> device_names(const StationDevices& devices) {
   std::vector<std::string> names;
@@ -120,9 +114,13 @@ StationState Station::wait_for_press() {
   const DeviceStatus released = wait_for_release(was_held);
   if (!released.ok()) return enter_fault(devices_.trigger, released);
   if (was_held) return restart_devices();
-  if (!has_room) return refuse_press();
+  return has_room ? begin_scan(press) : refuse_press();
+}
+
+StationState Station::begin_scan(const Press& press) {
   ++totals_.scans;
   pressed_at_ = press.at;
+  second_means_.clear();
   is_repeated_ = false;
   repeats_last_ = false;
   hint_ = sink_.next_tray();
@@ -140,14 +138,17 @@ StationState Station::refuse_press() {
 // The arm starts to move as soon as the picture is taken, and the measurer works meanwhile.
 StationState Station::take_first_view() {
   show(Signal::hold_still);
-  if (const Opening settled = refresh_exposure(); settled.failed != nullptr)
-    return fail_scan(*settled.failed, settled.status);
-  DeviceStatus status = capture(devices_.camera, first_);
-  if (!status.ok()) return fail_scan(devices_.camera, status);
+  if (!take_over_next_view()) {
+    const Opening settled = refresh_exposure();
+    if (settled.failed != nullptr) return fail_scan(*settled.failed, settled.status);
+    const DeviceStatus captured = capture(devices_.camera, first_);
+    if (!captured.ok()) return fail_scan(devices_.camera, captured);
+    first_means_ = means_[1];
+  }
   recognise_tray();
   measurer_.begin_scan(hint_);
   if (devices_.arm != nullptr) {
-    status = devices_.arm->begin_move_to(params_.second_view_deg);
+    const DeviceStatus status = devices_.arm->begin_move_to(params_.second_view_deg);
     if (!status.ok()) return fail_scan(*devices_.arm, status);
   }
   const auto home_deg = devices_.arm != nullptr ? std::optional(0.0) : std::nullopt;
@@ -157,7 +158,6 @@ StationState Station::take_first_view() {
 
 // What was known of a tray holds when it is measured again.
 void Station::recognise_tray() {
-  first_means_ = means_[1];
   repeats_last_ = shows_last_tray();
   if (repeats_last_ && hint_ == TrayHint()) hint_ = last_hint_;
 }
@@ -175,56 +175,6 @@ StationState Station::await_second_view() {
   return status.ok() ? StationState::taking_second_view : fail_scan(*devices_.arm, status);
 }
 
-StationState Station::await_second_press() {
-  const bool guides = measurer_.can_guide();
-  if (!guides) show(Signal::ready);
-  devices_.trigger.discard_pending();
-  means_[0].clear();
-  guidance_ = Signal::move_on;
-  const Instant deadline = devices_.clock.now() + params_.second_press_timeout;
-  while (!stop_ && devices_.clock.now() < deadline) {
-    if (guides) {
-      if (const DeviceStatus status = guide_hand(); !status.ok()) return fail_scan(devices_.camera, status);
-    }
-    Press press;
-    const Nanoseconds wait =
-        std::min(deadline - devices_.clock.now(), guides ? params_.guide.interval : params_.press_wait);
-    DeviceStatus status = wait_for_press(std::max(wait, Nanoseconds(1)), press);
-    bool was_held = false;
-    if (status.ok()) {
-      status = wait_for_release(was_held);
-      if (status.ok()) return was_held ? cancel_scan(true) : StationState::taking_second_view;
-    }
-    if (status.code() == DeviceCode::ended) break;
-    if (status.code() != DeviceCode::timed_out) return fail_scan(devices_.trigger, status);
-  }
-  return cancel_scan(false);
-}
-
-// Looks where the camera is, and lets the lamp say where to. A picture that shows the same as the last one
-// says the same. Damaged ones are left out.
-DeviceStatus Station::guide_hand() {
-  const DeviceStatus status = devices_.camera.capture(second_.pixels, params_.capture_timeout, second_.frame);
-  if (!status.ok())
-    return spoils_one_scan(status.code()) || status.code() == DeviceCode::stale_frame ? DeviceCode::ok
-                                                                                      : status;
-  auto& [last, current] = means_;
-  current.compute(second_.frame.view);
-  if (!current.agrees_with(last, params_.steadiness)) {
-    std::swap(last, current);
-    guidance_ = signal_for(measurer_.turned_deg(second_.frame.view), params_.guide);
-  }
-  show(guidance_);
-  return DeviceCode::ok;
-}
-
-StationState Station::cancel_scan(bool was_held) {
-  ScanResult result;
-  result.outcome = ScanOutcome::cancelled;
-  result.was_held = was_held;
-  return end_scan(result, was_held ? Signal::ready : Signal::try_again, StationState::waiting);
-}
-
 StationState Station::take_second_view() {
   show(Signal::hold_still);
   std::optional<double> angle_deg;
@@ -235,6 +185,7 @@ StationState Station::take_second_view() {
   }
   const DeviceStatus status = capture(second_camera(), second_);
   if (!status.ok()) return fail_scan(second_camera(), status);
+  second_means_ = means_[1];
   // What goes wrong in the measurement, measure() says too.
   static_cast<void>(measurer_.add_view({second_.frame.view, second_.frame.sequence, angle_deg}));
   return StationState::measuring;
@@ -245,11 +196,11 @@ StationState Station::take_second_view() {
 StationState Station::measure() {
   show(Signal::busy);
   const DeviceStatus returning = begin_return();
-  const Measurement& measurement = measurer_.measure();
+  const Measurement& measurement = await_measurement();
   exposure_is_doubtful_ = shows_wrong_exposure(measurement.status.code());
   const bool stood_elsewhere =
       devices_.arm != nullptr && is_measured(measurement) && contradicts_arm(measurement);
-  if (stood_elsewhere && !is_repeated_) return repeat_scan(returning);
+  if (stood_elsewhere && !is_repeated_ && !next_press_) return repeat_scan(returning);
   const bool measured = is_measured(measurement) && !stood_elsewhere;
   ScanResult result;
   result.outcome = measured ? ScanOutcome::measured : ScanOutcome::not_measurable;
@@ -259,12 +210,16 @@ StationState Station::measure() {
     result.outcome = ScanOutcome::device_failed;
     result.measurement = nullptr;
     result.failure = {devices_.arm->description(), DeviceCode::stalled,
-                      "twice the pictures show another angle than the arm's"};
+                      is_repeated_ ? "twice the pictures show another angle than the arm's"
+                                   : "the pictures show another angle than the arm's"};
   }
-  const StationState next =
-      end_scan(result, measured ? Signal::done : Signal::try_again, StationState::waiting);
-  if (!returning.ok()) return enter_fault(*devices_.arm, returning);
-  return finish_return(next, casts_doubt_on_arm(measurement));
+  end_scan(result, measured ? Signal::done : Signal::try_again, StationState::waiting);
+  const StationState next = returning.ok()
+                                ? finish_return(StationState::waiting, casts_doubt_on_arm(measurement))
+                                : enter_fault(*devices_.arm, returning);
+  if (next == StationState::waiting) return begin_next_scan();
+  next_press_.reset();
+  return next;
 }
 
 StationState Station::repeat_scan(DeviceStatus returning) {

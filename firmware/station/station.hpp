@@ -35,6 +35,9 @@ struct StationDevices {
 // As faults name them.
 std::vector<std::string> device_names(const StationDevices& devices);
 
+// What spoils one scan and leaves the camera usable; anything else needs the device to be opened again.
+bool spoils_one_scan(DeviceCode code);
+
 // What the lamp says while a hand moves the camera or the tray to the second view.
 struct HandGuideParams {
   // Between the lines of sight: outside of 15 to 25 degrees error and time rise (paper, Table V and its
@@ -64,8 +67,12 @@ struct StationParams {
   // Whoever presses again for a tray that has not been touched since its result wants that one measured
   // again, not two trays booked. Zero: every press counts.
   Nanoseconds repeat_within = std::chrono::seconds(20);
-  Nanoseconds press_wait = std::chrono::milliseconds(500);   // between two looks at the wish to stop
-  Nanoseconds first_retry = std::chrono::milliseconds(100);  // of a failed device; doubles up to last_retry
+  // Whether a press during the measurement takes the next tray; the measurer then works in the background,
+  // and a third picture has its memory.
+  bool takes_next_tray_early = false;
+  Nanoseconds next_tray_wait = std::chrono::milliseconds(20);  // between two looks for that press
+  Nanoseconds press_wait = std::chrono::milliseconds(500);     // between two looks at the wish to stop
+  Nanoseconds first_retry = std::chrono::milliseconds(100);    // of a failed device; doubles up to last_retry
   Nanoseconds last_retry = std::chrono::seconds(5);
   std::uint64_t max_scans = 0;  // then the loop ends; 0: never
   int max_retries = 0;          // of failed devices in a row, then the loop ends; 0: never
@@ -121,6 +128,13 @@ class Station {
   StationState take_second_view();
   StationState measure();
   StationState repeat_scan(DeviceStatus returning);
+  StationState begin_scan(const Press& press);
+
+  const Measurement& await_measurement();
+  void look_for_next_tray();
+  void take_next_view();
+  StationState begin_next_scan();
+  bool take_over_next_view();
 
   DeviceStatus capture(Camera& camera, View& view);
   DeviceStatus capture_once(Camera& camera, View& view, Instant not_before) const;
@@ -154,14 +168,19 @@ class Station {
   StationTotals totals_;
   View first_;
   View second_;
+  View next_;                        // the next tray's first, taken while the last one is measured
   std::array<BlockMeans, 2> means_;  // of the last two pictures
   BlockMeans first_means_;           // of the first view
-  BlockMeans last_tray_;             // of the first view that the last result is of
+  BlockMeans second_means_;
+  BlockMeans next_means_;
+  BlockMeans last_tray_;  // of the first view that the last result is of
   Instant last_result_at_;
   bool repeats_last_ = false;
-  TrayHint hint_;                  // of this scan's tray
-  TrayHint last_hint_;             // of the last result's
-  Signal guidance_ = Signal::off;  // for the picture that means_[0] is of
+  TrayHint hint_;                    // of this scan's tray
+  TrayHint last_hint_;               // of the last result's
+  Signal guidance_ = Signal::off;    // for the picture that means_[0] is of
+  std::optional<Press> next_press_;  // for the next tray, while the last one is measured
+  bool is_next_taken_ = false;       // next_ holds its first view
   Instant pressed_at_;
   Instant settled_at_;                   // the cameras' exposure
   bool exposure_is_doubtful_ = false;    // the last pictures were too dark or too bright

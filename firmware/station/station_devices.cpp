@@ -62,6 +62,7 @@ DeviceStatus Station::open_camera(Camera& camera) {
   if (view.pixels.size() != frame_bytes) view.pixels.resize(frame_bytes);
   if (devices_.second_camera == nullptr && second_.pixels.size() != frame_bytes)
     second_.pixels.resize(frame_bytes);
+  if (params_.takes_next_tray_early && &camera == &devices_.camera) next_.pixels.resize(frame_bytes);
   for (BlockMeans& means : means_) means.reserve(format.width, format.height);
   return status;
 }

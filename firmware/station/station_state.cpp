@@ -28,8 +28,11 @@ constexpr auto kTransitions = std::to_array<StationTransition>({
     {taking_second_view, waiting, "Six pictures in a row are damaged or unsteady: the result says so."},
     {taking_second_view, starting, "Camera or arm fails: the result says so."},
     {measuring, waiting,
-     "The result is handed over, or kept; the lamp shows it. Presses until then start nothing."},
-    {measuring, taking_first_view, "The pictures contradict the arm's angle: the scan is taken again, once."},
+     "The result is handed over, or kept; the lamp shows it. Presses meanwhile for the same tray start "
+     "nothing."},
+    {measuring, taking_first_view,
+     "The button was pressed meanwhile for another tray; or the pictures contradict the arm's angle, and the "
+     "scan is taken again, once."},
     {measuring, starting, "The arm fails on its way home; the result stands."},
 });
 

@@ -28,6 +28,7 @@ void TrayPlayer::handle_press() {
 void TrayPlayer::handle_signal(Signal signal) {
   if (signal == Signal::done || signal == Signal::try_again || signal == Signal::fault)
     scan_has_ended_ = true;
+  if (signal == Signal::hold_still) scan_has_ended_ = false;  // the next one may have begun before
   if (signal == Signal::move_on && second_press_is_due_) at_second_view_ = true;
 }
 

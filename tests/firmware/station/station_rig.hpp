@@ -53,6 +53,9 @@ class FakeMeasurer final : public Measurer {
     if (disagreements > 0) --disagreements;
     return measurement_;
   }
+  const Measurement* await_measurement(Nanoseconds timeout) override {
+    return still_measures && still_measures(timeout) ? nullptr : &measure();
+  }
   bool can_guide() const override { return static_cast<bool>(guide); }
   std::optional<double> turned_deg(const FrameView& live) override { return guide(live); }
   std::string_view tray_name() const override { return "tray"; }
@@ -65,6 +68,8 @@ class FakeMeasurer final : public Measurer {
   CameraFormat camera_format;
   std::function<bool()> on_view;
   std::function<void()> on_measure;
+  std::function<bool(Nanoseconds)>
+      still_measures;  // after so much more time; else the result is there at once
   std::vector<StationView> views;
   std::vector<bool> arm_moving_at;
   bool arm_was_moving = false;

@@ -37,6 +37,7 @@ class RandomRun {
     rig_.params.max_scans = kTraysInARun;
     rig_.measurer.disagreements = one_in(3) ? 1 : 0;
     if (one_in(6)) rig_.measurer.first_view_status = StatusCode::frame_too_dark;
+    if (one_in(2)) press_at_random(has_arm);
     if (one_in(3)) rig_.trigger.hold_press(Instant(std::chrono::seconds(random_() % 40)), 5s);
     const bool may_lack_room = one_in(4);
     rig_.sink.on_attend = [this, may_lack_room] { rig_.sink.room = !may_lack_room || !one_in(2); };
@@ -61,10 +62,23 @@ class RandomRun {
   }
 
  private:
+  // Somebody who looks at no lamp, also while a tray is measured.
+  void press_at_random(bool has_arm) {
+    for (int i = 0; i < 40; ++i) button_.add_press(Instant(std::chrono::milliseconds(random_() % 60'000)));
+    button_.before_press([this] { rig_.player.handle_press(); });
+    rig_.devices.emplace(
+        StationDevices{rig_.camera, button_, has_arm ? &rig_.arm : nullptr, rig_.lamp, rig_.clock});
+    rig_.params.takes_next_tray_early = !one_in(4);
+    rig_.measurer.still_measures = [this](Nanoseconds wait) {
+      rig_.clock.advance(wait);
+      return !one_in(30);
+    };
+  }
   bool one_in(std::uint64_t count) { return random_() % count == 0; }
 
   std::mt19937_64 random_;
   StationRig rig_;
+  SimulatedTrigger button_{rig_.clock, {}};
   std::string script_;
   int stop_after_ = 0;
 };
