@@ -1,7 +1,10 @@
 #!/usr/bin/env python3
 """Whether open pages slow the scans: measures the same trays without pages and with 50 that listen to events and fetch every
-scan and its shape, alternately, and prints the time of a scan of each and their ratio. Usage: pages_bench.py BUILD_FOLDER
-CAPTURES [ROUNDS]"""
+scan and its shape, alternately, and prints the time of a scan of each and their ratio. The hub runs with the priority that
+its unit gives it. The pages stand for browsers on other machines, so that they only get what station and hub leave over.
+Usage: pages_bench.py BUILD_FOLDER CAPTURES [ROUNDS]"""
+import multiprocessing
+import os
 import pathlib
 import re
 import statistics
@@ -19,35 +22,44 @@ SCANS = 30
 
 
 class Pages:
-    """Clients that do what a page does."""
+    """Clients that do what a page does, in a process of their own."""
 
     def __init__(self, base, count):
-        self.base = base
-        self.fetched = 0
-        self.streams = []
-        for _ in range(count):
-            stream = urllib.request.urlopen(f"{base}/api/v1/events", timeout=60)
-            self.streams.append(stream)
-            threading.Thread(target=self.follow, args=(stream,), daemon=True).start()
+        self.fetched = multiprocessing.Value("i", 0)
+        listening = multiprocessing.Barrier(2)
+        self.process = multiprocessing.Process(target=self.run, args=(base, count, listening), daemon=True)
+        self.process.start()
+        listening.wait(60)
 
-    def follow(self, stream):
+    def run(self, base, count, listening):
+        os.nice(19)
+        threads = [threading.Thread(target=self.follow, args=(base, urllib.request.urlopen(f"{base}/api/v1/events", timeout=60)))
+                   for _ in range(count)]
+        for thread in threads:
+            thread.start()
+        listening.wait(60)
+
+    def follow(self, base, stream):
         event = ""
-        try:
-            for line in stream:
-                text = line.decode().strip()
-                if text.startswith("event:"):
-                    event = text[6:].strip()
-                if text.startswith("data:") and event in ("scan", "shape"):
-                    scan = re.search(r'"id":"([^"]+)"', text).group(1)
-                    path = f"scans/{scan}" + ("/shape" if event == "shape" else "")
-                    urllib.request.urlopen(f"{self.base}/api/v1/{path}", timeout=60).read()
-                    self.fetched += 1
-        except (OSError, ValueError, AttributeError):
-            pass  # closed
+        for line in stream:
+            text = line.decode().strip()
+            if text.startswith("event:"):
+                event = text[6:].strip()
+            if text.startswith("data:") and event in ("scan", "shape"):
+                scan = re.search(r'"id":"([^"]+)"', text).group(1)
+                path = f"scans/{scan}" + ("/shape" if event == "shape" else "")
+                urllib.request.urlopen(f"{base}/api/v1/{path}", timeout=60).read()
+                with self.fetched.get_lock():
+                    self.fetched.value += 1
 
     def close(self):
-        for stream in self.streams:
-            stream.close()
+        self.process.kill()
+        self.process.join()
+
+
+def unit_priority():
+    unit = pathlib.Path(__file__).resolve().parents[3] / "config/systemd/traygauge-hub.service"
+    return re.search(r"^Nice=(\d+)$", unit.read_text(), re.MULTILINE).group(1)
 
 
 def time_scans(folder):
@@ -61,8 +73,8 @@ def main():
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
         with open(folder / "hub.log", "w") as log:
-            hub = subprocess.Popen([build / "traygauge", "hub", "--socket", folder / "hub", "--store", folder / "r.db",
-                                    "--listen", "127.0.0.1:0"], stdout=log, stderr=log)
+            hub = subprocess.Popen(["nice", "-n", unit_priority(), build / "traygauge", "hub", "--socket", folder / "hub",
+                                    "--store", folder / "r.db", "--listen", "127.0.0.1:0"], stdout=log, stderr=log)
         try:
             while not (found := re.search(r"http://[0-9.:]+[0-9]", (folder / "hub.log").read_text())):
                 time.sleep(0.1)
@@ -72,7 +84,7 @@ def main():
                 alone.append(time_scans(folder))
                 pages = Pages(found.group(0), PAGES)
                 watched.append(time_scans(folder))
-                fetched += pages.fetched
+                fetched += pages.fetched.value
                 pages.close()
         finally:
             hub.terminate()
