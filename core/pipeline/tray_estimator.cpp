@@ -1,7 +1,9 @@
 #include "core/pipeline/tray_estimator.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <optional>
+#include <tuple>
 
 #include "core/pipeline/lens_doubt.hpp"
 #include "core/pipeline/segmenter.hpp"
@@ -27,6 +29,7 @@ struct EstimatorState {
   std::optional<Segmenter> segmenter;
   Segmentation segmentation;
   bool is_finding_labels = false;
+  Measurement doubted;  // while other lenses are tried
 };
 
 namespace {
@@ -81,6 +84,10 @@ Status prepare_found_views(EstimatorState& state, StageClock& clock) {
     if (!status.ok()) return status;
   }
   return StatusCode::ok;
+}
+
+double scale_or_infinity(const std::optional<double>& scale_percent) {
+  return scale_percent.value_or(std::numeric_limits<double>::infinity());
 }
 
 Status check_views(const EstimatorState& state) {
@@ -185,7 +192,7 @@ const Measurement& TrayEstimator::estimate(std::uint64_t seed, StageObserver* ob
   return measurement_;
 }
 
-void TrayEstimator::measure(std::uint64_t seed, StageObserver* observer) {
+void TrayEstimator::measure(std::uint64_t seed, StageObserver* observer, Extent extent) {
   measurement_ = {};
   EstimatorState& state = *state_;
   StageClock clock = state.preparation_clock;
@@ -195,8 +202,9 @@ void TrayEstimator::measure(std::uint64_t seed, StageObserver* observer) {
   if (measurement_.status.ok() && is_found && !is_bare)
     measurement_.status = prepare_found_views(state, clock);
   if (measurement_.status.ok() && !is_bare)
-    measure_tray(state.memory, state.configuration, is_found ? &state.segmentation : nullptr, seed, observer,
-                 clock, measurement_);
+    (extent == Extent::measured ? measure_tray : locate_tray)(state.memory, state.configuration,
+                                                              is_found ? &state.segmentation : nullptr, seed,
+                                                              observer, clock, measurement_);
   if (is_found && state.segmentation.status.ok()) {
     warn_about_labels(state.segmentation, measurement_.warnings);
     measurement_.status = blame_card(state.segmentation, measurement_.status);
@@ -207,27 +215,42 @@ void TrayEstimator::measure(std::uint64_t seed, StageObserver* observer) {
   measurement_.total_ms = clock.total_ms() + measurement_.segmentation_ms;
 }
 
-// Measures through other lenses, then as given, so that every surface and outline is what it was before.
+// Locates the tray through each lens, which contradicts most of them already, and measures through those that
+// are left, the best one first. What locating leaves alone, surfaces and items, then needs no second
+// measurement.
 void TrayEstimator::doubt_lens(std::uint64_t seed) {
   const LensDoubtParams& params = state_->configuration.lens_doubt;
   const std::array<ViewInput, 2> given = state_->inputs;
-  const LensChange* best = nullptr;
-  double least_scale = params.max_scale_percent;
+  state_->doubted = measurement_;
   double spent_ms = measurement_.total_ms;
-  for (const LensChange& change : params.tried) {
+  const auto scale_through = [&](const LensChange& change, Extent extent) {
     std::array<ViewInput, 2> changed = given;
     for (ViewInput& view : changed) view.lens = change.of(view.lens.value_or(state_->configuration.lens));
     take_again(changed);
-    measure(seed, nullptr);
+    measure(seed, nullptr, extent);
     spent_ms += measurement_.total_ms;
-    const std::optional<double> scale = scale_if_all_agrees(measurement_);
-    if (!scale || *scale > least_scale) continue;
-    least_scale = *scale;
-    best = &change;
+    const std::optional<double> scale_percent = scale_if_all_agrees(measurement_);
+    return scale_percent && *scale_percent <= params.max_scale_percent ? scale_percent : std::nullopt;
+  };
+  std::array<std::optional<double>, std::tuple_size_v<decltype(params.tried)>> located;
+  std::ranges::transform(params.tried, located.begin(),
+                         [&](const LensChange& change) { return scale_through(change, Extent::located); });
+  const LensChange* best = nullptr;
+  bool is_overwritten = false;
+  while (best == nullptr) {
+    auto* const next = std::ranges::min_element(located, {}, scale_or_infinity);
+    if (!*next) break;
+    next->reset();
+    const LensChange& change = params.tried[static_cast<std::size_t>(next - located.begin())];
+    if (scale_through(change, Extent::measured)) best = &change;
+    is_overwritten = true;
   }
   take_again(given);
-  measure(seed, nullptr);
-  measurement_.total_ms += spent_ms;
+  if (is_overwritten) measure(seed, nullptr);
+  if (!is_overwritten) measurement_ = state_->doubted;
+  measurement_.total_ms =
+      spent_ms + (is_overwritten ? measurement_.total_ms
+                                 : (state_->is_finding_labels ? state_->segmentation.total_ms() : 0.0));
   if (best != nullptr)
     blame_lens(*best, params, {state_->memory.dish.items.begin(), measurement_.items.size()}, measurement_);
 }

@@ -45,8 +45,8 @@ class TrayEstimator {
   Status add_view(const ViewInput& input);
 
   // Measures the two views, as often as is liked; the same input and seed give the same bits. Where card and
-  // dishes contradict each other, some other lenses are tried, which takes as long again for each. Shows the
-  // stages of the views as given to `observer`, which may be null.
+  // dishes contradict each other, some other lenses are tried, which takes three to five times as long. Shows
+  // the stages of the views as given to `observer`, which may be null.
   const Measurement& estimate(std::uint64_t seed, StageObserver* observer = nullptr);
 
   // What was found where no labels were given; null where they were. Valid until reset().
@@ -61,7 +61,8 @@ class TrayEstimator {
   void reset();
 
  private:
-  void measure(std::uint64_t seed, StageObserver* observer);
+  enum class Extent : std::uint8_t { located, measured };  // locate_tray() alone, or measure_tray()
+  void measure(std::uint64_t seed, StageObserver* observer, Extent extent = Extent::measured);
   void doubt_lens(std::uint64_t seed);
   void take_again(const std::array<ViewInput, 2>& inputs);
 

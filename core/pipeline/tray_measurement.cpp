@@ -16,6 +16,11 @@ bool works_in_reverse(const TrayMemory& memory) {
   return memory.views[1].regions().dish_pixels > memory.views[0].regions().dish_pixels;
 }
 
+ViewPair views_in_order(TrayMemory& memory) {
+  const bool reversed = works_in_reverse(memory);
+  return {&memory.views[reversed ? 1 : 0], &memory.views[reversed ? 0 : 1]};
+}
+
 // What does not move with the scene is on the lens.
 void warn_about_lens(const ViewPair& views, const ViewCheckParams& params, WarningSet& warnings) {
   const ImageView<const std::uint8_t> first = views[0]->gray.levels[0];
@@ -104,11 +109,10 @@ void warn_about_guessed_dishes(const SceneGeometry& geometry, WarningSet& warnin
 
 }  // namespace
 
-void measure_tray(TrayMemory& memory, const Configuration& configuration, const Segmentation* found,
-                  std::uint64_t seed, StageObserver* observer, StageClock& clock, Measurement& measurement) {
+void locate_tray(TrayMemory& memory, const Configuration& configuration, const Segmentation* found,
+                 std::uint64_t seed, StageObserver* observer, StageClock& clock, Measurement& measurement) {
   const bool reversed = works_in_reverse(memory);
-  const ViewPair views = {&memory.views[reversed ? 1 : 0], &memory.views[reversed ? 0 : 1]};
-  DishMeasurementWorkspace dish = memory.dish;
+  const ViewPair views = views_in_order(memory);
   measurement.views.reference_view = reversed ? 1 : 0;
   Random random(seed);
   SceneGeometry& geometry = memory.scene.front();
@@ -153,9 +157,17 @@ void measure_tray(TrayMemory& memory, const Configuration& configuration, const 
   measurement.status = is_same_place(geometry)
                            ? StatusCode::views_identical
                            : check_angle(measurement.relative_angle_deg, configuration.geometry);
+}
+
+void measure_tray(TrayMemory& memory, const Configuration& configuration, const Segmentation* found,
+                  std::uint64_t seed, StageObserver* observer, StageClock& clock, Measurement& measurement) {
+  locate_tray(memory, configuration, found, seed, observer, clock, measurement);
   if (!measurement.status.ok()) return;
+  const ViewPair views = views_in_order(memory);
+  SceneGeometry& geometry = memory.scene.front();
+  DishMeasurementWorkspace dish = memory.dish;
   clock.enter(Stage::stereo);
-  warn_about_unknown_objects(checked, geometry, configuration, measurement);
+  warn_about_unknown_objects({views, works_in_reverse(memory), found}, geometry, configuration, measurement);
   suppress_speculars(views, configuration.specular);
   for (std::size_t d = 0; d < geometry.dish_count; ++d) {
     measure_dish(views, geometry, d, configuration, dish, observer, clock, measurement);

@@ -29,7 +29,7 @@ class BackgroundMeasurer final : public Measurer {
   Measurer& measurer_;
   std::binary_semaphore wanted_{0};
   std::binary_semaphore done_{0};
-  bool ends_ = false;                     // written before wanted_
+  bool ends_ = false;                    // written before wanted_
   const Measurement* result_ = nullptr;  // written before done_
   std::thread thread_;
 };

@@ -55,17 +55,18 @@ struct Job {
     Job& job = *static_cast<Job*>(argument);
     Estimator estimator(job.block, *job.configuration);
     for (const ViewInput& view : job.views) static_cast<void>(estimator.add_view(view));
-    job.status = estimator.estimate(3).status.code();
+    job.status = estimator.estimate(5).status.code();
     return nullptr;
   }
 };
 
 template <class Estimator, class Config>
-void expect_shallow(const Config& configuration, std::array<ViewInput, 2> views) {
+void expect_shallow(const Config& configuration, std::array<ViewInput, 2> views,
+                    StatusCode status = StatusCode::ok) {
   const TestBlock block(required_bytes(configuration));
   Job<Estimator, Config> job{&configuration, block.bytes(), views};
   const std::size_t used = measure_stack(Job<Estimator, Config>::measure, &job);
-  EXPECT_EQ(job.status, StatusCode::ok) << name(job.status);
+  EXPECT_EQ(job.status, status) << name(job.status);
   std::printf("stack: %zu KiB, of which %zu KiB are the thread's own\n", used >> 10U,
               measure_stack(do_nothing, nullptr) >> 10U);
   EXPECT_LE(used, kMaxUsedBytes);
@@ -81,6 +82,13 @@ TEST(Stack, TheMeasureSeesAFunctionsFrame) {
 TEST(Stack, AMeasurementStaysWithin256KiB) {
   const DemoTray demo;
   expect_shallow<TrayEstimator>(demo.configuration(), {demo.view(0), demo.view(1)});
+}
+
+TEST(Stack, TryingOtherLensesStaysWithin256KiB) {
+  const DemoTray demo;
+  auto configuration = demo.configuration();
+  configuration.lens = LensChange{0.9}.of(configuration.lens);
+  expect_shallow<TrayEstimator>(configuration, {demo.view(0), demo.view(1)}, StatusCode::lens_does_not_fit);
 }
 
 TEST(Stack, FindingLabelsStaysWithin256KiB) {

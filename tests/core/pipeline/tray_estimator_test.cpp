@@ -16,6 +16,7 @@ namespace {
 
 constexpr std::size_t kBudgetBytes = std::size_t{32} << 20U;  // at 1600 × 1200, the default
 constexpr std::byte kGuard{0x5C};
+constexpr double kDoubtedScale = 1.02;  // between what is warned of and what is refused
 
 const DemoTray& demo() {
   static const DemoTray tray;
@@ -70,6 +71,32 @@ TEST_P(TrayEstimatorTest, ALensThatDoesNotFitLeavesNothingBehind) {
   MeasuringBench other(demo().configuration());
   EXPECT_TRUE(have_equal_bits(measured, numbers_of(other.measure(views_[0], views_[1], 5))));
   EXPECT_TRUE(have_equal_bits(first, numbers_of(bench.measure(views_[0], views_[1], 5))));
+}
+
+// A pair that is doubted and measured keeps its volumes and heights while others are tried.
+TEST_P(TrayEstimatorTest, LensesThatExplainNothingLeaveTheVolumesAlone) {
+  Configuration configuration = demo().configuration();
+  configuration.card.width_mm *= kDoubtedScale;
+  configuration.card.height_mm *= kDoubtedScale;
+  const auto measured_through = [&](const LensChange& change) {
+    configuration.lens_doubt.tried.fill(change);
+    MeasuringBench bench(configuration);
+    const Measurement& measurement = bench.measure(views_[0], views_[1], 5);
+    EXPECT_TRUE(is_measured(measurement) && may_be_the_lens(measurement));
+    std::vector<double> numbers = numbers_of(measurement);
+    for (const MeasuredSurface& surface : measurement.views.surfaces) {
+      const ImageView<HeightCell>& cells = surface.heights.cells;
+      for (int i = 0; i < cells.width * cells.height; ++i) numbers.push_back(cells.data[i].z_mm);
+    }
+    for (std::size_t view = 0; view < 2; ++view) {
+      const ImageView<const std::uint8_t> labels = bench.estimator.labels(view);
+      numbers.insert(numbers.end(), labels.data, labels.data + labels.width * labels.height);
+    }
+    return numbers;
+  };
+  const LensChange the_same{};
+  const LensChange far_off{0.8, 0.0};
+  EXPECT_TRUE(have_equal_bits(measured_through(the_same), measured_through(far_off)));
 }
 
 TEST_P(TrayEstimatorTest, ScratchMayBeOverwrittenBetweenCalls) {

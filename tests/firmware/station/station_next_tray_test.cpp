@@ -26,7 +26,8 @@ Instant early_press(bool has_arm) {
 }
 
 struct BusyRig : StationRig {
-  explicit BusyRig(bool has_arm) : StationRig(2, has_arm), button(clock, {kFirstPress, early_press(has_arm)}) {
+  explicit BusyRig(bool has_arm)
+      : StationRig(2, has_arm), button(clock, {kFirstPress, early_press(has_arm)}) {
     if (!has_arm) button.add_press(kSecondViewPress);
     button.before_press([this] {
       const bool is_early = lasted > Nanoseconds::zero() && lasted < 1s;
@@ -53,8 +54,8 @@ TEST(NextTray, IsTakenByHandWhileTheLastIsMeasured) {
   rig.press_for_second_view_of_next();
   EXPECT_TRUE(rig.run().all_worked());
   EXPECT_EQ(rig.sink.lines, (Lines{"1 measured ok 320", "2 measured ok 540"}));
-  EXPECT_EQ(rig.signals(), (Signals{ready, hold_still, ready, hold_still, busy, hold_still, busy, done, hold_still,
-                                    ready, hold_still, busy, done}));
+  EXPECT_EQ(rig.signals(), (Signals{ready, hold_still, ready, hold_still, busy, hold_still, busy, done,
+                                    hold_still, ready, hold_still, busy, done}));
   EXPECT_EQ(rig.sink.repeats, (std::vector{false, false}));
 }
 
@@ -91,7 +92,8 @@ TEST(NextTray, WhosePictureFailsIsTakenAgain) {
   BusyRig rig(false);
   rig.press_for_second_view_of_next();
   // Two pictures for each view of the first tray, then all that are tried while it is measured.
-  rig.camera.faults().add({.action = FaultKind::torn, .after_calls = 4, .times = rig.params.capture_attempts});
+  rig.camera.faults().add(
+      {.action = FaultKind::torn, .after_calls = 4, .times = rig.params.capture_attempts});
   EXPECT_TRUE(rig.run().all_worked());
   EXPECT_EQ(rig.sink.lines, (Lines{"1 measured ok 320", "2 measured ok 540"}));
 }
