@@ -7,7 +7,8 @@
 
 namespace traygauge {
 
-// Each code with its sentence: what happened and what to do. A further code needs nothing but its line here.
+// Each code with its sentence: what happened and what to do. A further code needs its line here, and its
+// words for the page (README.md, "How to add").
 // clang-format off
 #define TRAYGAUGE_STATUS_CODES(CODE) \
   CODE(ok, "Measured.") \

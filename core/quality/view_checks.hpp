@@ -95,7 +95,7 @@ struct CheckedView {
 void assess_view(const CheckedView& view, const std::array<double, 2>& card_size_mm,
                  const ViewCheckParams& params, CardSilhouetteWorkspace& workspace, ViewQuality& quality);
 
-// too_blurred, card_hidden, frame_too_dark, or ok.
+// frame_too_dark, card_hidden, too_blurred, or ok: first what makes the later ones meaningless.
 Status judge_view(const ViewQuality& quality, const ViewCheckParams& params);
 
 // item_clipped or item_textureless in either view, or ok.

@@ -61,7 +61,8 @@ class WordsTest(unittest.TestCase):
         for header, family in (("core/base/status.hpp", "status"), ("core/quality/warning.hpp", "warning")):
             codes = re.findall(r"\bCODE\((\w+),", (root / header).read_text())
             self.assertGreater(len(codes), 10)
-            self.assertEqual([code for code in codes if f"{family}.{code}" not in WORDS["en"]], [], header)
+            self.assertEqual([code for code in codes if f"{family}.{code}" not in WORDS["en"]], [],
+                             f"{header}: add {family}.CODE to words_en.json and words_de.json")
 
     def test_checks_and_verdicts_have_words(self):
         header = (PAGE.parents[1] / "core/quality/check.hpp").read_text()
