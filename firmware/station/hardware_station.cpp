@@ -54,7 +54,8 @@ int run_hardware_station(const StationCommand& command, const std::filesystem::p
   warn_of_changed_lenses(station_file, hardware, log);
   StationParams params = hardware_params(station_file);
   params.max_scans = command.scans;
-  params.takes_next_tray_early = true;
+  // Beside the buffers of two cameras there is no room for a third picture.
+  params.takes_next_tray_early = hardware.devices().second_camera == nullptr;
   if (station_file.handover) params.repeat_within = repeat_time(*station_file.handover);
   Station station(hardware.devices(), measurer, route.sink(), stop, params);
   ServiceManager manager;

@@ -40,6 +40,7 @@ struct Lamps {
 };
 inline constexpr Lamps kReady{.green = true};
 inline constexpr Lamps kFault{.red = true};
+inline constexpr Lamps kBusy{.green = true, .yellow = true};
 inline constexpr Lamps kDone{.green = true, .red = true};
 inline constexpr Lamps kMoveOn{.green = true, .yellow = true, .red = true};
 inline constexpr Lamps kFarEnough{.green = true, .blue = true};
