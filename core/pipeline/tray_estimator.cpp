@@ -201,10 +201,10 @@ void TrayEstimator::measure(std::uint64_t seed, StageObserver* observer, Extent 
   const bool is_bare = is_found && measurement_.status.ok() && state.segmentation.is_bare();
   if (measurement_.status.ok() && is_found && !is_bare)
     measurement_.status = prepare_found_views(state, clock);
+  const auto work = extent == Extent::measured ? measure_tray : locate_tray;
   if (measurement_.status.ok() && !is_bare)
-    (extent == Extent::measured ? measure_tray : locate_tray)(state.memory, state.configuration,
-                                                              is_found ? &state.segmentation : nullptr, seed,
-                                                              observer, clock, measurement_);
+    work(state.memory, state.configuration, is_found ? &state.segmentation : nullptr, seed, observer, clock,
+         measurement_);
   if (is_found && state.segmentation.status.ok()) {
     warn_about_labels(state.segmentation, measurement_.warnings);
     measurement_.status = blame_card(state.segmentation, measurement_.status);
@@ -216,8 +216,8 @@ void TrayEstimator::measure(std::uint64_t seed, StageObserver* observer, Extent 
 }
 
 // Locates the tray through each lens, which contradicts most of them already, and measures through those that
-// are left, the best one first. What locating leaves alone, surfaces and items, then needs no second
-// measurement.
+// are left, the best one first. Locating leaves surfaces and items alone, so that the pair as given is
+// measured again only where another lens was measured.
 void TrayEstimator::doubt_lens(std::uint64_t seed) {
   const LensDoubtParams& params = state_->configuration.lens_doubt;
   const std::array<ViewInput, 2> given = state_->inputs;
@@ -246,11 +246,14 @@ void TrayEstimator::doubt_lens(std::uint64_t seed) {
     is_overwritten = true;
   }
   take_again(given);
-  if (is_overwritten) measure(seed, nullptr);
-  if (!is_overwritten) measurement_ = state_->doubted;
-  measurement_.total_ms =
-      spent_ms + (is_overwritten ? measurement_.total_ms
-                                 : (state_->is_finding_labels ? state_->segmentation.total_ms() : 0.0));
+  if (is_overwritten) {
+    measure(seed, nullptr);
+    spent_ms += measurement_.total_ms;
+  } else {
+    measurement_ = state_->doubted;
+    spent_ms += measurement_.segmentation_ms;
+  }
+  measurement_.total_ms = spent_ms;
   if (best != nullptr)
     blame_lens(*best, params, {state_->memory.dish.items.begin(), measurement_.items.size()}, measurement_);
 }

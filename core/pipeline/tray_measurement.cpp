@@ -16,9 +16,9 @@ bool works_in_reverse(const TrayMemory& memory) {
   return memory.views[1].regions().dish_pixels > memory.views[0].regions().dish_pixels;
 }
 
-ViewPair views_in_order(TrayMemory& memory) {
+CheckedTray in_order(TrayMemory& memory, const Segmentation* found) {
   const bool reversed = works_in_reverse(memory);
-  return {&memory.views[reversed ? 1 : 0], &memory.views[reversed ? 0 : 1]};
+  return {{&memory.views[reversed ? 1 : 0], &memory.views[reversed ? 0 : 1]}, reversed, found};
 }
 
 // What does not move with the scene is on the lens.
@@ -111,8 +111,9 @@ void warn_about_guessed_dishes(const SceneGeometry& geometry, WarningSet& warnin
 
 void locate_tray(TrayMemory& memory, const Configuration& configuration, const Segmentation* found,
                  std::uint64_t seed, StageObserver* observer, StageClock& clock, Measurement& measurement) {
-  const bool reversed = works_in_reverse(memory);
-  const ViewPair views = views_in_order(memory);
+  const CheckedTray checked = in_order(memory, found);
+  const ViewPair& views = checked.views;
+  const bool reversed = checked.is_reversed;
   measurement.views.reference_view = reversed ? 1 : 0;
   Random random(seed);
   SceneGeometry& geometry = memory.scene.front();
@@ -124,7 +125,6 @@ void locate_tray(TrayMemory& memory, const Configuration& configuration, const S
   warn_about_lens(views, configuration.view_checks, measurement.warnings);
   measurement.status = list_dishes(views, configuration, memory.geometry, geometry);
   if (!measurement.status.ok()) return;
-  const CheckedTray checked{views, reversed, found};
   // Outlines by hand may belong to another picture, which looks like a motion.
   if (found != nullptr) geometry.own_motion = reversed ? found->own_motion.reversed() : found->own_motion;
   if (geometry.own_motion.is_too_far) {
@@ -163,11 +163,12 @@ void measure_tray(TrayMemory& memory, const Configuration& configuration, const 
                   std::uint64_t seed, StageObserver* observer, StageClock& clock, Measurement& measurement) {
   locate_tray(memory, configuration, found, seed, observer, clock, measurement);
   if (!measurement.status.ok()) return;
-  const ViewPair views = views_in_order(memory);
+  const CheckedTray checked = in_order(memory, found);
+  const ViewPair& views = checked.views;
   SceneGeometry& geometry = memory.scene.front();
   DishMeasurementWorkspace dish = memory.dish;
   clock.enter(Stage::stereo);
-  warn_about_unknown_objects({views, works_in_reverse(memory), found}, geometry, configuration, measurement);
+  warn_about_unknown_objects(checked, geometry, configuration, measurement);
   suppress_speculars(views, configuration.specular);
   for (std::size_t d = 0; d < geometry.dish_count; ++d) {
     measure_dish(views, geometry, d, configuration, dish, observer, clock, measurement);

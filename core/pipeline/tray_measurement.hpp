@@ -11,9 +11,9 @@
 
 namespace traygauge {
 
-// Where cameras, card and dishes are and whether they contradict each other: a third of the time of the
-// whole. The view that shows more of the dishes is worked first, so that a pair measures the same bits in
-// either order. `found`: where the labels come from, null where they were given. `observer` may be null.
+// Where cameras, card and dishes are and whether they contradict each other: less than a third of the time
+// of the whole. The view that shows more of the dishes is worked first, so that a pair measures the same bits
+// in either order. `found`: where the labels come from, null where they were given. `observer` may be null.
 void locate_tray(TrayMemory& memory, const Configuration& configuration, const Segmentation* found,
                  std::uint64_t seed, StageObserver* observer, StageClock& clock, Measurement& measurement);
 

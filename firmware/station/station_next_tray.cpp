@@ -14,8 +14,8 @@ const Measurement& Station::await_measurement() {
   }
 }
 
-// A button that fails is told by the state that waits for it. The arm is still on its way home: with one the
-// picture is taken later.
+// A button that fails is told later, by the state that waits for it. An arm is still on its way home: with
+// one the picture is taken later, too.
 void Station::look_for_next_tray() {
   const bool is_last = params_.max_scans > 0 && totals_.scans >= params_.max_scans;
   if (stop_ || is_last || devices_.trigger.pending() == 0 || !sink_.has_room()) return;

@@ -81,9 +81,7 @@ TEST(NextTray, IsNotTheOneThatIsMeasured) {
 TEST(NextTray, GoesOnWhereTheLastIsRefused) {
   BusyRig rig(false);
   rig.press_for_second_view_of_next();
-  rig.measurer.on_measure = [&rig] {
-    rig.measurer.status = rig.measurer.scans == 1 ? StatusCode::card_not_found : StatusCode::ok;
-  };
+  rig.refuse_first_scan(StatusCode::card_not_found);
   rig.run();
   EXPECT_EQ(rig.sink.lines, (Lines{"1 not_measurable card_not_found", "2 measured ok 540"}));
 }
@@ -101,9 +99,7 @@ TEST(NextTray, WhosePictureFailsIsTakenAgain) {
 TEST(NextTray, IsTakenAgainWhereTheLastWasTooDark) {
   BusyRig rig(false);
   rig.press_for_second_view_of_next();
-  rig.measurer.on_measure = [&rig] {
-    rig.measurer.status = rig.measurer.scans == 1 ? StatusCode::frame_too_dark : StatusCode::ok;
-  };
+  rig.refuse_first_scan(StatusCode::frame_too_dark);
   rig.run();
   EXPECT_EQ(rig.sink.lines, (Lines{"1 not_measurable frame_too_dark", "2 measured ok 540"}));
   EXPECT_EQ(rig.camera.settled_again(), 1);

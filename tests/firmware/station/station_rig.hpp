@@ -177,6 +177,10 @@ struct StationRig {
     plan.apply(SimulatedDevice::lamp, lamp.faults());
     plan.apply(SimulatedDevice::clock, clock.faults());
   }
+  // Its measurement says so; the others' are as they come.
+  void refuse_first_scan(StatusCode code) {
+    measurer.on_measure = [this, code] { measurer.status = measurer.scans == 1 ? code : StatusCode::ok; };
+  }
   bool faults_are_over() {
     return camera.faults().empty() && trigger.faults().empty() && arm.faults().empty() &&
            lamp.faults().empty() && clock.faults().empty();

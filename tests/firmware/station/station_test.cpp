@@ -54,9 +54,7 @@ TEST(Station, MeasuresSeveralTraysInARow) {
 TEST(Station, LetsTheExposureSettleAgainAfterAScanThatWasTooDarkOrTooBright) {
   for (const StatusCode code : {StatusCode::frame_too_dark, StatusCode::frame_too_bright}) {
     StationRig rig(3);
-    rig.measurer.on_measure = [&rig, code] {
-      rig.measurer.status = rig.measurer.scans == 1 ? Status(code) : Status();
-    };
+    rig.refuse_first_scan(code);
     rig.run();
     EXPECT_EQ(rig.camera.settled_again(), 1);
     EXPECT_EQ(rig.station->totals().measured, 2U);
