@@ -7,7 +7,10 @@ import numpy as np
 import torch
 import torch.nn.functional as F
 
-from fitting import fit_picture
+from fitting import FILLING_GREY, fit_picture
+from layers import CLASS_NAMES
+from pasting import PASTED, PASTED_LABEL, paste_food
+from repainting import repaint_sample
 
 # Ranges in which trays and cameras differ; those of the experiment that carried over to real trays.
 SCALE = (0.75, 1.25)
@@ -16,7 +19,9 @@ GAMMA = (0.7, 1.45)
 CAST = 0.10
 LIGHT = 0.30  # of smooth fields
 SWAPPED = 0.15  # share of pictures
+BARRED = 0.2  # share of pictures
 PATCH_CELLS = 4  # columns and rows of numbers from which a field of light is enlarged
+ANYTHING = (1 << len(CLASS_NAMES)) - 1  # what a pixel may be that shows nothing known
 CELL_PX = 2  # of the picture, of a cell of classes and borders
 
 
@@ -29,7 +34,7 @@ class Batch:
 
 
 def draw_geometry(rng, sample, width, height):
-    """Places in the sample, as grid_sample counts them, of the corners of the picture's cells: a function."""
+    """Places in the sample, as grid_sample counts them, of the picture's pixels."""
     rows, columns = sample.allowed.shape
     angle = rng.uniform(0.0, 2.0 * np.pi)
     scale = rng.uniform(*SCALE)
@@ -37,14 +42,11 @@ def draw_geometry(rng, sample, width, height):
     shift = rng.uniform(-SHIFT, SHIFT, 2) * (columns, rows)
     step = min(columns / width, rows / height) / scale  # pixels of the sample, of one of the picture
 
-    def grid(side_px):
-        u = (np.arange(0, width, side_px) + 0.5 * side_px - 0.5 * width) * step * mirror
-        v = (np.arange(0, height, side_px) + 0.5 * side_px - 0.5 * height) * step
-        x = np.cos(angle) * u[None, :] - np.sin(angle) * v[:, None] + shift[0]
-        y = np.sin(angle) * u[None, :] + np.cos(angle) * v[:, None] + shift[1]
-        return torch.from_numpy(np.stack([2.0 * x / columns, 2.0 * y / rows], 2)).float()[None]
-
-    return grid
+    u = (np.arange(width) + 0.5 - 0.5 * width) * step * mirror
+    v = (np.arange(height) + 0.5 - 0.5 * height) * step
+    x = np.cos(angle) * u[None, :] - np.sin(angle) * v[:, None] + shift[0]
+    y = np.sin(angle) * u[None, :] + np.cos(angle) * v[:, None] + shift[1]
+    return torch.from_numpy(np.stack([2.0 * x / columns, 2.0 * y / rows], 2)).float()[None]
 
 
 def sample_at(values, grid, mode):
@@ -73,9 +75,34 @@ def change_colours(rng, picture):
     picture = picture[torch.from_numpy(order)]
     if rng.random() < 0.3:
         picture = F.avg_pool2d(F.pad(picture[None], (1, 1, 1, 1), mode="reflect"), 3, 1)[0]
-    noise = torch.from_numpy(rng.standard_normal(picture.shape)).float()
+    noise = torch.from_numpy(rng.standard_normal(picture.shape, dtype=np.float32))
     picture = picture + rng.uniform(0.0, 0.03) * noise
     return torch.floor(picture.clamp(0.0, 1.0) * 255.0 + 0.5) / 255.0, tuple(order)
+
+
+def draw_sample(rng, sample, width, height):
+    """Picture, what its pixels may be, and their items, all of width x height."""
+    grid = draw_geometry(rng, sample, width, height)
+    picture = sample_at(sample.picture, grid, "bilinear") / 255.0
+    allowed = sample_at(sample.allowed, grid, "nearest")[0].long()
+    return picture, allowed, sample_at(sample.items, grid, "nearest")[0].long()
+
+
+def of_cells(pixels):
+    return pixels[CELL_PX // 2 :: CELL_PX, CELL_PX // 2 :: CELL_PX].contiguous()
+
+
+def bar_sides(rng, picture, allowed, items):
+    """What a picture of another shape leaves free, as fit_picture fills it."""
+    rows, columns = items.shape
+    bar = int(rng.uniform(0.02, 0.15) * rows)
+    outside = torch.ones_like(items, dtype=torch.bool)
+    if rng.random() < 0.8:  # wide pictures are usual
+        outside[bar : rows - bar] = False
+    else:
+        outside[:, bar : columns - bar] = False
+    picture = torch.where(outside, torch.tensor(FILLING_GREY / 255.0), picture)
+    return picture, allowed.masked_fill(outside, ANYTHING), items.masked_fill(outside, 0)
 
 
 def draw_batch(samples, count, width, height, seed, step):
@@ -83,26 +110,37 @@ def draw_batch(samples, count, width, height, seed, step):
     pictures, allowed, items, foods = [], [], [], []
     for index in rng.integers(0, len(samples), count):
         sample = samples[index]
-        grid = draw_geometry(rng, sample, width, height)
-        picture = sample_at(sample.picture, grid(1), "bilinear") / 255.0
+        picture, kinds, labels = draw_sample(rng, sample, width, height)
+        names = dict(sample.foods)
+        if rng.random() < PASTED:
+            donor = samples[int(rng.integers(0, len(samples)))]
+            lent, _, lent_labels = draw_sample(rng, donor, width, height)
+            picture, kinds, labels, taken = paste_food(rng, picture, kinds, labels, lent, lent_labels)
+            if taken in donor.foods:
+                names[PASTED_LABEL] = donor.foods[taken]
+        picture = repaint_sample(rng, picture, kinds)
         picture, order = change_colours(rng, picture)
+        if rng.random() < BARRED:
+            picture, kinds, labels = bar_sides(rng, picture, kinds, labels)
         pictures.append(picture)
-        allowed.append(sample_at(sample.allowed, grid(CELL_PX), "nearest")[0].long())
-        items.append(sample_at(sample.items, grid(CELL_PX), "nearest")[0].long())
-        foods.append({label: f"{name} {order}" for label, name in sample.foods.items()})
+        allowed.append(of_cells(kinds))
+        items.append(of_cells(labels))
+        foods.append({label: f"{name} {order}" for label, name in names.items()})
     return Batch(torch.stack(pictures), torch.stack(allowed), torch.stack(items), foods)
 
 
 def whole_picture(sample, width, height):
-    """The sample as it is, reduced: a batch of one."""
-    picture = torch.from_numpy(fit_picture(sample.picture, width, height)[0]).permute(2, 0, 1).float() / 255.0
+    """The sample as it is, reduced: a batch of one. Cells beside the picture may be anything."""
+    fitted, (left, top, wide, high) = fit_picture(sample.picture, width, height)
+    picture = torch.from_numpy(fitted).permute(2, 0, 1).float() / 255.0
     rows, columns = sample.allowed.shape
-    y = ((np.arange(height // CELL_PX) + 0.5) * rows / (height // CELL_PX)).astype(int)
-    x = ((np.arange(width // CELL_PX) + 0.5) * columns / (width // CELL_PX)).astype(int)
-    pick = np.ix_(y, x)
+    y = ((np.arange(height // CELL_PX) + 0.5) * CELL_PX - top) * rows / high
+    x = ((np.arange(width // CELL_PX) + 0.5) * CELL_PX - left) * columns / wide
+    seen = ((y >= 0) & (y < rows))[:, None] & ((x >= 0) & (x < columns))[None]
+    pick = np.ix_(np.clip(y.astype(int), 0, rows - 1), np.clip(x.astype(int), 0, columns - 1))
     return Batch(
         picture[None],
-        torch.from_numpy(sample.allowed[pick].astype(np.int64))[None],
-        torch.from_numpy(sample.items[pick].astype(np.int64))[None],
+        torch.from_numpy(np.where(seen, sample.allowed[pick], ANYTHING).astype(np.int64))[None],
+        torch.from_numpy(np.where(seen, sample.items[pick], 0).astype(np.int64))[None],
         [dict(sample.foods)],
     )

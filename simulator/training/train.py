@@ -89,6 +89,11 @@ def rate_at(step, steps, first):
     return first * warm * (LAST_RATE + (1.0 - LAST_RATE) * cosine)
 
 
+def channels_side_by_side(what):
+    """A network or a tensor: convolutions of few channels run two to three times as fast so."""
+    return what.to(memory_format=torch.channels_last)
+
+
 class Run:
     """A training that can be stopped after any step."""
 
@@ -99,7 +104,7 @@ class Run:
         self.layers = food_layers(plan.down, plan.up, plan.embedding)
         self.stop_after = stop_after
         torch.manual_seed(plan.seed)
-        self.floats = FloatNetwork(self.layers)
+        self.floats = channels_side_by_side(FloatNetwork(self.layers))
         self.rounded = None
         self.step = 0
         self.begin_phase()
@@ -117,7 +122,7 @@ class Run:
         self.step = state["step"]
         self.floats.load_state_dict(state["floats"])
         if state["rounded"] is not None:
-            self.rounded = RoundedNetwork(self.layers, self.floats.folded())
+            self.rounded = channels_side_by_side(RoundedNetwork(self.layers, self.floats.folded()))
             self.rounded.load_state_dict(state["rounded"])
             self.begin_phase()
         self.optimiser.load_state_dict(state["optimiser"])
@@ -131,7 +136,7 @@ class Run:
 
     def round_off(self):
         """From floats to 8 bits: batch norms go into the weights, and tensors get their steps."""
-        self.rounded = RoundedNetwork(self.layers, self.floats.folded())
+        self.rounded = channels_side_by_side(RoundedNetwork(self.layers, self.floats.folded()))
         batches = [self.draw(self.plan.steps + self.plan.rounded_steps + i).picture for i in range(8)]
         self.rounded.calibrate(batches)
         self.begin_phase()
@@ -152,7 +157,7 @@ class Run:
             group["lr"] = rate
         self.network().train()
         batch = self.draw(self.step)
-        loss = total_loss(self.network()(batch.picture), batch)
+        loss = total_loss(self.network()(channels_side_by_side(batch.picture)), batch)
         self.optimiser.zero_grad()
         loss.backward()
         torch.nn.utils.clip_grad_norm_(self.network().parameters(), 5.0)

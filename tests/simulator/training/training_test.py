@@ -33,13 +33,15 @@ TRAINING = os.path.join(SOURCE, "simulator", "training")
 DEMO = os.path.join(SOURCE, "simulator", "demo")
 sys.path.insert(0, TRAINING)
 
-from augmentation import draw_batch  # noqa: E402
-from captures import read_captures  # noqa: E402
+from augmentation import ANYTHING, draw_batch, draw_sample, whole_picture  # noqa: E402
+from captures import Sample, read_captures  # noqa: E402
 from fitting import fit_picture  # noqa: E402
 from integers import IntegerLayer, fixed_point, run_integers, to_integers  # noqa: E402
-from layers import CLASSES, CLASS_NAMES, food_layers, shared_scales, tensor_channels  # noqa: E402
+from layers import CLASSES, CLASS_NAMES, FOOD, food_layers, shared_scales, tensor_channels  # noqa: E402
 from losses import BORDER_REACH, border_cells, embedding_loss  # noqa: E402
 from measuring import agreement, float_outputs  # noqa: E402
+from pasting import LEAST_PX, PASTED_LABEL, paste_food  # noqa: E402
+from repainting import kind_mask, lay_things, repaint, smear  # noqa: E402
 from model import FloatNetwork, RoundedNetwork  # noqa: E402
 from tgn_file import crc32c  # noqa: E402
 
@@ -147,6 +149,15 @@ class WholeWay(unittest.TestCase):
         self.assertEqual((shown.returncode, shown.stdout), (2, ""))
         self.assertIn("damaged", shown.stderr)
 
+    def test_the_stored_network_is_that_of_the_stored_plan(self):
+        shown = traygauge("network", os.path.join(SOURCE, "config", "network", "food.tgn"))
+        self.assertEqual(shown.returncode, 0, shown.stderr)
+        self.assertIn("computed as the file states", shown.stdout)
+        plan = read_plan(os.path.join(TRAINING, "food.toml"))
+        self.assertIn(f"plan {plan.digest}, seed {plan.seed}", shown.stdout)
+        with open(os.path.join(SOURCE, "config", "network", "food.md"), encoding="utf-8") as card:
+            self.assertIn(plan.digest, card.read())
+
     def test_what_cannot_be_trained_ends_with_a_sentence(self):
         work = os.path.join(self.folder.name, "work")
         other_plan = os.path.join(self.folder.name, "other.toml")
@@ -247,6 +258,55 @@ class Parts(unittest.TestCase):
         self.assertLess(float(embedding_loss(apart, batch)), float(embedding_loss(together, batch)))
         batch.foods = [{label: "the same" for label in present}]
         self.assertGreater(float(embedding_loss(apart, batch)), float(embedding_loss(together, batch)))
+
+    def test_paint_covers_what_it_may(self):
+        rng = np.random.default_rng(SEED)
+        kinds = torch.from_numpy(np.kron(rng.integers(0, len(CLASS_NAMES), (6, 8)), np.ones((8, 8), np.int64)))
+        allowed = 1 << kinds
+        picture = torch.from_numpy(rng.random((3, 48, 64))).float()
+        table, food, glaze = (kind_mask(allowed, (name,)) for name in ("table", "food", "glaze"))
+        self.assertTrue(torch.equal(table, kinds == 0))
+        painted = {
+            "tray": (repaint(rng, picture, table), table),
+            "things": (lay_things(rng, picture, table.float()), table),
+            "smears": (smear(rng, picture, food, glaze.float()), glaze),
+        }
+        for name, (made, may_change) in painted.items():
+            self.assertTrue(torch.equal(made[:, ~may_change], picture[:, ~may_change]), name)
+            self.assertTrue(0.0 <= float(made.min()) and float(made.max()) <= 1.0, name)
+        self.assertFalse(torch.equal(painted["tray"][0], picture))
+
+    def test_pasted_food_hides_no_dish(self):
+        samples = read_captures([DEMO])
+        rng = np.random.default_rng(SEED)
+        pasted = 0
+        for _ in range(20):
+            host, donor = (samples[i] for i in rng.integers(0, len(samples), 2))
+            picture, allowed, items = draw_sample(rng, host, 160, 120)
+            # Labels alone do not tell table from cutlery.
+            allowed = torch.where(allowed & 1 > 0, torch.ones_like(allowed), allowed)
+            lent, _, lent_items = draw_sample(rng, donor, 160, 120)
+            made, kinds, labels, taken = paste_food(rng, picture, allowed, items, lent, lent_items)
+            laid = labels == PASTED_LABEL
+            self.assertEqual(bool(laid.any()), taken != 0)
+            self.assertTrue(torch.equal(kinds[~laid], allowed[~laid]) and torch.equal(labels[~laid], items[~laid]))
+            self.assertTrue(bool((kinds[laid] == 1 << FOOD).all()) and bool((allowed[laid] == 1).all()))
+            on_dish = allowed != 1
+            self.assertTrue(torch.equal(made[:, on_dish], picture[:, on_dish]))
+            pasted += int(taken != 0)
+            self.assertTrue(taken == 0 or int(laid.sum()) >= LEAST_PX)
+        self.assertGreater(pasted, 0)
+
+    def test_truth_lies_where_the_picture_does(self):
+        rows, columns = 90, 240  # wider than the network's picture
+        items = np.zeros((rows, columns), np.uint8)
+        items[30:60, 100:180] = 7
+        picture = np.repeat((items > 0)[:, :, None], 3, 2).astype(np.uint8) * 255
+        allowed = np.where(items > 0, 1 << FOOD, 1).astype(np.uint8)
+        batch = whole_picture(Sample("drawn", picture, allowed, items, {7: "food"}), 160, 120)
+        shown = batch.picture[0, 0, 1::2, 1::2]
+        self.assertTrue(torch.equal(shown > 0.9, batch.items[0] == 7))
+        self.assertTrue(bool((batch.allowed[0][:10] == ANYTHING).all()))
 
     def test_batches_depend_on_seed_and_step_alone(self):
         samples = read_captures([DEMO])
