@@ -7,10 +7,10 @@ import numpy as np
 import torch
 import torch.nn.functional as F
 
+from captures import ANYTHING
 from fitting import FILLING_GREY, fit_picture
-from layers import CLASS_NAMES
 from pasting import PASTED, PASTED_LABEL, paste_food
-from repainting import repaint_sample
+from repainting import enlarge, repaint_sample
 
 # Ranges in which trays and cameras differ; those of the experiment that carried over to real trays.
 SCALE = (0.75, 1.25)
@@ -21,7 +21,6 @@ LIGHT = 0.30  # of smooth fields
 SWAPPED = 0.15  # share of pictures
 BARRED = 0.2  # share of pictures
 PATCH_CELLS = 4  # columns and rows of numbers from which a field of light is enlarged
-ANYTHING = (1 << len(CLASS_NAMES)) - 1  # what a pixel may be that shows nothing known
 CELL_PX = 2  # of the picture, of a cell of classes and borders
 
 
@@ -58,8 +57,7 @@ def sample_at(values, grid, mode):
 def light_field(rng, width, height):
     small = 1.0 + rng.uniform(-LIGHT, LIGHT, (1, 1, PATCH_CELLS, PATCH_CELLS))
     small = small * (1.0 + rng.uniform(-0.3, 0.3, (1, 3, 1, 1)) * (small - 1.0))
-    field = F.interpolate(torch.from_numpy(small).float(), (height, width), mode="bicubic", align_corners=False)
-    return field[0].clamp_min(0.2)
+    return enlarge(small, (height, width)).clamp_min(0.2)
 
 
 def change_colours(rng, picture):

@@ -30,6 +30,9 @@ def bits(*names):
     return sum(1 << CLASS_NAMES.index(name) for name in names)
 
 
+ANYTHING = bits(*CLASS_NAMES)  # what a pixel may be that shows nothing known
+
+
 def allowed_by_labels(labels):
     table = np.full(256, bits("glaze", "rim"), np.uint8)  # dishes: 1, 201 to 249
     table[0] = bits("table", "cutlery", "napkin")
@@ -40,7 +43,7 @@ def allowed_by_labels(labels):
 
 def allowed_by_kinds(kinds):
     """Pixels that show nothing (0) may be anything."""
-    table = np.full(256, (1 << len(CLASS_NAMES)) - 1, np.uint8)
+    table = np.full(256, ANYTHING, np.uint8)
     for index in range(len(CLASS_NAMES)):
         table[index + 1] = 1 << index
     return table[kinds]

@@ -6,22 +6,21 @@ import numpy as np
 import torch
 import torch.nn.functional as F
 
-from layers import CLASS_NAMES
+from captures import bits
 
+PAINTED_KINDS = (("table",), ("glaze", "rim"), ("napkin",))  # each in a colour of its own
 # Shares of pictures.
-REPAINTED = {"tray": 0.4, "dishes": 0.4, "napkin": 0.4}
+REPAINTED = 0.4  # for each of these
 SHADED = 0.35
 SMEARED = 0.3
 WITH_THINGS = 0.5
 MOST_THINGS = 4
 MOST_SMEARS = 5
-PAINTED_KINDS = {"tray": ("table",), "dishes": ("glaze", "rim"), "napkin": ("napkin",)}
 
 
 def kind_mask(allowed, names):
     """H x W: pixels that are of one of these kinds for certain."""
-    others = ~sum(1 << CLASS_NAMES.index(name) for name in names)
-    return (allowed & others) == 0
+    return (allowed & ~bits(*names)) == 0
 
 
 def places(shape):
@@ -29,10 +28,23 @@ def places(shape):
     return np.mgrid[0:rows, 0:columns].astype(np.float32)
 
 
+def random_axes(rng, shape):
+    """How far each pixel lies from a place by chance, along a direction by chance and across it."""
+    rows, columns = shape
+    y, x = places(shape)
+    angle = rng.uniform(0.0, np.pi)
+    dx, dy = x - rng.uniform(0, columns), y - rng.uniform(0, rows)
+    return np.cos(angle) * dx + np.sin(angle) * dy, np.cos(angle) * dy - np.sin(angle) * dx
+
+
+def enlarge(numbers, shape):
+    """1 x C x h x w numbers as a smooth field, C x H x W."""
+    return F.interpolate(torch.from_numpy(numbers).float(), shape, mode="bicubic", align_corners=False)[0]
+
+
 def smooth_noise(rng, shape, cells):
     """-1 to 1 about, over cells x cells numbers."""
-    small = torch.from_numpy(rng.uniform(-1.0, 1.0, (1, 1, cells, cells))).float()
-    return F.interpolate(small, shape, mode="bicubic", align_corners=False)[0, 0]
+    return enlarge(rng.uniform(-1.0, 1.0, (1, 1, cells, cells)), shape)[0]
 
 
 def pattern(rng, shape):
@@ -92,12 +104,8 @@ def shade(rng, picture):
 
 def blob(rng, shape, size_px):
     """0 to 1: a rounded spot of irregular outline somewhere."""
-    rows, columns = shape
-    y, x = places(shape)
-    angle = rng.uniform(0.0, np.pi)
-    dx, dy = x - rng.uniform(0, columns), y - rng.uniform(0, rows)
-    u = (np.cos(angle) * dx + np.sin(angle) * dy) / size_px
-    v = (np.cos(angle) * dy - np.sin(angle) * dx) / (size_px * rng.uniform(0.3, 1.0))
+    along, across = random_axes(rng, shape)
+    u, v = along / size_px, across / (size_px * rng.uniform(0.3, 1.0))
     far = np.sqrt(u * u + v * v) + 0.35 * smooth_noise(rng, shape, 24).numpy()
     return torch.from_numpy(np.clip(4.0 * (1.0 - far), 0.0, 1.0).astype(np.float32))
 
@@ -116,15 +124,11 @@ def smear(rng, picture, food, glaze):
 
 
 def thing(rng, shape):
-    """0 to 1: a rectangle or an ellipse somewhere, and how far from its middle each pixel is."""
-    rows, columns = shape
-    y, x = places(shape)
-    angle = rng.uniform(0.0, np.pi)
-    dx, dy = x - rng.uniform(0, columns), y - rng.uniform(0, rows)
+    """0 to 1: a rectangle or an ellipse somewhere; and how far from its middle each pixel is, 1 at its edge."""
+    along, across = random_axes(rng, shape)
     length = rng.uniform(8.0, 60.0)
     width = length * rng.uniform(0.3, 1.0)
-    u = np.abs(np.cos(angle) * dx + np.sin(angle) * dy) / length
-    v = np.abs(np.cos(angle) * dy - np.sin(angle) * dx) / width
+    u, v = np.abs(along) / length, np.abs(across) / width
     far = np.maximum(u, v) if rng.random() < 0.5 else np.sqrt(u * u + v * v)
     return torch.from_numpy(np.clip((1.0 - far) * length / 1.5, 0.0, 1.0).astype(np.float32)), far
 
@@ -147,8 +151,8 @@ def lay_things(rng, picture, table):
 
 def repaint_sample(rng, picture, allowed):
     """`picture` 3 x H x W, 0 to 1, and what its pixels may be, H x W."""
-    for name, kinds in PAINTED_KINDS.items():
-        if rng.random() < REPAINTED[name]:
+    for kinds in PAINTED_KINDS:
+        if rng.random() < REPAINTED:
             picture = repaint(rng, picture, kind_mask(allowed, kinds))
     if rng.random() < WITH_THINGS:
         picture = lay_things(rng, picture, kind_mask(allowed, ("table",)).float())

@@ -33,16 +33,16 @@ TRAINING = os.path.join(SOURCE, "simulator", "training")
 DEMO = os.path.join(SOURCE, "simulator", "demo")
 sys.path.insert(0, TRAINING)
 
-from augmentation import ANYTHING, draw_batch, draw_sample, whole_picture  # noqa: E402
-from captures import Sample, read_captures  # noqa: E402
+from augmentation import draw_batch, draw_sample, whole_picture  # noqa: E402
+from captures import ANYTHING, Sample, read_captures  # noqa: E402
 from fitting import fit_picture  # noqa: E402
 from integers import IntegerLayer, fixed_point, run_integers, to_integers  # noqa: E402
 from layers import CLASSES, CLASS_NAMES, FOOD, food_layers, shared_scales, tensor_channels  # noqa: E402
 from losses import BORDER_REACH, border_cells, embedding_loss  # noqa: E402
 from measuring import agreement, float_outputs  # noqa: E402
+from model import FloatNetwork, RoundedNetwork  # noqa: E402
 from pasting import LEAST_PX, PASTED_LABEL, paste_food  # noqa: E402
 from repainting import kind_mask, lay_things, repaint, smear  # noqa: E402
-from model import FloatNetwork, RoundedNetwork  # noqa: E402
 from tgn_file import crc32c  # noqa: E402
 
 from plan import read_plan  # noqa: E402
