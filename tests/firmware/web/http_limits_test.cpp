@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 #include <sys/socket.h>
 
+#include <array>
 #include <chrono>
 #include <fstream>
 #include <memory>
@@ -47,6 +48,14 @@ double resident_kib() {
   return 0;
 }
 
+// Waits up to ten seconds for it: a busy machine gets there late.
+template <class Condition>
+bool comes_true(const Condition& condition) {
+  const auto end = Clock::now() + seconds(10);
+  while (!condition() && Clock::now() < end) std::this_thread::sleep_for(milliseconds(10));
+  return condition();
+}
+
 // Sends byte by byte until the server has had enough; how long that took.
 milliseconds time_of_dripping(WebClient& client, std::string_view bytes) {
   const auto begin = Clock::now();
@@ -88,13 +97,14 @@ TEST(WebLimits, ClosesWhoDripsTheBodyOrSaysNothing) {
 TEST(WebLimits, ClosesWhoDoesNotReadTheAnswer) {
   EchoHandler handler;
   ServerThread server(handler, short_times());
+  std::uint64_t overdue = 0;
   for (const char* const target : {"/length/30000000", "/pieces/30000"}) {
     WebClient deaf(server.port());
     ASSERT_TRUE(deaf.send("GET " + std::string(target) + " HTTP/1.1\r\nHost: localhost\r\n\r\n"));
-    std::this_thread::sleep_for(milliseconds(800));
-    EXPECT_EQ(server.counts().open, 0U) << target;
+    ++overdue;
+    EXPECT_TRUE(comes_true([&] { return server.counts().overdue == overdue; })) << target;
+    EXPECT_TRUE(comes_true([&] { return server.counts().open == 0; })) << target;
   }
-  EXPECT_EQ(server.counts().overdue, 2U);
 }
 
 // Never silent for long, but far below the least rate.
@@ -103,14 +113,13 @@ TEST(WebLimits, ClosesWhoReadsTooSlowly) {
   ServerThread server(handler, short_times());
   WebClient slow(server.port());
   ASSERT_TRUE(slow.send("GET /length/30000000 HTTP/1.1\r\nHost: localhost\r\n\r\n"));
-  const auto begin = Clock::now();
-  std::string block(50000, '\0');
-  while (Clock::now() - begin < seconds(10)) {
-    std::this_thread::sleep_for(milliseconds(100));
-    if (::recv(slow.descriptor(), block.data(), block.size(), MSG_DONTWAIT) <= 0) break;
-  }
-  EXPECT_EQ(server.counts().overdue, 1U);
-  EXPECT_LT(Clock::now() - begin, seconds(9));
+  const auto reads_and_is_closed = [&] {
+    std::this_thread::sleep_for(milliseconds(90));
+    std::array<char, 50000> block{};
+    ::recv(slow.descriptor(), block.data(), block.size(), MSG_DONTWAIT);
+    return server.counts().overdue == 1;
+  };
+  EXPECT_TRUE(comes_true(reads_and_is_closed));
 }
 
 TEST(WebLimits, ServesOthersMeanwhile) {
@@ -139,7 +148,7 @@ TEST(WebLimits, OnePeerHasSoManyConnections) {
   EXPECT_TRUE(WebClient(server.port()).is_closed_within(seconds(2)));
   EXPECT_EQ(server.counts().refused_peers, 1U);
   clients.pop_back();
-  std::this_thread::sleep_for(milliseconds(50));
+  EXPECT_TRUE(comes_true([&] { return server.counts().open == 2; }));
   EXPECT_EQ(WebClient(server.port()).ask("GET", "/")->status, 200);
 }
 
