@@ -130,7 +130,7 @@ endif
 
 board-station: board-programs
 	$(in_board) tests/board/station.sh $(board_build)/traygauge $(board_build)/traygauge-station \
-	  $(board_build)/tests/board/station_cycle simulator/demo/mash_and_meatballs
+	  $(board_build)/tests/board/station_cycle simulator/demo/mash_and_meatballs config/network
 
 # On this machine's architecture alone. BOARD_NO_MODULES=1 does not install modules-load.conf: then it has to fail.
 board_systemd = build-board/systemd-$(BOARD)

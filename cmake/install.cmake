@@ -46,7 +46,7 @@ endfunction()
 install(TARGETS traygauge traygauge-calibrate traygauge-card traygauge-collect traygauge-hub traygauge-station
   DESTINATION ${programs_folder} COMPONENT traygauge)
 traygauge_install_link(traygauge traygauge)
-install(DIRECTORY config/dishes config/fleet config/plots DESTINATION ${shared_folder}/config COMPONENT traygauge)
+install(DIRECTORY config/dishes config/fleet config/network config/plots DESTINATION ${shared_folder}/config COMPONENT traygauge)
 install(DIRECTORY firmware/page DESTINATION ${shared_folder} COMPONENT traygauge
   PATTERN README.md EXCLUDE PATTERN pictures EXCLUDE)
 install(DIRECTORY simulator/demo/mash_and_meatballs/ DESTINATION ${shared_folder}/self-check COMPONENT traygauge)

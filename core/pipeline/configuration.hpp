@@ -7,6 +7,7 @@
 #include "core/dish/dish_outline.hpp"
 #include "core/image/specular_suppression.hpp"
 #include "core/labels/dish_membership.hpp"
+#include "core/network/network.hpp"
 #include "core/pipeline/food_agreement_params.hpp"
 #include "core/pipeline/lens_doubt.hpp"
 #include "core/pipeline/segmenter_params.hpp"
@@ -50,8 +51,9 @@ struct PipelineParams {
 
 // The parameters of every stage, in the order in which they run.
 struct Configuration : TraySetup {
-  // Memory is taken for finding labels where a pair comes without; else such a pair is refused.
-  bool finds_labels = true;
+  // Reads the pictures of a pair that comes without labels, and outlives the estimator. Null: no memory is
+  // taken for that, and such a pair is refused.
+  const Network* network = nullptr;
   CardParams card_search;  // among corners, where no labels are given
   SegmenterParams segmentation;
   CardAlignmentParams card_alignment;

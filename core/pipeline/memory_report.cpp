@@ -8,7 +8,7 @@ namespace {
 
 // Of finding labels: what is kept while its stages follow each other counts with the largest of them.
 std::size_t segmentation_bytes(const Configuration& configuration, const auto& allocate_stage) {
-  if (!configuration.finds_labels) return 0;
+  if (configuration.network == nullptr) return 0;
   SegmenterMemory memory;
   return bytes_of([&](ArenaPlan& plan) {
     memory.allocate_kept(plan, configuration.segmentation);
@@ -23,7 +23,7 @@ std::array<MemoryRow, kMemoryRowCount> describe_memory(const Configuration& conf
   const SegmenterParams& segmentation = configuration.segmentation;
   const auto view = bytes_of([&](ArenaPlan& plan) { memory.views[0].allocate(plan, configuration.limits); });
   const auto labels = bytes_of([&](ArenaPlan& plan) {
-    if (configuration.finds_labels) memory.allocate_labels(plan, configuration.limits);
+    if (configuration.network != nullptr) memory.allocate_labels(plan, configuration.limits);
   });
   return {{
       {"state", estimator_state_bytes(), false},
@@ -48,7 +48,7 @@ std::array<MemoryRow, kMemoryRowCount> describe_memory(const Configuration& conf
        true},
       {"finding food",
        segmentation_bytes(configuration, [&](SegmenterMemory& parts,
-                                             ArenaPlan& plan) { parts.food.allocate(plan, segmentation); }),
+                                             ArenaPlan& plan) { parts.food.allocate(plan, configuration); }),
        true},
       {"view preparation",
        bytes_of([&](ArenaPlan& plan) { memory.preparation.allocate(plan, configuration); }), true},

@@ -9,6 +9,7 @@
 #include "core/dish/dish_profile.hpp"
 #include "core/image/resample.hpp"
 #include "core/labels/convex_fill.hpp"
+#include "core/labels/label_contacts.hpp"
 #include "core/pipeline/dish_observation.hpp"
 #include "core/pipeline/stage_clock.hpp"
 #include "core/quality/exposure.hpp"
@@ -69,6 +70,7 @@ void Segmenter::segment() {
   if (result_.status.ok()) {
     clock.enter(Stage::volume);
     draw_dishes();
+    read_first_picture();
     look_at_dishes();
     draw_items(params_.food);
     if (params_.items > 0) {
@@ -167,6 +169,13 @@ void Segmenter::draw_items(const FoodOutlineParams& params) {
   draw_food(params);
 }
 
+// Items are told in the first view; the second one's follow from it.
+void Segmenter::read_first_picture() {
+  const Network& network = *configuration_.network;
+  NetworkRunner runner(network, memory_.food.network);
+  reading_ = read_picture(views_[0].frame, network, runner, memory_.food.reading);
+}
+
 // Dense matching over every dish, once a pair: it does not depend on how food is drawn.
 void Segmenter::look_at_dishes() {
   const std::array<LabelRegions, 2> regions = {measure_regions(views_[0].labels),
@@ -203,12 +212,11 @@ void Segmenter::draw_food(const FoodOutlineParams& params) {
     const auto first = static_cast<std::uint8_t>(kFirstItemLabel + result_.items);
     const int room = kLastItemLabel + 1 - first;
     DishRaster raster;
-    ImageView<const HeightSample> relief;
     ImageView<std::uint8_t> cells;
-    if (!outline_view(dish, scene, 0, raster, relief, cells)) continue;
-    const ItemSplit split = label_items(raster, relief, params, memory_.food.outline, first, room, cells);
+    if (!outline_view(dish, scene, 0, raster, cells)) continue;
+    const ItemSplit split = label_items(raster, reading_, params, memory_.food.outline, first, room, cells);
     draw_cells(raster, cells, dish.label, views_[0].labels);
-    if (!outline_view(dish, scene, 1, raster, relief, cells)) continue;
+    if (!outline_view(dish, scene, 1, raster, cells)) continue;
     const std::span<const std::uint8_t> second(
         cells.data, static_cast<std::size_t>(raster.width()) * static_cast<std::size_t>(raster.height()));
     dish.is_bare = split.items == 0 && std::find(second.begin(), second.end(), kFoodSeed) == second.end();
@@ -223,8 +231,7 @@ void Segmenter::draw_food(const FoodOutlineParams& params) {
 
 // Food and glaze of one dish in one view, as outline_food marks them.
 bool Segmenter::outline_view(const SegmentedDish& dish, const DishInViews& scene, std::size_t v,
-                             DishRaster& raster, ImageView<const HeightSample>& relief,
-                             ImageView<std::uint8_t>& cells) {
+                             DishRaster& raster, ImageView<std::uint8_t>& cells) {
   const DishSearchView& camera = cameras_[v];
   const DishPose& place = dish.found.place;
   const DishProfile& profile = scene.inner.profile;
@@ -249,9 +256,8 @@ bool Segmenter::outline_view(const SegmentedDish& dish, const DishInViews& scene
   outline = ring(std::max(well_mm, 2.0 * params_.flange_begin_mm));
   mark_zone(raster, outline, DishZone::inside);
   cells = {memory_.food.cells.data(), raster.width(), raster.height()};
-  const ImageView<HeightSample> laid{memory_.food.outline.relief.data(), raster.width(), raster.height()};
-  lay_height_evidence(scene.relief, v, scene.stored[v], raster, laid);
-  relief = laid;
+  const ImageView<HeightSample> relief{memory_.food.outline.relief.data(), raster.width(), raster.height()};
+  lay_height_evidence(scene.relief, v, scene.stored[v], raster, relief);
   return outline_food(raster, relief, params_.food, memory_.food.outline, cells);
 }
 
@@ -304,7 +310,8 @@ void Segmenter::draw_cells(const DishRaster& raster, ImageView<const std::uint8_
   }
 }
 
-// What only one view takes for food is a shadow or a highlight. Labels stay in a row.
+// What only one view takes for an item is a shadow, a highlight, or a part of the item that it touches more
+// than the dish. Labels stay in a row.
 int Segmenter::keep_confirmed(std::uint8_t first, int items, std::uint8_t dish) const {
   const std::array<LabelRegions, 2> regions = {measure_regions(views_[0].labels),
                                                measure_regions(views_[1].labels)};
@@ -313,9 +320,24 @@ int Segmenter::keep_confirmed(std::uint8_t first, int items, std::uint8_t dish) 
   for (int i = 0; i < items; ++i) {
     const std::size_t label = first + static_cast<std::size_t>(i);
     const bool is_in_both = std::min(regions[0].pixels[label], regions[1].pixels[label]) > 0;
-    renamed[label] = is_in_both ? static_cast<std::uint8_t>(first + kept++) : dish;
+    if (is_in_both) renamed[label] = static_cast<std::uint8_t>(first + kept++);
   }
-  if (kept < items) rename_items(first, items, renamed);
+  if (kept == items) return kept;
+  renamed[dish] = dish;
+  std::array<std::uint8_t, kByteValues> owners = renamed;
+  for (int i = 0; i < items; ++i) {
+    const auto label = static_cast<std::uint8_t>(first + i);
+    if (renamed[label] != 0) continue;
+    std::array<std::uint32_t, kByteValues> contacts{};
+    for (const SegmentedView& view : views_) count_contacts(view.labels, label, contacts);
+    std::uint8_t touched = dish;
+    for (std::size_t other = 0; other < kByteValues; ++other) {
+      if (renamed[other] != 0 && contacts[other] > contacts[touched])
+        touched = static_cast<std::uint8_t>(other);
+    }
+    owners[label] = renamed[touched];
+  }
+  rename_items(first, items, owners);
   return kept;
 }
 

@@ -27,7 +27,7 @@ struct SegmentedView {
 // returns.
 class Segmenter {
  public:
-  // Learns the print. Check status() before use.
+  // Learns the print. The configuration has a network. Check status() before use.
   Segmenter(const Configuration& configuration, const CardPattern& pattern, SegmenterMemory& memory,
             Segmentation& result);
 
@@ -56,13 +56,14 @@ class Segmenter {
   Status find_dishes();
   void follow_own_motion();
   void draw_dishes() const;
+  void read_first_picture();
   void look_at_dishes();
   void draw_items(const FoodOutlineParams& params);
   void meet_hint();
   bool join_most_alike();
   void draw_food(const FoodOutlineParams& params);
   bool outline_view(const SegmentedDish& dish, const DishInViews& scene, std::size_t v, DishRaster& raster,
-                    ImageView<const HeightSample>& relief, ImageView<std::uint8_t>& cells);
+                    ImageView<std::uint8_t>& cells);
   void carry_labels(const DishRaster& raster, const SegmentedDish& dish, ImageView<std::uint8_t> cells) const;
   int keep_confirmed(std::uint8_t first, int items, std::uint8_t dish) const;
   void rename_items(std::uint8_t first, int items,
@@ -79,6 +80,7 @@ class Segmenter {
   std::array<SegmentedView, 2> views_;
   DishSearchViews cameras_;
   std::array<DishInViews, kMaxPlacedDishes> scenes_;
+  PictureReading reading_;
   std::size_t view_count_ = 0;
 };
 

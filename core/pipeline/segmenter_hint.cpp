@@ -31,10 +31,12 @@ double cost_of(const RegionColour& a, const RegionColour& b) {
 void Segmenter::meet_hint() {
   FoodOutlineParams food = params_.food;
   double& likeness = food.split.likeness.constant;
+  PartDifferenceParams& difference = food.split.difference;
   if (result_.items < params_.items) {
     while (result_.items < params_.items &&
-           food.split.max_difference > params_.weakest_border * params_.food.split.max_difference) {
-      food.split.max_difference *= params_.border_step;
+           difference.colour > params_.weakest_border * params_.food.split.difference.colour) {
+      difference.colour *= params_.border_step;
+      difference.embedding *= params_.border_step;
       likeness -= params_.likeness_step;
       draw_items(food);
     }

@@ -7,6 +7,7 @@
 #include <span>
 
 #include "core/base/arena.hpp"
+#include "core/network/network_runner.hpp"
 #include "core/pipeline/configuration.hpp"
 
 namespace traygauge {
@@ -26,18 +27,23 @@ struct CardStageWorkspace {
   }
 };
 
-// Of all dishes: their reliefs stay while food is outlined.
+// What the network read and the reliefs of all dishes stay while food is outlined.
 struct FoodStageWorkspace {
+  PictureReadingStorage reading;
   std::array<HeightEvidenceStorage, kMaxPlacedDishes> reliefs;
+  std::span<std::byte> network;
   HeightEvidenceWorkspace matching;
   std::span<std::uint8_t> cells;
   FoodOutlineWorkspace outline;
 
   template <class Allocator>
-  constexpr void allocate(Allocator& arena, const SegmenterParams& params) {
+  constexpr void allocate(Allocator& arena, const Configuration& configuration) {
+    const SegmenterParams& params = configuration.segmentation;
+    reading.allocate(arena, *configuration.network);
     for (HeightEvidenceStorage& relief : reliefs) relief.allocate(arena, params.relief);
     const auto max_cells = static_cast<std::size_t>(params.food.raster.max_cells);
-    arena.overlay([&] { matching.allocate(arena, params.relief); },
+    arena.overlay([&] { network = arena.template take<std::byte>(required_bytes(*configuration.network)); },
+                  [&] { matching.allocate(arena, params.relief); },
                   [&] {
                     cells = arena.template take<std::uint8_t>(max_cells);
                     outline.allocate(arena, params.food);
@@ -72,7 +78,7 @@ struct SegmenterMemory {
     kept_bytes = arena.used_bytes() - before;
     arena.overlay([&] { card.allocate(arena, configuration); },
                   [&] { dish.allocate(arena, configuration.segmentation.dish); },
-                  [&] { food.allocate(arena, configuration.segmentation); });
+                  [&] { food.allocate(arena, configuration); });
   }
 };
 

@@ -172,7 +172,7 @@ Status TrayEstimator::add_view(const ViewInput& input) {
   if (state.views == 0) {
     state.preparation_clock = {};
     state.views_status = {};
-    state.is_finding_labels = state.configuration.finds_labels && input.labels.empty();
+    state.is_finding_labels = state.configuration.network != nullptr && input.labels.empty();
   }
   const std::size_t index = state.views++;
   state.inputs[index] = input;

@@ -32,7 +32,7 @@ struct TrayMemory {
   constexpr void allocate_kept(Allocator& arena, const Configuration& configuration) {
     pattern.allocate(arena, configuration.card_alignment.pattern);
     for (TrayView& view : views) view.allocate(arena, configuration.limits);
-    if (configuration.finds_labels) allocate_labels(arena, configuration.limits);
+    if (configuration.network != nullptr) allocate_labels(arena, configuration.limits);
     scene = arena.template take<SceneGeometry>(1);
     dish.allocate_kept(arena, configuration);
   }
@@ -49,7 +49,7 @@ struct TrayMemory {
   }
   template <class Allocator>
   constexpr void allocate_segmentation(Allocator& arena, const Configuration& configuration) {
-    if (configuration.finds_labels) segmentation.allocate(arena, configuration);
+    if (configuration.network != nullptr) segmentation.allocate(arena, configuration);
   }
   template <class Allocator>
   constexpr void allocate(Allocator& arena, const Configuration& configuration) {

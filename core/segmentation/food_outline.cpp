@@ -120,7 +120,7 @@ bool outline_food(const DishRaster& raster, ImageView<const HeightSample> relief
   return true;
 }
 
-ItemSplit label_items(const DishRaster& raster, ImageView<const HeightSample> relief,
+ItemSplit label_items(const DishRaster& raster, const PictureReading& reading,
                       const FoodOutlineParams& params, FoodOutlineWorkspace& workspace, std::uint8_t first,
                       int max_items, ImageView<std::uint8_t> cells) {
   // Items are drawn on cells where food has no meaning of its own.
@@ -128,8 +128,8 @@ ItemSplit label_items(const DishRaster& raster, ImageView<const HeightSample> re
   for (int cell = 0; cell < count; ++cell) {
     if (cells.data[cell] == kFoodSeed) cells.data[cell] = kUnlabelled;
   }
-  ItemSplit split = split_items(raster, relief, kUnlabelled, raster.cell_mm, params.split, workspace.split,
-                                first, max_items, cells);
+  ItemSplit split =
+      split_items(raster, reading, kUnlabelled, params.split, workspace.split, first, max_items, cells);
   // What has no block of its own is an item as it is.
   Components components(cells, workspace.queue);
   for (int cell = 0; cell < count; ++cell) {

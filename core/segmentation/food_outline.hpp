@@ -10,6 +10,7 @@
 #include "core/segmentation/glaze.hpp"
 #include "core/segmentation/item_assignment.hpp"
 #include "core/segmentation/item_split.hpp"
+#include "core/segmentation/picture_reading.hpp"
 #include "core/segmentation/tv_segmentation.hpp"
 
 namespace traygauge {
@@ -69,7 +70,7 @@ bool outline_food(const DishRaster& raster, ImageView<const HeightSample> relief
 
 // Gives the food items labels from `first` on, kDishLabel to the rest of the dish and kBackgroundLabel
 // outside; `cells` as outline_food left them. There are at most `max_items`.
-ItemSplit label_items(const DishRaster& raster, ImageView<const HeightSample> relief,
+ItemSplit label_items(const DishRaster& raster, const PictureReading& reading,
                       const FoodOutlineParams& params, FoodOutlineWorkspace& workspace, std::uint8_t first,
                       int max_items, ImageView<std::uint8_t> cells);
 

@@ -1,33 +1,43 @@
 // Blocks of food that are merged into parts.
 #pragma once
 
-#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <span>
 
+#include "core/segmentation/picture_reading.hpp"
+
 namespace traygauge {
 
-// A block of equal food or, where it is the first of a part, the sums over all of the part.
+// A block of food or, where it is the first of a part, the sums over all of the part.
 struct FoodBlock {
   std::int32_t parent = -1;  // −1: no food
   std::int32_t size = 0;     // blocks
   float luma = 0.0F;         // sums over the blocks
   float red = 0.0F;
   float green = 0.0F;
-  float squares = 0.0F;    // of all three, luma weighted
-  float texture = 0.0F;    // logarithms to base 2 of its bends
-  float height_mm = 0.0F;  // over the dish
-  float height_squares = 0.0F;
-  float own_height_mm = 0.0F;  // of this block alone
-  std::int32_t sides = 0;      // of a part's outline, in sides of blocks
+  Embedding embedding{};
+  std::int32_t sides = 0;  // of a part's outline, in sides of blocks
+};
+
+// What makes up a difference of 1 between parts, by each sign alone.
+struct PartDifferenceParams {
+  double luma_weight = 0.5;  // of a colour, beside the colour shares
+  double colour = 8.0;
+  // Midway between what the network's training pulls one food to (0.3) and pushes two foods to (3.0).
+  double embedding = 1.65;
 };
 
 class FoodParts {
  public:
-  FoodParts(std::span<FoodBlock> blocks, int columns, int rows, double luma_weight)
-      : blocks_(blocks), columns_(columns), rows_(rows), luma_weight_(static_cast<float>(luma_weight)) {}
+  FoodParts(std::span<FoodBlock> blocks, int columns, int rows, const PartDifferenceParams& params)
+      : blocks_(blocks),
+        columns_(columns),
+        rows_(rows),
+        luma_scale_(static_cast<float>(params.luma_weight / params.colour)),
+        colour_scale_(static_cast<float>(1.0 / params.colour)),
+        embedding_scale_(static_cast<float>(1.0 / params.embedding)) {}
 
   int columns() const { return columns_; }
   int rows() const { return rows_; }
@@ -62,49 +72,40 @@ class FoodParts {
     a.luma += b.luma;
     a.red += b.red;
     a.green += b.green;
-    a.squares += b.squares;
-    a.texture += b.texture;
-    a.height_mm += b.height_mm;
-    a.height_squares += b.height_squares;
+    for (std::size_t i = 0; i < a.embedding.size(); ++i) a.embedding[i] += b.embedding[i];
     b.parent = kept;
   }
 
-  // Of the colours of its blocks about their mean, squared.
-  float spread_of(const FoodBlock& part) const {
-    const auto n = static_cast<float>(part.size);
-    const float luma = luma_weight_ * part.luma;
-    const float mean = (luma * luma + part.red * part.red + part.green * part.green) / (n * n);
-    return std::max(0.0F, part.squares / n - mean);
-  }
-
+  // Squared difference of two parts' means, by colour and embedding together.
   float square_between(const FoodBlock& a, const FoodBlock& b) const {
-    const auto na = static_cast<float>(a.size);
-    const auto nb = static_cast<float>(b.size);
-    const float luma = luma_weight_ * (a.luma / na - b.luma / nb);
-    const float red = a.red / na - b.red / nb;
-    const float green = a.green / na - b.green / nb;
-    return luma * luma + red * red + green * green;
+    const float luma = luma_scale_ * mean_step(a, b, a.luma, b.luma);
+    const float red = colour_scale_ * mean_step(a, b, a.red, b.red);
+    const float green = colour_scale_ * mean_step(a, b, a.green, b.green);
+    const float embedding = embedding_scale_ * embedding_between(a, b);
+    return luma * luma + red * red + green * green + embedding * embedding;
   }
 
-  static float mean_mm(const FoodBlock& part) { return part.height_mm / static_cast<float>(part.size); }
-  // About as high as a part's upper half.
-  static float crest_mm(const FoodBlock& part) {
-    const float mean = mean_mm(part);
-    const float square = part.height_squares / static_cast<float>(part.size);
-    return mean + std::sqrt(std::max(0.0F, square - mean * mean));
-  }
-  // Of the higher one's crest to the lower one's.
-  static float crest_ratio(const FoodBlock& a, const FoodBlock& b) {
-    const float a_mm = crest_mm(a);
-    const float b_mm = crest_mm(b);
-    return std::max(a_mm, b_mm) / std::max(1.0F, std::min(a_mm, b_mm));
+  // Distance of the mean embeddings of two parts.
+  static float embedding_between(const FoodBlock& a, const FoodBlock& b) {
+    float sum = 0.0F;
+    for (std::size_t i = 0; i < a.embedding.size(); ++i) {
+      const float step = mean_step(a, b, a.embedding[i], b.embedding[i]);
+      sum += step * step;
+    }
+    return std::sqrt(sum);
   }
 
  private:
+  static float mean_step(const FoodBlock& a, const FoodBlock& b, float a_sum, float b_sum) {
+    return a_sum / static_cast<float>(a.size) - b_sum / static_cast<float>(b.size);
+  }
+
   std::span<FoodBlock> blocks_;
   int columns_;
   int rows_;
-  float luma_weight_;
+  float luma_scale_;
+  float colour_scale_;
+  float embedding_scale_;
 };
 
 }  // namespace traygauge

@@ -1,5 +1,5 @@
-// Splits food into items: blocks of some millimetres are merged with the neighbour whose colour resembles
-// theirs most, until what is left differs by more than food differs from itself; of these parts the like ones
+// Splits food into items: blocks of some millimetres are merged with the neighbour that resembles them most,
+// by colour and by the network's embedding, into parts that are surely of one food; of these the like ones
 // are joined.
 #pragma once
 
@@ -11,7 +11,6 @@
 #include "core/image_view/image_view.hpp"
 #include "core/segmentation/dish_raster.hpp"
 #include "core/segmentation/food_parts.hpp"
-#include "core/segmentation/height_sample.hpp"
 #include "core/segmentation/part_joining.hpp"
 
 namespace traygauge {
@@ -19,15 +18,7 @@ namespace traygauge {
 struct ItemSplitParams {
   double block_mm = 7.0;
   int max_blocks = 4096;
-  double luma_weight = 0.5;     // of a difference, beside those of the colour shares
-  double max_difference = 8.0;  // of what is merged by colour alone, where both are of one colour
-  // Deviation of a food's blocks from its mean that doubles what may be merged: mixed vegetables differ from
-  // place to place.
-  double mixed_deviation = 25.0;
-  // Parts of so many blocks, one more than so many times as high as the other, are not merged by colour: a
-  // food's own differ by up to 1.95 on the sets, and a schnitzel's and a chicken leg's by 2.2 and 3.1.
-  double max_crest_ratio = 2.05;
-  int min_crest_blocks = 25;
+  PartDifferenceParams difference;
   int min_item_blocks = 6;  // smaller is never an item of its own
   // Of an item's blocks with no other part about them: what has fewer is where two items mix.
   int min_core_blocks = 3;
@@ -45,6 +36,8 @@ struct FoodBorder {
 
 struct ItemSplitWorkspace {
   std::span<FoodBlock> blocks;
+  std::span<std::uint8_t> labels;  // of each part, at its first block
+  std::span<std::int32_t> core_blocks;
   std::span<FoodBorder> borders;
   PartJoiningWorkspace joining;
 
@@ -52,22 +45,33 @@ struct ItemSplitWorkspace {
   constexpr void allocate(Allocator& arena, const ItemSplitParams& params) {
     const auto count = static_cast<std::size_t>(params.max_blocks);
     blocks = arena.template take<FoodBlock>(count);
+    labels = arena.template take<std::uint8_t>(count);
+    core_blocks = arena.template take<std::int32_t>(count);
     borders = arena.template take<FoodBorder>(2 * count);  // to the right and below
-    joining.allocate(arena, params.max_blocks);
+    joining.allocate(arena);
   }
 };
+
+struct PartedFood {
+  FoodParts parts;
+  int side = 1;  // of a block, in cells of the raster
+};
+
+// The cells that are `food`, in parts that are surely of one food each.
+PartedFood part_food(const DishRaster& raster, const PictureReading& reading, std::uint8_t food,
+                     const ItemSplitParams& params, ItemSplitWorkspace& workspace,
+                     ImageView<const std::uint8_t> owners);
 
 struct ItemSplit {
   int items = 0;
   // Of the two that resemble each other most of those that meet: PartLikenessParams' odds that they are one.
-  // 0 or more if two were joined in doubt.
   double most_alike = -std::numeric_limits<double>::infinity();
 };
 
 // `owners`: every cell that is `food` in a block wholly of food gets a label from `first` on, by item, if all
 // about it are of the same; the other cells stay. There are at most `max_items` labels.
-ItemSplit split_items(const DishRaster& raster, ImageView<const HeightSample> relief, std::uint8_t food,
-                      double cell_mm, const ItemSplitParams& params, ItemSplitWorkspace& workspace,
-                      std::uint8_t first, int max_items, ImageView<std::uint8_t> owners);
+ItemSplit split_items(const DishRaster& raster, const PictureReading& reading, std::uint8_t food,
+                      const ItemSplitParams& params, ItemSplitWorkspace& workspace, std::uint8_t first,
+                      int max_items, ImageView<std::uint8_t> owners);
 
 }  // namespace traygauge

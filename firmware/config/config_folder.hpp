@@ -1,4 +1,4 @@
-// The folder `config`, which comes with the program: dishes, and how plots are drawn.
+// The folder `config`, which comes with the program: dishes, the network for food, and how plots are drawn.
 #pragma once
 
 #include <filesystem>
@@ -9,6 +9,16 @@ namespace traygauge {
 // The folder with dishes/: `named` when it is not empty, else that which came with the program. Throws
 // InputError.
 std::filesystem::path find_config_folder(const std::string& named);
+
+// Of `start` and the folders above it, but not the root, the nearest beside which `config` or
+// `share/traygauge/config` has the folder `part`: the checkout in which a program was built, or where it was
+// installed. Throws InputError, which says what was `expected` and what is to be done.
+std::filesystem::path find_config_above(const std::filesystem::path& start, const char* part,
+                                        const char* expected, const char* todo);
+
+// The file of the network for food: below `named` where it has a folder network/, else that which came with
+// the program. Throws InputError.
+std::filesystem::path find_network_file(const std::string& named);
 
 // The folder plots/ below `named` where it has one, because a site may change its plots, else that which came
 // with the program. Throws InputError.

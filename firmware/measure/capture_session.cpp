@@ -8,6 +8,7 @@
 #include "firmware/measure/card_outlines.hpp"
 #include "firmware/measure/label_list.hpp"
 #include "firmware/measure/view_reduction.hpp"
+#include "firmware/network/food_network.hpp"
 
 namespace traygauge {
 namespace {
@@ -58,7 +59,7 @@ void CaptureSession::build_estimators(const Capture& capture, const ProfileParam
   Status status;
   if (parameters.profile == Profile::best || labels == LabelSource::automatic) {
     Configuration configuration = configure(setup_, parameters.best);
-    configuration.finds_labels = labels == LabelSource::automatic;
+    if (labels == LabelSource::automatic) configuration.network = &food_network();
     tray_block_.emplace(required_bytes(configuration));
     tray_.emplace(tray_block_->bytes(), configuration);
     status = tray_->status();

@@ -11,6 +11,7 @@
 #include "firmware/base/text.hpp"
 #include "firmware/command/program.hpp"
 #include "firmware/config/profile.hpp"
+#include "firmware/network/food_network.hpp"
 #include "firmware/paper/paper_profile.hpp"
 #include "simulator/capture/picture.hpp"
 
@@ -50,9 +51,10 @@ int run_memory(const MemoryOptions& options, std::ostream& out) {
   if (profile == Profile::best) {
     Configuration configuration;
     configuration.limits = limits;
+    configuration.network = &food_network();
     print_parts(describe_memory(configuration), out);
     out << row("reserved at start", required_bytes(configuration));
-    configuration.finds_labels = false;
+    configuration.network = nullptr;
     out << row("the same where labels are given", required_bytes(configuration));
   } else {
     paper::Configuration configuration;

@@ -5,7 +5,9 @@
 
 #include "core/base/little_endian.hpp"
 #include "core/network/network_file.hpp"
+#include "core/network/network_runner.hpp"
 #include "core/network/test_vector.hpp"
+#include "firmware/base/aligned_block.hpp"
 #include "firmware/base/text.hpp"
 #include "simulator/capture/input_bytes.hpp"
 
@@ -48,9 +50,9 @@ LoadedNetwork::LoadedNetwork(const std::filesystem::path& path)
     throw InputError(file, "a network that takes at most " + mebibytes(kMaxNetworkBytes) + " MiB of memory",
                      "one that takes " + mebibytes(required) + " MiB", "train a smaller one");
   }
-  block_ = std::make_unique<AlignedBlock>(required);
-  runner_ = std::make_unique<NetworkRunner>(network_, block_->bytes());
-  const TestVectorOutcome outcome = check_test_vector(network_, *runner_);
+  const AlignedBlock block(required);
+  NetworkRunner runner(network_, block.bytes());
+  const TestVectorOutcome outcome = check_test_vector(network_, runner);
   if (outcome.has_same_picture && outcome.has_same_outputs) return;
   throw InputError(
       file, "the outputs that its test vector states", "others",

@@ -1,15 +1,12 @@
-// A network from a file, in memory of its own.
+// A network from a file.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
-#include <memory>
 #include <vector>
 
 #include "core/network/network.hpp"
-#include "core/network/network_runner.hpp"
-#include "firmware/base/aligned_block.hpp"
 
 namespace traygauge {
 
@@ -22,15 +19,11 @@ class LoadedNetwork {
   LoadedNetwork& operator=(const LoadedNetwork&) = delete;
 
   const Network& network() const { return network_; }
-  NetworkRunner& runner() { return *runner_; }
   std::size_t file_bytes() const { return bytes_.size(); }
-  std::size_t memory_bytes() const { return block_->bytes().size(); }
 
  private:
   std::vector<std::uint8_t> bytes_;
-  Network network_;
-  std::unique_ptr<AlignedBlock> block_;
-  std::unique_ptr<NetworkRunner> runner_;
+  Network network_;  // refers to them
 };
 
 }  // namespace traygauge

@@ -8,6 +8,8 @@
 #include <sstream>
 
 #include "core/network/network_file.hpp"
+#include "core/network/network_runner.hpp"
+#include "firmware/base/aligned_block.hpp"
 #include "firmware/base/exit_status.hpp"
 #include "firmware/base/percent.hpp"
 #include "firmware/base/text.hpp"
@@ -83,7 +85,7 @@ void print_file(const NetworkOptions& options, const LoadedNetwork& loaded, std:
                   std::to_string(kNetworkFileVersion));
   row("weights", std::to_string(count_weights(network)));
   row("multiply-adds", fixed(1e-6 * static_cast<double>(network.multiply_adds()), 1) + " million");
-  row("memory", mebibytes(loaded.memory_bytes()) + " MiB");
+  row("memory", mebibytes(required_bytes(network)) + " MiB");
   row("test vector", "computed as the file states");
   out << "\n";
   print_layers(network, out);
@@ -120,8 +122,9 @@ void add_network_command(Program& program, NetworkOptions& options) {
 int run_network(const NetworkOptions& options, std::ostream& out) {
   if (!options.out.empty() && options.picture.empty())
     throw UsageError("-o draws what the network makes of a picture: name one with --picture");
-  LoadedNetwork loaded(options.file);
-  NetworkRunner& runner = loaded.runner();
+  const LoadedNetwork loaded(options.file);
+  const AlignedBlock block(required_bytes(loaded.network()));
+  NetworkRunner runner(loaded.network(), block.bytes());
   std::vector<std::size_t> counts;
   if (!options.picture.empty()) {
     const Picture picture = read_picture({options.picture, ""});

@@ -1,12 +1,14 @@
 #include "firmware/station/estimator_measurer.hpp"
 
+#include "firmware/network/food_network.hpp"
+
 namespace traygauge {
 namespace {
 
 // What memory depends on.
 Configuration with_limits(Configuration configuration, const FrameLimits& limits, bool finds_labels) {
   configuration.limits = limits;
-  configuration.finds_labels = finds_labels;
+  configuration.network = finds_labels ? &food_network() : nullptr;
   return configuration;
 }
 

@@ -1,11 +1,18 @@
 // A capture of the demo as an estimator is given it.
 #pragma once
 
-#include <array>
+#include <gtest/gtest.h>
 
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/network/network_file.hpp"
 #include "core/pipeline/configuration.hpp"
 #include "core/pipeline/view_input.hpp"
 #include "simulator/capture/capture.hpp"
+#include "simulator/capture/input_bytes.hpp"
 
 namespace traygauge {
 
@@ -17,6 +24,7 @@ class DemoTray {
   Config configuration() const {
     Config configuration;
     static_cast<TraySetup&>(configuration) = setup_;
+    if constexpr (requires { configuration.network; }) configuration.network = &network_;
     return configuration;
   }
   // With its labels.
@@ -26,6 +34,8 @@ class DemoTray {
 
  private:
   explicit DemoTray(const Capture& capture) : pattern_(load_pattern(capture.card)) {
+    const NetworkFileStatus status = parse_network(std::as_bytes(std::span(network_file_)), network_);
+    EXPECT_EQ(status, NetworkFileStatus::ok);
     for (std::size_t i = 0; i < 2; ++i) views_[i] = load_view(capture.views[i]);
     const CameraDescription& camera = capture.views[0].camera;
     const auto& [k1, k2, p1, p2, k3] = camera.distortion;
@@ -38,6 +48,9 @@ class DemoTray {
     setup_.limits = {camera.size.width, camera.size.height};
   }
 
+  std::vector<std::uint8_t> network_file_ =
+      read_bytes({TRAYGAUGE_SOURCE_DIR "/config/network/food.tgn", ""}, kMaxNetworkFileBytes, "a network");
+  Network network_;  // refers to it
   Picture pattern_;
   std::array<LoadedView, 2> views_;
   std::array<DishModel, 1> dishes_;

@@ -227,7 +227,7 @@ TEST(TrayEstimatorLabels, AreThoseThatWereMeasured) {
 // A configuration that takes no memory for finding labels says what it lacks.
 TEST(TrayEstimatorLabels, AreMissedWhereNoneCanBeFound) {
   Configuration configuration = demo().configuration();
-  configuration.finds_labels = false;
+  configuration.network = nullptr;
   EXPECT_LT(required_bytes(configuration), required_bytes(demo().configuration()));
   MeasuringBench bench(configuration);
   EXPECT_EQ(bench.measure(demo().bare_view(0), demo().bare_view(1)).status.code(),
@@ -236,7 +236,9 @@ TEST(TrayEstimatorLabels, AreMissedWhereNoneCanBeFound) {
 }
 
 TEST(TrayEstimatorMemory, DefaultStaysWithinTheBudget) {
-  EXPECT_LE(required_bytes({}), kBudgetBytes);
+  Configuration configuration;
+  configuration.network = demo().configuration().network;
+  EXPECT_LE(required_bytes(configuration), kBudgetBytes);
 }
 
 TEST(TrayEstimatorMemory, RowsAddUp) {
@@ -244,7 +246,7 @@ TEST(TrayEstimatorMemory, RowsAddUp) {
     for (const bool finds_labels : {true, false}) {
       Configuration configuration;
       configuration.limits.max_frame_width = width;
-      configuration.finds_labels = finds_labels;
+      if (finds_labels) configuration.network = demo().configuration().network;
       std::size_t kept = 0;
       std::size_t largest_shared = 0;
       for (const MemoryRow& row : describe_memory(configuration)) {

@@ -1,4 +1,4 @@
-// A plate drawn with food on it, and what two views would say about its relief.
+// A plate drawn with food on it, what two views would say about its relief, and what a network would read.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -7,12 +7,14 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <numbers>
 #include <optional>
 #include <random>
 #include <utility>
 #include <vector>
 
 #include "core/segmentation/food_outline.hpp"
+#include "tests/core/segmentation/drawn_reading.hpp"
 #include "tests/support/allocated.hpp"
 
 namespace traygauge::test {
@@ -31,7 +33,13 @@ struct Disc {
   // Of pieces that are mixed with those of `bgr`; the same where there are none.
   std::optional<std::array<int, 3>> other_bgr{};
   bool is_agreed = true;  // by both views, upon its height
+  int food = 0;           // discs of one food have one embedding
 };
+
+inline Disc of_food(int food, Disc disc) {
+  disc.food = food;
+  return disc;
+}
 
 inline double distance(double x, double y, const Disc& disc) {
   return std::sqrt((x - disc.x) * (x - disc.x) + (y - disc.y) * (y - disc.y));
@@ -81,7 +89,8 @@ class Plate {
     lay_height_evidence(raster);
     const ImageView<const HeightSample> relief{relief_.data(), raster.width(), raster.height()};
     EXPECT_TRUE(outline_food(raster, relief, params_, *memory_, cells));
-    return label_items(raster, relief, params_, *memory_, kFirstItemLabel, 100, cells).items;
+    draw_reading();
+    return label_items(raster, reading_.view(), params_, *memory_, kFirstItemLabel, 100, cells).items;
   }
 
   // Share of the cells whose being food or not is right.
@@ -154,6 +163,17 @@ class Plate {
     }
   }
 
+  // Embeddings of two foods differ by 3, as the network's training asks for.
+  void draw_reading() {
+    reading_.draw([&](const Vec2& pixel, int channel) {
+      int food = -1;
+      for (const Disc& disc : food_) {
+        if (distance(pixel.x(), pixel.y(), disc) < disc.radius) food = disc.food;
+      }
+      return food == channel ? 3.0 / std::numbers::sqrt2 : 0.0;
+    });
+  }
+
   // Pieces of 8 mm, either kind as often.
   static bool piece_at(int x, int y) {
     const auto cell = static_cast<std::uint32_t>(x / 20 + 71 * (y / 20));
@@ -170,6 +190,7 @@ class Plate {
   std::vector<Disc> food_;
   bool has_relief_;
   double depth_mm_ = 18.0;
+  DrawnReading reading_{kSide, 8};
   std::vector<HeightSample> relief_;
   std::vector<std::uint8_t> pixels_;
   FoodOutlineParams params_;

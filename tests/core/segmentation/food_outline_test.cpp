@@ -22,6 +22,7 @@ using test::kOchre;
 using test::kOrange;
 using test::kPxPerMm;
 using test::kWhite;
+using test::of_food;
 using test::Plate;
 
 TEST(FoodOutline, EmptyPlateHasNoFood) {
@@ -40,8 +41,8 @@ TEST(FoodOutline, PilesApartAreItemsOfTheirOwn) {
   EXPECT_GT(plate.right_fraction(labels, raster), 0.995);
 }
 
-TEST(FoodOutline, ColourSplitsPilesThatTouch) {
-  Plate plate({{240, 300, 70, kGreen}, {365, 300, 65, kBrown}});
+TEST(FoodOutline, TwoFoodsThatTouchAreTwoItems) {
+  Plate plate({{240, 300, 70, kGreen}, of_food(1, {365, 300, 65, kBrown})});
   std::vector<std::uint8_t> labels;
   DishRaster raster;
   EXPECT_EQ(plate.outline(labels, raster), 2);
@@ -158,13 +159,16 @@ TEST(FoodOutline, MixedPiecesAreOneItem) {
   EXPECT_EQ(plate.outline(labels, raster), 2);
 }
 
-TEST(FoodOutline, WhatLiesWithinAnItemIsItsOwnOnlyWhereItStandsOut) {
+// A steak on mash, and the yolk of a fried egg.
+TEST(FoodOutline, WhatLiesWithinAnItemIsItsOwnOnlyWhereItIsAnotherFood) {
   std::vector<std::uint8_t> labels;
   DishRaster raster;
-  Plate level({{300, 300, 110, kBrown, 15.0}, {300, 300, 50, kOchre, 15.0}});
-  EXPECT_EQ(level.outline(labels, raster), 1);
-  Plate raised({{300, 300, 110, kBrown, 15.0}, {300, 300, 50, kOchre, 45.0}});
-  EXPECT_EQ(raised.outline(labels, raster), 2);
+  const Disc below{300, 300, 110, kBrown, 15.0};
+  const Disc upon{300, 300, 50, kOchre, 25.0};
+  Plate egg({below, upon});
+  EXPECT_EQ(egg.outline(labels, raster), 1);
+  Plate steak({below, of_food(1, upon)});
+  EXPECT_EQ(steak.outline(labels, raster), 2);
 }
 
 TEST(FoodOutline, NoFlangeNoAnswer) {

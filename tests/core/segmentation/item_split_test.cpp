@@ -3,12 +3,13 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cstdint>
 #include <limits>
+#include <numbers>
 #include <random>
 #include <vector>
 
+#include "tests/core/segmentation/drawn_reading.hpp"
 #include "tests/support/allocated.hpp"
 
 namespace traygauge {
@@ -19,50 +20,45 @@ constexpr int kSide_mm = 7;
 constexpr std::uint8_t kFood = 250;
 constexpr CellColour kDark = {60, 120, 70};
 constexpr CellColour kPale = {150, 135, 95};
-constexpr CellColour kBright = {170, 150, 115};
 constexpr CellColour kGreenish = {90, 80, 140};
 
+// Of cells of a millimetre, which a pixel shows.
 class Food {
  public:
-  Food()
-      : colours_(kWide * kWide),
-        zones_(colours_.size(), DishZone::inside),
-        relief_(colours_.size()),
-        owners_(colours_.size(), kGlaze) {}
+  Food() : colours_(kWide * kWide), owners_(colours_.size(), kGlaze), foods_(colours_.size(), -1) {}
 
-  // Of blocks from (left, top), as high as `height_mm` says at every column.
-  template <class HeightOf>
-  void add(int left, int top, int columns, int rows, const CellColour& colour, HeightOf&& height_mm) {
+  // Of blocks from (left, top); `food` says which it is to the network.
+  void add(int left, int top, int columns, int rows, const CellColour& colour, int food) {
     for (int y = kSide_mm * top; y < kSide_mm * (top + rows); ++y) {
       for (int x = kSide_mm * left; x < kSide_mm * (left + columns); ++x) {
         const auto at = static_cast<std::size_t>(y * kWide + x);
         colours_[at] = colour;
         owners_[at] = kFood;
-        relief_[at].height = static_cast<std::int8_t>(height_mm(x - kSide_mm * left) / kHeightUnitMm);
-        relief_[at].is_known = relief_[at].is_confirmed = true;
+        foods_[at] = food;
       }
     }
   }
-  // Likewise, cells of two colours in an order without a pattern, of which the first has `share_of(column)`.
-  template <class ShareOf, class HeightOf>
-  void mix(int left, int top, int columns, int rows, const CellColour& a, const CellColour& b,
-           ShareOf&& share_of, HeightOf&& height_mm) {
-    add(left, top, columns, rows, b, height_mm);
+  // Likewise, cells of two colours in an order without a pattern.
+  void mix(int left, int top, int columns, int rows, const CellColour& a, const CellColour& b, int food) {
+    add(left, top, columns, rows, b, food);
     std::mt19937 random(1);
-    std::uniform_real_distribution<double> draw;
     for (int y = kSide_mm * top; y < kSide_mm * (top + rows); ++y) {
       for (int x = kSide_mm * left; x < kSide_mm * (left + columns); ++x) {
-        if (draw(random) < share_of(x / kSide_mm - left))
-          colours_[static_cast<std::size_t>(y * kWide + x)] = a;
+        if (random() % 2U == 0U) colours_[static_cast<std::size_t>(y * kWide + x)] = a;
       }
     }
   }
-  int split() { return split_all().items; }
-  ItemSplit split_all() {
+  // Embeddings of two foods lie `apart` from each other.
+  ItemSplit split(double apart = 3.0) {
     DishRaster raster;
     raster.colours = {colours_.data(), kWide, kWide};
-    raster.zones = {zones_.data(), kWide, kWide};
-    return split_items(raster, {relief_.data(), kWide, kWide}, kFood, 1.0, params_, *memory_, 2, 100,
+    test::DrawnReading reading(kWide, 2);
+    reading.draw([&](const Vec2& pixel, int channel) {
+      const auto at =
+          static_cast<std::size_t>(static_cast<int>(pixel.y()) * kWide + static_cast<int>(pixel.x()));
+      return foods_[at] == channel ? apart / std::numbers::sqrt2 : 0.0;
+    });
+    return split_items(raster, reading.view(), kFood, params_, *memory_, 2, 100,
                        {owners_.data(), kWide, kWide});
   }
   std::uint8_t owner(int column, int row) const {
@@ -72,124 +68,66 @@ class Food {
  private:
   static constexpr std::uint8_t kGlaze = 251;
   std::vector<CellColour> colours_;
-  std::vector<DishZone> zones_;
-  std::vector<HeightSample> relief_;
   std::vector<std::uint8_t> owners_;
+  std::vector<int> foods_;
   ItemSplitParams params_;
   test::Allocated<ItemSplitWorkspace> memory_{ItemSplitParams{}};
 };
 
 // A piece of cake: its top, and the side that is seen beside it.
-TEST(ItemSplit, TheSideOfWhatStandsBelongsToIt) {
+TEST(ItemSplit, PartsOfTwoColoursOfOneFoodAreOneItem) {
   Food cake;
-  cake.add(2, 4, 6, 6, kDark, [](int) { return 34.0; });
-  cake.add(8, 4, 3, 6, kPale, [](int x) { return 31.0 - 1.4 * x; });
-  EXPECT_EQ(cake.split(), 1);
-}
-
-TEST(ItemSplit, AFlatFoodBesideAHighOneIsItsOwn) {
-  Food food;
-  food.add(2, 4, 6, 6, kDark, [](int) { return 34.0; });
-  food.add(8, 4, 4, 6, kPale, [](int) { return 12.0; });
-  EXPECT_EQ(food.split(), 2);
-}
-
-// A schnitzel and a chicken leg: as brown, but for what tells parts of one food as well.
-TEST(ItemSplit, FoodsOfOneColourAreTwoWhereOneIsFarHigher) {
-  constexpr CellColour kNearlyDark = {66, 121, 71};
-  const auto split = [&](double first_mm, double second_mm) {
-    Food food;
-    food.add(2, 4, 6, 6, kDark, [&](int) { return first_mm; });
-    food.add(8, 8, 6, 6, kNearlyDark, [&](int) { return second_mm; });
-    return food.split();
-  };
-  EXPECT_EQ(split(30.0, 12.0), 2);
-  EXPECT_EQ(split(12.0, 30.0), 2);
-  EXPECT_EQ(split(20.0, 12.0), 1);
-}
-
-TEST(ItemSplit, FoodsThatSinkTowardsEachOtherAreTwo) {
-  Food food;
-  food.add(2, 4, 5, 6, kDark, [](int x) { return 34.0 - 0.8 * std::max(0, x - 7); });
-  food.add(7, 4, 5, 6, kPale, [](int x) { return 8.0 + 0.8 * std::min(28, x); });
-  EXPECT_EQ(food.split(), 2);
-}
-
-// Vegetables in sauce: of each there is more in one place than in another.
-TEST(ItemSplit, MixedFoodIsOneItem) {
-  Food food;
-  food.mix(
-      2, 2, 12, 8, kDark, kPale, [](int column) { return column % 6 < 3 ? 0.65 : 0.35; },
-      [](int) { return 15.0; });
-  EXPECT_EQ(food.split(), 1);
-}
-
-TEST(ItemSplit, MixedFoodsThatShareAColourAreTwo) {
-  const auto half = [](int) { return 0.5; };
-  Food food;
-  food.mix(2, 2, 6, 8, kDark, kPale, half, [](int x) { return 20.0 - 0.4 * std::max(0, x - 20); });
-  food.mix(8, 2, 6, 8, kDark, kGreenish, half, [](int x) { return 12.0 + 0.4 * std::min(20, x); });
-  EXPECT_EQ(food.split(), 2);
-}
-
-// Of two mixed foods the second has more and more of the first one's colour, until they are one.
-TEST(ItemSplit, ItemsAreTheMoreAlikeTheNearerTheyAreToBeingOne) {
-  const auto half = [](int) { return 0.5; };
-  const auto split = [&](std::uint8_t green) {
-    Food food;
-    food.mix(2, 2, 6, 8, kDark, kPale, half, [](int x) { return 20.0 - 0.4 * std::max(0, x - 20); });
-    food.mix(8, 2, 6, 8, kDark, {90, 80, green}, half, [](int x) { return 12.0 + 0.4 * std::min(20, x); });
-    return food.split_all();
-  };
-  const ItemSplit far = split(160);
-  const ItemSplit near = split(110);
-  ASSERT_EQ(far.items, 2);
-  ASSERT_EQ(near.items, 2);
-  EXPECT_LT(far.most_alike, near.most_alike);
-  EXPECT_LT(near.most_alike, 0.0);
-}
-
-// As mixed as parts of one food are, but far higher on one side: joined, and in doubt where both are large.
-TEST(ItemSplit, AJoinOfTwoLargePartsIsInDoubtWhereOneIsFarHigher) {
-  const auto split = [](int columns, double second_mm) {
-    Food food;
-    food.mix(
-        2, 2, columns, 8, kDark, kPale, [](int) { return 0.6; }, [](int) { return 30.0; });
-    food.mix(
-        2 + columns, 2, columns, 8, kDark, kPale, [](int) { return 0.4; }, [&](int) { return second_mm; });
-    return food.split_all();
-  };
-  constexpr double kNone = -std::numeric_limits<double>::infinity();
-  const ItemSplit high = split(7, 12.0);
-  EXPECT_EQ(high.items, 1);
-  EXPECT_EQ(high.most_alike, 0.0);
-  const ItemSplit level = split(7, 20.0);
-  EXPECT_EQ(level.items, 1);
-  EXPECT_EQ(level.most_alike, kNone);
-  const ItemSplit small = split(4, 12.0);
-  EXPECT_EQ(small.items, 1);
-  EXPECT_EQ(small.most_alike, kNone);
-}
-
-TEST(ItemSplit, OneItemIsLikeNoOther) {
-  Food food;
-  food.add(2, 4, 6, 6, kDark, [](int) { return 34.0; });
-  const ItemSplit split = food.split_all();
+  cake.add(2, 4, 6, 6, kDark, 0);
+  cake.add(8, 4, 3, 6, kPale, 0);
+  const ItemSplit split = cake.split();
   EXPECT_EQ(split.items, 1);
   EXPECT_EQ(split.most_alike, -std::numeric_limits<double>::infinity());
 }
 
-// A row of blocks between two foods, half of either, is neither's colour.
-TEST(ItemSplit, WhereTwoFoodsMixThereIsNoThird) {
-  const auto height_mm = [](int) { return 15.0; };
+TEST(ItemSplit, TwoFoodsOfOneColourAreTwo) {
   Food food;
-  food.add(2, 2, 6, 8, kDark, height_mm);
-  food.add(8, 2, 1, 8, kBright, height_mm);
-  food.add(9, 2, 6, 8, kGreenish, height_mm);
-  EXPECT_EQ(food.split(), 2);
-  // What both meet in is left to the picture's colours, cell by cell.
-  for (const int column : {7, 8, 9}) EXPECT_EQ(food.owner(column, 5), kFood) << column;
-  EXPECT_NE(food.owner(4, 5), food.owner(12, 5));
+  food.add(2, 4, 6, 6, kDark, 0);
+  food.add(8, 4, 4, 6, kDark, 1);
+  EXPECT_EQ(food.split().items, 2);
+}
+
+// Vegetables in sauce.
+TEST(ItemSplit, MixedFoodIsOneItem) {
+  Food food;
+  food.mix(2, 2, 12, 8, kDark, kPale, 0);
+  EXPECT_EQ(food.split().items, 1);
+}
+
+TEST(ItemSplit, MixedFoodsThatShareAColourAreTwo) {
+  Food food;
+  food.mix(2, 2, 6, 8, kDark, kPale, 0);
+  food.mix(8, 2, 6, 8, kDark, kGreenish, 1);
+  EXPECT_EQ(food.split().items, 2);
+}
+
+TEST(ItemSplit, ItemsAreTheMoreAlikeTheNearerTheyAreToBeingOne) {
+  const auto split = [](double apart) {
+    Food food;
+    food.add(2, 2, 6, 8, kDark, 0);
+    food.add(8, 2, 6, 8, kGreenish, 1);
+    return food.split(apart);
+  };
+  const ItemSplit far = split(3.5);
+  const ItemSplit near = split(2.6);
+  ASSERT_EQ(far.items, 2);
+  ASSERT_EQ(near.items, 2);
+  EXPECT_LT(far.most_alike, near.most_alike);
+  EXPECT_LT(near.most_alike, 0.0);
+  EXPECT_EQ(split(0.5).items, 1);
+}
+
+TEST(ItemSplit, CellsWhereTwoFoodsMeetAreLeftToThePicture) {
+  Food food;
+  food.add(2, 2, 6, 8, kDark, 0);
+  food.add(8, 2, 6, 8, kGreenish, 1);
+  EXPECT_EQ(food.split().items, 2);
+  for (const int column : {7, 8}) EXPECT_EQ(food.owner(column, 5), kFood) << column;
+  EXPECT_NE(food.owner(4, 5), food.owner(11, 5));
 }
 
 }  // namespace

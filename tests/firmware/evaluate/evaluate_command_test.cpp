@@ -146,13 +146,6 @@ TEST_F(EvaluateCommand, APlotThatFailsIsSaidAfterTheResults) {
   EXPECT_EQ(count_lines(read_text(folder / "estimates.csv")), 13U);
 }
 
-TEST_F(EvaluateCommand, MissingScriptsAreNamedBeforeTheWork) {
-  const CommandResult result = run({"evaluate", files_.folder().string(), "--out", out_.path().string()});
-  EXPECT_EQ(result.status, 2);
-  EXPECT_NE(result.error.find("expected the folder with plots/"), std::string::npos) << result.error;
-  EXPECT_EQ(fake_estimator().estimates, 0);
-}
-
 // 2 pairs with 3 seeds, then once for each of 7 variants; the fake estimator shows no stage.
 TEST_F(EvaluateCommand, StagesMeasureEveryPairOnceAVariant) {
   write_truth(R"({"items": [{"label": 2, "name": "rice", "volume_ml": 100.0},

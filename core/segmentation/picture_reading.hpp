@@ -1,0 +1,50 @@
+// What the network for food reads in one view: numbers that are alike within portions of one food.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "core/geometry/geometry.hpp"
+#include "core/image_view/image_view.hpp"
+#include "core/network/network.hpp"
+#include "core/network/network_input.hpp"
+#include "core/network/network_runner.hpp"
+
+namespace traygauge {
+
+inline constexpr std::size_t kMaxEmbedding = 16;     // numbers a cell
+using Embedding = std::array<float, kMaxEmbedding>;  // those beyond the network's are 0
+
+struct PictureReading {
+  ImageView<const std::int8_t> embedding;  // cells of the network's picture, their numbers side by side
+  int embedding_size = 0;
+  float embedding_step = 0.0F;  // the real value of one unit
+  InputPlacement place;         // of the frame in the network's picture
+  int frame_width = 0;
+  int frame_height = 0;
+  int network_width = 0;
+  int network_height = 0;
+
+  // Linear between cells; of the nearest where the pixel lies beyond.
+  Embedding embedding_at(const Vec2& pixel) const;
+};
+
+// Whether a network is one for food: a class `food`, and an embedding of at most kMaxEmbedding numbers.
+bool reads_food(const Network& network);
+
+struct PictureReadingStorage {
+  std::span<std::int8_t> embedding;
+
+  template <class Allocator>
+  constexpr void allocate(Allocator& arena, const Network& network) {
+    embedding = arena.template take<std::int8_t>(network.find(NetworkRole::embedding)->output.bytes());
+  }
+};
+
+// Runs the network, for which reads_food() holds, on the frame.
+PictureReading read_picture(const FrameView& frame, const Network& network, NetworkRunner& runner,
+                            const PictureReadingStorage& storage);
+
+}  // namespace traygauge
