@@ -29,6 +29,7 @@ FILES = [
     ("/var/lib/traygauge/station", "Results that wait for the hub, and the number of the last scan."),
     ("/var/lib/traygauge/hub", "The hub's store of results."),
     ("/usr/share/traygauge/config/dishes", "The dishes that are known, unless a folder dishes lies beside the station file."),
+    ("/usr/share/traygauge/config/network", "The network that tells which food is one item, and its model card."),
 ]
 DEMO = """traygauge\\-demo starts a hub and a simulated station, which plays two recorded trays again and again until Ctrl\\-C. It
 prints the volumes, and the address of the page that shows them. Results go to a folder that is removed at the end."""
