@@ -1,37 +1,9 @@
 #include "core/labels/dish_membership.hpp"
 
 #include <algorithm>
-#include <cstring>
 
 namespace traygauge {
 namespace {
-
-// Counts the pairs (a[i], b[i]) of different labels. Most are equal, so eight are compared at once.
-void add_borders(const std::uint8_t* a, const std::uint8_t* b, int count,
-                 std::span<std::uint32_t> borders_px) {
-  const auto add = [&](int i) {
-    if (a[i] == b[i]) return;
-    if (is_item(a[i])) ++borders_px[kByteValues * a[i] + b[i]];
-    if (is_item(b[i])) ++borders_px[kByteValues * b[i] + a[i]];
-  };
-  int i = 0;
-  for (; i + 8 <= count; i += 8) {
-    std::uint64_t eight_a = 0;
-    std::uint64_t eight_b = 0;
-    std::memcpy(&eight_a, a + i, sizeof(eight_a));
-    std::memcpy(&eight_b, b + i, sizeof(eight_b));
-    if (eight_a == eight_b) continue;
-    for (int k = i; k < i + 8; ++k) add(k);
-  }
-  for (; i < count; ++i) add(i);
-}
-
-void count_borders(ImageView<const std::uint8_t> labels, std::span<std::uint32_t> borders_px) {
-  for (int y = 0; y < labels.height; ++y) {
-    add_borders(labels.row(y), labels.row(y) + 1, labels.width - 1, borders_px);
-    if (y + 1 < labels.height) add_borders(labels.row(y), labels.row(y + 1), labels.width, borders_px);
-  }
-}
 
 // A dish, and the length of the border that speaks for it; the background: none.
 struct Vote {
@@ -41,8 +13,8 @@ struct Vote {
 
 class Assignment {
  public:
-  Assignment(std::span<const std::uint32_t> borders_px, const DishMembershipParams& params)
-      : borders_px_(borders_px), params_(params) {}
+  Assignment(const LabelBorders& borders, const DishMembershipParams& params)
+      : borders_(borders), params_(params) {}
 
   // Settles every item that borders a dish or an item that does, directly or over others. Each round settles
   // at least one more of the 198 items, or is the last.
@@ -57,10 +29,6 @@ class Assignment {
   }
 
  private:
-  std::uint32_t border_px(std::uint8_t item, std::size_t other) const {
-    return borders_px_[kByteValues * item + other];
-  }
-
   // Gives every item without a dish the one that `vote` names; all vote before any is settled.
   template <class VoteOf>
   bool settle(const VoteOf& vote) {
@@ -79,8 +47,8 @@ class Assignment {
     std::array<std::uint32_t, kByteValues> sums_px{};
     for (std::size_t other = 0; other < kByteValues; ++other) {
       const auto label = static_cast<std::uint8_t>(other);
-      if (is_dish(label)) sums_px[other] += border_px(item, other);
-      if (with_items && is_item(label)) sums_px[dishes_[other]] += border_px(item, other);
+      if (is_dish(label)) sums_px[other] += borders_.border_px(item, other);
+      if (with_items && is_item(label)) sums_px[dishes_[other]] += borders_.border_px(item, other);
     }
     sums_px[kBackgroundLabel] = 0;
     const auto* const most = std::max_element(sums_px.begin(), sums_px.end());
@@ -93,7 +61,7 @@ class Assignment {
     std::uint32_t all_px = 0;
     for (std::size_t other = 0; other < kByteValues; ++other) {
       const auto label = static_cast<std::uint8_t>(other);
-      if (is_dish(label) || is_item(label)) all_px += border_px(item, other);
+      if (is_dish(label) || is_item(label)) all_px += borders_.border_px(item, other);
     }
     const Vote vote = longest_border(item);
     return vote.border_px >= params_.min_dish_border_fraction * all_px ? vote : Vote{};
@@ -102,12 +70,13 @@ class Assignment {
   // Of the neighbours that have a dish; its own border adds to it, but does not suffice.
   Vote vote_of_neighbours(std::uint8_t item) const {
     for (std::size_t other = kFirstItemLabel; other <= kLastItemLabel; ++other) {
-      if (border_px(item, other) > 0 && dishes_[other] != kBackgroundLabel) return winner(item, true);
+      if (borders_.border_px(item, other) > 0 && dishes_[other] != kBackgroundLabel)
+        return winner(item, true);
     }
     return {};
   }
 
-  std::span<const std::uint32_t> borders_px_;
+  const LabelBorders& borders_;
   const DishMembershipParams& params_;
   DishOfItem dishes_{};
 };
@@ -115,10 +84,9 @@ class Assignment {
 }  // namespace
 
 DishOfItem find_dishes_of_items(std::span<const ImageView<const std::uint8_t>> views,
-                                const DishMembershipParams& params, DishMembershipWorkspace& workspace) {
-  std::fill(workspace.borders_px.begin(), workspace.borders_px.end(), 0U);
-  for (const ImageView<const std::uint8_t>& labels : views) count_borders(labels, workspace.borders_px);
-  return Assignment(workspace.borders_px, params).run();
+                                const DishMembershipParams& params, LabelBorders& borders) {
+  count_borders(views, borders);
+  return Assignment(borders, params).run();
 }
 
 }  // namespace traygauge

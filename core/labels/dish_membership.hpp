@@ -9,7 +9,7 @@
 
 #include "core/base/units.hpp"
 #include "core/image_view/image_view.hpp"
-#include "core/labels/label_regions.hpp"
+#include "core/labels/label_borders.hpp"
 
 namespace traygauge {
 
@@ -23,20 +23,10 @@ struct DishMembershipParams {
 // By item label: the label of its dish; 0 where no dish was found and for labels that are no item's.
 using DishOfItem = std::array<std::uint8_t, kByteValues>;
 
-struct DishMembershipWorkspace {
-  // Pairs of adjacent pixels: a row for each label up to the last item's, a column for each label. 200 KiB.
-  std::span<std::uint32_t> borders_px;
-
-  template <class Allocator>
-  constexpr void allocate(Allocator& allocator) {
-    borders_px = allocator.template take<std::uint32_t>((std::size_t{kLastItemLabel} + 1) * 256);
-  }
-};
-
-// Borders are summed over `views` and count pairs of pixels side by side or one above the other. An item that
-// touches only (or almost only) other items takes the dish that its neighbours have, each by the length of
-// the border with it. Among equals the dish of the smaller label wins. O(pixels); one pass a view.
+// Borders are summed over `views`. An item that touches only (or almost only) other items takes the dish that
+// its neighbours have, each by the length of the border with it. Among equals the dish of the smaller label
+// wins. O(pixels); one pass a view.
 DishOfItem find_dishes_of_items(std::span<const ImageView<const std::uint8_t>> views,
-                                const DishMembershipParams& params, DishMembershipWorkspace& workspace);
+                                const DishMembershipParams& params, LabelBorders& borders);
 
 }  // namespace traygauge

@@ -78,7 +78,7 @@ Status list_dishes(const ViewPair& views, const Configuration& configuration,
   if (geometry.dish_count == 0) return StatusCode::no_dish_label;
   const std::array<ImageView<const std::uint8_t>, 2> labels = {views[0]->labels, views[1]->labels};
   const DishOfItem owners = geometry.dish_count > 1
-                                ? find_dishes_of_items(labels, configuration.membership, workspace.membership)
+                                ? find_dishes_of_items(labels, configuration.membership, workspace.borders)
                                 : DishOfItem{};
   for (int value = kFirstItemLabel; value <= kLastItemLabel; ++value) {
     const auto label = static_cast<std::uint8_t>(value);

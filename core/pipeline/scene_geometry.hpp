@@ -36,7 +36,7 @@ struct SceneGeometry {
 
 struct SceneGeometryWorkspace {
   PointTrackingWorkspace tracking;
-  DishMembershipWorkspace membership;
+  LabelBorders borders;
   DishOutlineWorkspace outline;
   std::array<std::array<BoundedList<Vec2>, 2>, kMaxPlacedDishes> outlines;  // of every dish in both views
   BundleWorkspace bundle;
@@ -45,7 +45,7 @@ struct SceneGeometryWorkspace {
   constexpr void allocate(Allocator& arena, const Configuration& configuration) {
     const FrameLimits& limits = configuration.limits;
     tracking.allocate(arena, limits.max_frame_width, limits.max_frame_height, configuration.tracking);
-    membership.allocate(arena);
+    borders.allocate(arena);
     outline.allocate(arena, configuration.pipeline.max_contour_sides);
     for (auto& views : outlines) {
       for (BoundedList<Vec2>& rays : views) {

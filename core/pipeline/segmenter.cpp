@@ -9,7 +9,6 @@
 #include "core/dish/dish_profile.hpp"
 #include "core/image/resample.hpp"
 #include "core/labels/convex_fill.hpp"
-#include "core/labels/label_contacts.hpp"
 #include "core/pipeline/dish_observation.hpp"
 #include "core/pipeline/stage_clock.hpp"
 #include "core/quality/exposure.hpp"
@@ -305,49 +304,6 @@ void Segmenter::draw_cells(const DishRaster& raster, ImageView<const std::uint8_
           std::uint8_t& label = labels.at(left + i, top + j);
           if (label == dish) label = cells.at(x, y);
         }
-      }
-    }
-  }
-}
-
-// What only one view takes for an item is a shadow, a highlight, or a part of the item that it touches more
-// than the dish. Labels stay in a row.
-int Segmenter::keep_confirmed(std::uint8_t first, int items, std::uint8_t dish) const {
-  const std::array<LabelRegions, 2> regions = {measure_regions(views_[0].labels),
-                                               measure_regions(views_[1].labels)};
-  std::array<std::uint8_t, kByteValues> renamed{};
-  int kept = 0;
-  for (int i = 0; i < items; ++i) {
-    const std::size_t label = first + static_cast<std::size_t>(i);
-    const bool is_in_both = std::min(regions[0].pixels[label], regions[1].pixels[label]) > 0;
-    if (is_in_both) renamed[label] = static_cast<std::uint8_t>(first + kept++);
-  }
-  if (kept == items) return kept;
-  renamed[dish] = dish;
-  std::array<std::uint8_t, kByteValues> owners = renamed;
-  for (int i = 0; i < items; ++i) {
-    const auto label = static_cast<std::uint8_t>(first + i);
-    if (renamed[label] != 0) continue;
-    std::array<std::uint32_t, kByteValues> contacts{};
-    for (const SegmentedView& view : views_) count_contacts(view.labels, label, contacts);
-    std::uint8_t touched = dish;
-    for (std::size_t other = 0; other < kByteValues; ++other) {
-      if (renamed[other] != 0 && contacts[other] > contacts[touched])
-        touched = static_cast<std::uint8_t>(other);
-    }
-    owners[label] = renamed[touched];
-  }
-  rename_items(first, items, owners);
-  return kept;
-}
-
-void Segmenter::rename_items(std::uint8_t first, int items,
-                             const std::array<std::uint8_t, kByteValues>& renamed) const {
-  for (const SegmentedView& view : views_) {
-    for (int y = 0; y < view.labels.height; ++y) {
-      for (int x = 0; x < view.labels.width; ++x) {
-        std::uint8_t& label = view.labels.at(x, y);
-        if (label >= first && label < first + items) label = renamed[label];
       }
     }
   }

@@ -7,6 +7,7 @@
 #include <span>
 
 #include "core/base/arena.hpp"
+#include "core/labels/label_borders.hpp"
 #include "core/network/network_runner.hpp"
 #include "core/pipeline/configuration.hpp"
 
@@ -33,6 +34,7 @@ struct FoodStageWorkspace {
   std::array<HeightEvidenceStorage, kMaxPlacedDishes> reliefs;
   std::span<std::byte> network;
   HeightEvidenceWorkspace matching;
+  LabelBorders borders;
   std::span<std::uint8_t> cells;
   FoodOutlineWorkspace outline;
 
@@ -43,7 +45,7 @@ struct FoodStageWorkspace {
     for (HeightEvidenceStorage& relief : reliefs) relief.allocate(arena, params.relief);
     const auto max_cells = static_cast<std::size_t>(params.food.raster.max_cells);
     arena.overlay([&] { network = arena.template take<std::byte>(required_bytes(*configuration.network)); },
-                  [&] { matching.allocate(arena, params.relief); },
+                  [&] { matching.allocate(arena, params.relief); }, [&] { borders.allocate(arena); },
                   [&] {
                     cells = arena.template take<std::uint8_t>(max_cells);
                     outline.allocate(arena, params.food);

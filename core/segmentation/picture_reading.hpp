@@ -14,7 +14,7 @@
 
 namespace traygauge {
 
-inline constexpr std::size_t kMaxEmbedding = 16;     // numbers a cell
+inline constexpr std::size_t kMaxEmbedding = 16;     // numbers a cell; config/network/food.tgn has 12
 using Embedding = std::array<float, kMaxEmbedding>;  // those beyond the network's are 0
 
 struct PictureReading {

@@ -16,21 +16,22 @@ bool is_folder(const fs::path& path) {
   return fs::is_directory(path, ignored);
 }
 
-fs::path find_beside_program(const char* part, const char* expected, const char* todo) {
+fs::path find_beside_program(const char* part, const char* expected, const char* advice) {
   std::error_code ignored;
-  return find_config_above(fs::read_symlink("/proc/self/exe", ignored).parent_path(), part, expected, todo);
+  return find_config_above(fs::read_symlink("/proc/self/exe", ignored).parent_path(), part, expected, advice);
 }
 
 }  // namespace
 
-fs::path find_config_above(const fs::path& start, const char* part, const char* expected, const char* todo) {
+fs::path find_config_above(const fs::path& start, const char* part, const char* expected,
+                           const char* advice) {
   for (fs::path above = start; above.has_relative_path(); above = above.parent_path()) {
     for (const char* place : {"config", "share/traygauge/config"}) {
       fs::path folder = above / place;
       if (is_folder(folder / part)) return folder;
     }
   }
-  throw InputError({start / "config", ""}, expected, "none beside the program", todo);
+  throw InputError({start / "config", ""}, expected, "none beside the program", advice);
 }
 
 fs::path find_config_folder(const std::string& named) {

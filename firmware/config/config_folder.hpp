@@ -12,9 +12,9 @@ std::filesystem::path find_config_folder(const std::string& named);
 
 // Of `start` and the folders above it, but not the root, the nearest beside which `config` or
 // `share/traygauge/config` has the folder `part`: the checkout in which a program was built, or where it was
-// installed. Throws InputError, which says what was `expected` and what is to be done.
+// installed. Throws InputError, which says what was `expected`, and the advice.
 std::filesystem::path find_config_above(const std::filesystem::path& start, const char* part,
-                                        const char* expected, const char* todo);
+                                        const char* expected, const char* advice);
 
 // The file of the network for food: below `named` where it has a folder network/, else that which came with
 // the program. Throws InputError.

@@ -24,7 +24,7 @@ using test::read_capture_truth;
 using test::view_of;
 
 DishOfItem find_dishes(const std::vector<cv::Mat>& pictures, const DishMembershipParams& params = {}) {
-  test::Allocated<DishMembershipWorkspace> memory;
+  test::Allocated<LabelBorders> memory;
   std::fill(memory->borders_px.begin(), memory->borders_px.end(), 77U);  // of a tray before
   std::vector<ImageView<const std::uint8_t>> views;
   for (const cv::Mat& picture : pictures) views.push_back(view_of(picture));
@@ -157,7 +157,7 @@ TEST(DishMembership, CountsEveryBorderWhateverLabelsSizesAndStrides) {
       cv::circle(whole, centre, rng.uniform(0, 25), cv::Scalar(label), cv::FILLED);
     }
     const cv::Mat labels = whole.colRange(whole.cols / 4, whole.cols);
-    test::Allocated<DishMembershipWorkspace> memory;
+    test::Allocated<LabelBorders> memory;
     const std::array<ImageView<const std::uint8_t>, 1> views = {view_of(labels)};
     find_dishes_of_items(views, {}, *memory);
     auto expected = count_one_by_one(labels);

@@ -16,41 +16,20 @@
 #include "firmware/network/food_network.hpp"
 #include "simulator/capture/capture.hpp"
 #include "simulator/capture/input_error.hpp"
+#include "tests/bench/workspace.hpp"
 
 namespace {
 
 using namespace traygauge;
 
-constexpr double kMm = 1.0;
 constexpr std::uint8_t kFood = 1;
-
-template <class Workspace>
-class Allocated {
- public:
-  template <class... Caps>
-  explicit Allocated(const Caps&... caps) : block_(bytes(caps...)) {
-    Arena arena(block_.bytes());
-    workspace.allocate(arena, caps...);
-  }
-  Workspace workspace;
-
- private:
-  template <class... Caps>
-  static std::size_t bytes(const Caps&... caps) {
-    ArenaPlan plan;
-    Workspace().allocate(plan, caps...);
-    return plan.high_water_bytes();
-  }
-  AlignedBlock block_;
-};
 
 class Borders {
  public:
   Borders() : block_(required_bytes(food_network())), runner_(food_network(), block_.bytes()) {}
 
   void print(const std::string& name, const LoadedView& view) {
-    const PictureReading reading =
-        read_picture(view.picture.frame(), food_network(), runner_, storage_.workspace);
+    const PictureReading reading = read_picture(view.picture.frame(), food_network(), runner_, *storage_);
     const ImageView<const std::uint8_t> labels = view.labels.gray();
     const LabelRegions regions = measure_regions(labels);
     const PixelBox dish = regions.boxes[kDishLabel];
@@ -58,9 +37,9 @@ class Borders {
     const std::array<Vec2, 4> box = {Vec2(dish.left, dish.top), Vec2(dish.right, dish.top),
                                      Vec2(dish.right, dish.bottom), Vec2(dish.left, dish.bottom)};
     // Dishes are about as large as they are seen: cells of a millimetre for one of 260 mm.
-    const double px_per_mm = dish.width() / 260.0 / kMm;
+    const double px_per_mm = dish.width() / 260.0;
     DishRaster raster;
-    if (!load_dish_raster(view.picture.frame(), box, px_per_mm, {}, raster_.workspace, raster)) return;
+    if (!load_dish_raster(view.picture.frame(), box, px_per_mm, {}, *raster_, raster)) return;
     std::vector<std::uint8_t> cells(static_cast<std::size_t>(raster.width()) *
                                     static_cast<std::size_t>(raster.height()));
     const ImageView<std::uint8_t> owners{cells.data(), raster.width(), raster.height()};
@@ -69,7 +48,7 @@ class Borders {
         owners.at(x, y) = is_item(label_at(labels, raster, x, y)) ? kFood : 0;
     }
     const ItemSplitParams params;
-    const PartedFood food = part_food(raster, reading, kFood, params, split_.workspace, owners);
+    const PartedFood food = part_food(raster, reading, kFood, params, *split_, owners);
     join(name, labels, raster, food);
   }
 
@@ -95,7 +74,7 @@ class Borders {
     };
     for (bool is_joined = true; is_joined;) {
       is_joined = false;
-      for (const PartBorder& border : measure_borders(food.parts, split_.workspace.joining)) {
+      for (const PartBorder& border : measure_borders(food.parts, (*split_).joining)) {
         const bool is_one = true_item(border.first) == true_item(border.second);
         const PartSigns signs = signs_of(food.parts, border);
         std::printf("%s,%d,%d,%.4f,%.4f\n", name.c_str(), is_one ? 1 : 0,
@@ -111,9 +90,9 @@ class Borders {
 
   AlignedBlock block_;
   NetworkRunner runner_;
-  Allocated<PictureReadingStorage> storage_{food_network()};
-  Allocated<DishRasterWorkspace> raster_{DishRasterParams{}};
-  Allocated<ItemSplitWorkspace> split_{ItemSplitParams{}};
+  bench::OwnedWorkspace<PictureReadingStorage> storage_{food_network()};
+  bench::OwnedWorkspace<DishRasterWorkspace> raster_{DishRasterParams{}};
+  bench::OwnedWorkspace<ItemSplitWorkspace> split_{ItemSplitParams{}};
 };
 
 }  // namespace

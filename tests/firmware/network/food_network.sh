@@ -29,7 +29,19 @@ cp "$capture/view_0.jpg" "$folder/network/food.tgn"
 expect foreign 2 'a file of another kind'
 cp "$network" "$folder/network/food.tgn"
 expect whole 0 '^items *2'
+# Away from the folders that come with it, the program says what it lacks, and evaluate does so before it measures.
+cp "$program" "$folder/alone"
+unset TRAYGAUGE_CONFIG
+program=$folder/alone
+rm -r "$folder/network"
+expect "without its folders" 2 'expected the folder with network/'
+found=0
+"$program" evaluate "$capture" --labels given --out "$folder/out" >"$folder/said" 2>&1 || found=$?
+if [ "$found" != 2 ] || ! grep -q 'expected the folder with plots/' "$folder/said" || [ -e "$folder/out/estimates.csv" ]; then
+  echo "evaluate without plots/: status $found and:"
+  cat "$folder/said"
+  status=1
+fi
 # Labels that are given need none.
-rm "$folder/network/food.tgn"
 "$program" measure "$capture" --labels given >"$folder/said" 2>&1 || { cat "$folder/said"; status=1; }
 exit "$status"

@@ -15,6 +15,7 @@
 #include "tests/firmware/web/echo_handler.hpp"
 #include "tests/firmware/web/server_thread.hpp"
 #include "tests/firmware/web/web_client.hpp"
+#include "tests/support/becomes_true.hpp"
 
 namespace traygauge::test {
 namespace {
@@ -46,14 +47,6 @@ double resident_kib() {
     if (word == "VmRSS:" && file >> kib) return kib;
   }
   return 0;
-}
-
-// Waits up to ten seconds for it: a busy machine gets there late.
-template <class Condition>
-bool comes_true(const Condition& condition) {
-  const auto end = Clock::now() + seconds(10);
-  while (!condition() && Clock::now() < end) std::this_thread::sleep_for(milliseconds(10));
-  return condition();
 }
 
 // Sends byte by byte until the server has had enough; how long that took.
@@ -102,8 +95,8 @@ TEST(WebLimits, ClosesWhoDoesNotReadTheAnswer) {
     WebClient deaf(server.port());
     ASSERT_TRUE(deaf.send("GET " + std::string(target) + " HTTP/1.1\r\nHost: localhost\r\n\r\n"));
     ++overdue;
-    EXPECT_TRUE(comes_true([&] { return server.counts().overdue == overdue; })) << target;
-    EXPECT_TRUE(comes_true([&] { return server.counts().open == 0; })) << target;
+    EXPECT_TRUE(becomes_true([&] { return server.counts().overdue == overdue; })) << target;
+    EXPECT_TRUE(becomes_true([&] { return server.counts().open == 0; })) << target;
   }
 }
 
@@ -119,7 +112,7 @@ TEST(WebLimits, ClosesWhoReadsTooSlowly) {
     ::recv(slow.descriptor(), block.data(), block.size(), MSG_DONTWAIT);
     return server.counts().overdue == 1;
   };
-  EXPECT_TRUE(comes_true(reads_and_is_closed));
+  EXPECT_TRUE(becomes_true(reads_and_is_closed));
 }
 
 TEST(WebLimits, ServesOthersMeanwhile) {
@@ -148,7 +141,7 @@ TEST(WebLimits, OnePeerHasSoManyConnections) {
   EXPECT_TRUE(WebClient(server.port()).is_closed_within(seconds(2)));
   EXPECT_EQ(server.counts().refused_peers, 1U);
   clients.pop_back();
-  EXPECT_TRUE(comes_true([&] { return server.counts().open == 2; }));
+  EXPECT_TRUE(becomes_true([&] { return server.counts().open == 2; }));
   EXPECT_EQ(WebClient(server.port()).ask("GET", "/")->status, 200);
 }
 

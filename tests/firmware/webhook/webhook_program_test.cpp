@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <functional>
 #include <random>
 #include <string>
 #include <thread>
@@ -15,17 +14,13 @@
 #include "tests/firmware/webhook/hub_program.hpp"
 #include "tests/firmware/webhook/receiver.hpp"
 #include "tests/firmware/webhook/tls_receiver.hpp"
+#include "tests/support/becomes_true.hpp"
 #include "tests/support/random_seed.hpp"
 
 namespace traygauge::test {
 namespace {
 
 using std::chrono::milliseconds;
-
-bool becomes_true(const std::function<bool()>& condition) {
-  for (int i = 0; i < 1000 && !condition(); ++i) std::this_thread::sleep_for(milliseconds(10));
-  return condition();
-}
 
 TEST(WebhookProgram, SpeaksTlsUnderItsFilter) {
   const MemoryFolder folder;
