@@ -1,8 +1,8 @@
 // Many hubs, a broker and a collector that are killed again and again: everything is stored, once.
 //
 // TRAYGAUGE_FLEET_STATIONS and TRAYGAUGE_FLEET_RESULTS say how many hubs, and how many results each; 20 and
-// 30 where they do not. TRAYGAUGE_FLEET_WAITING: how many wait already while the broker was away, 1,000; a
-// site of 2,000 trays a day has 60,000 after 30 days.
+// 30 where they do not. TRAYGAUGE_FLEET_WAITING: how many wait already when the broker comes, 1,000.
+// TRAYGAUGE_FLEET_DAYS: how many simulated days the broker is away, 1.
 #include <gtest/gtest.h>
 
 #include <iostream>
@@ -60,6 +60,41 @@ TEST(FleetStorm, EverythingIsStoredOnceWhateverIsKilled) {
   std::cout << hubs << " hubs with " << results << " results each stored in " << took.count()
             << " s, published " << storm.published() << " times; collector " << collector_kib
             << " KiB, broker " << broker_kib << " KiB" << std::endl;
+}
+
+// A day of a hub, with 2,000 results, passes in some seconds, and the longest wait for the broker is shorter
+// in proportion.
+TEST(FleetStorm, ABrokerThatIsAwayForDaysLosesNothing) {
+  TRAYGAUGE_NEED_BROKER();
+  constexpr int kHubs = 3;
+  constexpr int kResultsOfADay = 2000;
+  constexpr int kResultsOfAnHour = 83;
+  constexpr milliseconds kHour{100};
+  const int days = count_of("TRAYGAUGE_FLEET_DAYS", 1);
+  const int results = days * kResultsOfADay;
+  BrokerProcess broker;
+  CollectorProgram collector(lines_of(broker));
+  FleetLimits limits = storm_limits();
+  limits.broker.shortest_wait = milliseconds(1);
+  limits.broker.longest_wait =
+      FleetLimits().broker.longest_wait / (milliseconds(std::chrono::hours(1)) / kHour);
+  Storm storm({config_of(broker)}, kHubs, limits);
+  storm.put_all(1);
+  ASSERT_TRUE(storm.drain(std::chrono::seconds(20))) << collector.log();
+  broker.kill();
+  for (int number = 2; number <= results; ++number) {
+    storm.put_all(static_cast<std::uint64_t>(number));
+    if (number % kResultsOfAnHour == 0) storm.run_for(kHour);
+  }
+  EXPECT_EQ(storm.waiting(), std::int64_t{kHubs} * (results - 1));
+  broker.start();
+  const auto begin = SteadyClock::now();
+  EXPECT_TRUE(storm.drain(std::chrono::seconds(60 + days * 20))) << storm.waiting() << collector.log();
+  const std::chrono::duration<double> took = SteadyClock::now() - begin;
+  EXPECT_EQ(collector.end(SIGTERM), 0) << collector.log();
+  expect_each_once(collector.store(), kHubs, results);
+  std::cout << days << " days: " << kHubs << " hubs with " << results << " results each stored in "
+            << took.count() << " s" << std::endl;
 }
 
 // Everything waits already: how fast it drains.

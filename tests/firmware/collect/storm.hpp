@@ -59,9 +59,21 @@ class CollectorProgram {
   LoggedProcess process_{folder_.path() / "log"};
 };
 
+// What takes minutes in a canteen takes seconds here.
+inline FleetLimits storm_limits() {
+  FleetLimits limits;
+  limits.broker.longest_wait = std::chrono::milliseconds(2000);
+  limits.receipt_within = std::chrono::milliseconds(5000);
+  limits.longest_wait = std::chrono::milliseconds(4000);
+  limits.shortest_postponement = std::chrono::milliseconds(1000);
+  limits.longest_postponement = std::chrono::milliseconds(4000);
+  return limits;
+}
+
 // A hub without its sockets and pages: a store and what tells it to the fleet.
 struct SimulatedHub {
-  SimulatedHub(const std::filesystem::path& folder, const std::string& name, const BrokerConfig& broker) {
+  SimulatedHub(const std::filesystem::path& folder, const std::string& name, const BrokerConfig& broker,
+               const FleetLimits& limits) {
     HubStoreParams params;
     params.options.file = folder / (name + ".db");
     params.options.destinations = {kFleetDestination};
@@ -71,12 +83,6 @@ struct SimulatedHub {
     FleetConfig config;
     config.broker = broker;
     config.name = name;
-    FleetLimits limits;
-    limits.broker.longest_wait = std::chrono::milliseconds(2000);
-    limits.receipt_within = std::chrono::milliseconds(5000);
-    limits.longest_wait = std::chrono::milliseconds(4000);
-    limits.shortest_postponement = std::chrono::milliseconds(1000);
-    limits.longest_postponement = std::chrono::milliseconds(4000);
     auto started = Fleet::start(
         config, *store, [] { return std::string("{}"); }, limits);
     if (!started.ok()) throw std::runtime_error(started.failure());
@@ -95,11 +101,11 @@ struct SimulatedHub {
 class Storm {
  public:
   // `brokers`: a hub at each in turn.
-  Storm(const std::vector<BrokerConfig>& brokers, int hubs) {
+  Storm(const std::vector<BrokerConfig>& brokers, int hubs, const FleetLimits& limits = storm_limits()) {
     for (int i = 0; i < hubs; ++i) {
       names_.push_back("canteen-" + std::to_string(i));
       const BrokerConfig& broker = brokers[static_cast<std::size_t>(i) % brokers.size()];
-      hubs_.push_back(std::make_unique<SimulatedHub>(folder_.path(), names_.back(), broker));
+      hubs_.push_back(std::make_unique<SimulatedHub>(folder_.path(), names_.back(), broker, limits));
     }
   }
   void put_all(std::uint64_t number) {
