@@ -6,7 +6,8 @@
 # make test-debian13: builds and tests in a Debian 13, whatever this machine is.
 # make soak: the long runs of station and hub: power cuts, kills, fuzzing, trays in a row; two to three hours. Sizes: SOAK_….
 # make package: Debian packages for this machine's release, in build-package; BOARD=arm64 cross-builds them.
-# make package-debian13: the same in a Debian 13. make package-test: packages of both releases, each tried in a fresh system.
+# make package-debian13: the same in a Debian 13. make package-test: packages of both releases, each tried in a fresh system. With
+# BOARD=arm64 these are cross-built and tried under emulation.
 # make train: renders, trains and writes the network for food (simulator/training/README.md); up to three hours.
 # make lint | format | sanitize: further checks; lint takes a quarter of an hour. CI=true adds to `make test` clang-tidy on what
 # the last commit changed, the sanitizers, ARM, and the drivers on a real kernel.
@@ -183,12 +184,12 @@ package: packages $(if $(filter arm64,$(BOARD)),arm-sysroot)
 package-debian13: packages
 	config/install_packages.sh tests/debian13/packages.txt
 	OPTIONS='$(OPTIONS)' COMMIT="$$(git describe --always --exclude='*' --abbrev=12 --dirty=+changes)" \
-	  SOURCE_DATE_EPOCH=$(SOURCE_DATE_EPOCH) tests/package/package_debian13.sh build-debian13 build-package/debian13
+	  SOURCE_DATE_EPOCH=$(SOURCE_DATE_EPOCH) tests/package/package_debian13.sh build-debian13 $(BOARD) build-package/debian13-$(BOARD)
 
 package-test: package package-debian13
 	config/install_packages.sh tests/package/packages.txt
-	tests/package/test_packages.sh build-package/roots bookworm build-package/amd64/packages
-	tests/package/test_packages.sh build-package/roots trixie build-package/debian13
+	tests/package/test_packages.sh build-package/roots bookworm $(BOARD) $(package_build)/packages
+	tests/package/test_packages.sh build-package/roots trixie $(BOARD) build-package/debian13-$(BOARD)
 
 # Each part is a target of its own; a failure ends it. Fuzzing runs beside the others; it is built with clang, sanitizers on,
 # and goes on from the corpora of the last run in build-fuzz/fuzz.

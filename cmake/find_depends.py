@@ -11,12 +11,18 @@ import re
 import subprocess
 import sys
 
-PROGRAMS = {
-    "TRAYGAUGE": ["traygauge", "traygauge-calibrate", "traygauge-card", "traygauge-hub", "traygauge-station"],
-    "SIMULATOR": ["traygauge-simulate"],
-}
+SIMULATOR = ["traygauge-simulate"]
 # What CPack is told beside, see package.cmake.
 FURTHER = {"TRAYGAUGE": ["systemd | systemd-standalone-sysusers"], "SIMULATOR": ["traygauge (= {version})"]}
+
+
+def programs_of(build):
+    """Those of each package: what is built for it, so that none is forgotten."""
+    built = sorted(file.name for file in build.glob("traygauge*") if file.is_file() and file.read_bytes()[:4] == b"\x7fELF")
+    missing = set(SIMULATOR + ["traygauge"]) - set(built)
+    if missing:
+        raise SystemExit(f"find_depends.py: {build} lacks {', '.join(sorted(missing))}; build them first")
+    return {"TRAYGAUGE": [name for name in built if name not in SIMULATOR], "SIMULATOR": SIMULATOR}
 
 
 def run(*command):
@@ -84,7 +90,7 @@ def main():
     architecture = run("dpkg", "--print-architecture").strip()
     multiarch = run("dpkg-architecture", "--query", "DEB_HOST_MULTIARCH").strip()
     lines = []
-    for component, programs in PROGRAMS.items():
+    for component, programs in programs_of(build).items():
         least = {}
         for program in programs:
             used = used_symbols(build / program)

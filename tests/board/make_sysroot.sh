@@ -16,7 +16,7 @@ for name in lib bin sbin; do ln -s "usr/$name" "$folder/$name"; done
   'APT::Architecture "arm64"; APT::Architectures { "arm64"; }; APT::Install-Recommends "false";'
 echo "sysroot: package lists and packages" >&2
 apt-get -qq update
-apt-get install -y -qq -d libc6-dev libstdc++-12-dev $wanted >/dev/null
+apt-get install -y -qq -d libc6-dev "libstdc++-$(aarch64-linux-gnu-g++ -dumpversion)-dev" $wanted >/dev/null
 echo "sysroot: unpacking" >&2
 for package in "$apt"/cache/archives/*.deb; do
   dpkg-deb --fsys-tarfile "$package" | tar -x --keep-directory-symlink -C "$folder" --exclude=./usr/share/doc \

@@ -38,6 +38,7 @@ mount -t proc proc "$root/proc"
 mount -t devpts -o newinstance,ptmxmode=0666 devpts "$root/dev/pts"
 mount -t tmpfs tmpfs "$root/dev/shm"
 mount -t tmpfs tmpfs "$root/tmp"
+cp /etc/resolv.conf "$root/etc/resolv.conf" 2>/dev/null || true
 
 jobs=${JOBS:-$(nproc)}
 if [ $# = 0 ]; then

@@ -39,6 +39,10 @@ every_file() {
     -o -path /var/cache -o -path /var/lib/apt -o -path /var/lib/dpkg -o -name '*-' -path '/etc/*' -o -path /etc/.pwd.lock \
     -o -path /usr/local/bin/systemctl \) -prune -o -printf '%y %m %u %p\n' | sort
 }
+# By the files in its memory: under emulation /proc/PID/exe is the emulator. Names lead astray where a file has two.
+hub_is_of() {
+  awk -v inode="$(stat -c %i "$1/traygauge-hub")" '$5 == inode { found = 1 } END { exit !found }' "/proc/$hub/maps"
+}
 in_use() { [ "$(readlink "$active")" = "$1" ]; }
 # By the line of its unit that systemd would start.
 start_hub() {
@@ -61,9 +65,11 @@ measure_one() { # through the hub, by the programs that the units start
     --devices simulator:/usr/share/traygauge/self-check --scans 1 --hub "$data/hub/hub" --keep "$data/hub/waiting" --name kitchen
 }
 
-begin "lintian"
-expect "lintian finds nothing" lintian --fail-on error,warning --allow-root /packages/first.deb /packages/simulator.deb
-cat "$log"
+if command -v lintian >/dev/null; then
+  begin "lintian"
+  expect "lintian finds nothing" lintian --fail-on error,warning --allow-root /packages/first.deb /packages/simulator.deb
+  cat "$log"
+fi
 
 begin "a fresh system with what the packages depend on"
 apt-get update >>"$log" 2>&1 || bad "apt-get update"
@@ -95,9 +101,11 @@ sed -n '/^traygauge [0-9]/,$p' "$log"
 traygauge measure /usr/share/traygauge/demo/fish_and_potatoes >/tmp/measured || bad "measure"
 cat /tmp/measured
 expect "the demo plays two trays" env DEMO_SCANS=2 traygauge-demo
+expect "the station measures its volumes as ever" /packages/demo_volumes.sh "$active/traygauge-station" \
+  /usr/share/traygauge/demo /packages/demo_volumes.txt
 expect "the renderer knows its sets" traygauge-simulate list
 expect "traygauge card makes a card" traygauge card --out /tmp
-expect "traygauge calibrate is there" traygauge calibrate --help
+for program in "$programs"/traygauge*; do expect "${program##*/} finds its libraries" "$program" --help; done
 expect_not "the station file lacks what only the site knows" traygauge self-check "$station"
 expect "nothing else is wrong" grep -q '^FAIL  configuration: .*lens' "$log"
 expect "and it says so alone" sh -c "[ \$(grep -c '^FAIL' $log) = 1 ]"
@@ -126,7 +134,7 @@ expect_not "the installation fails" install /packages/no_hub.deb
 expect "it says what failed" grep -q 'fails here what the previous one passes: hub' "$log"
 expect "and what to do" grep -q 'dpkg --configure traygauge' "$log"
 expect "the old hub still runs" kill -0 "$hub"
-expect "by the old program" test "/proc/$hub/exe" -ef "$previous/traygauge-hub"
+expect "by the old program" hub_is_of "$previous"
 expect "the old programs are in use" in_use previous
 expect_not "no unit was restarted" grep restart.*traygauge "$asked"
 expect "the old programs pass their self-check" "$active/traygauge" self-check "$station"
@@ -134,7 +142,7 @@ expect "a tray is measured and stored" measure_one
 kill "$hub"
 wait "$hub" || true
 start_hub
-expect "after a boot the old hub starts" test "/proc/$hub/exe" -ef "$previous/traygauge-hub"
+expect "after a boot the old hub starts" hub_is_of "$previous"
 expect "with its page" test -f "$previous/page/index.html"
 expect_not "another attempt fails as well" dpkg --configure traygauge
 expect "the old programs are in use" in_use previous
@@ -151,7 +159,7 @@ expect "the old hub runs until systemd restarts it" kill -0 "$hub"
 kill "$hub"
 wait "$hub" || true
 start_hub
-expect "the new hub takes the store over" test "/proc/$hub/exe" -ef "$programs/traygauge-hub"
+expect "the new hub takes the store over" hub_is_of "$programs"
 expect "a tray is measured and stored" measure_one
 
 begin "upgrades of which others do not work"
@@ -226,4 +234,4 @@ expect "and the configuration" grep -q '^traygauge: deleting /etc/traygauge: ' "
 every_file >/tmp/after
 diff /tmp/before /tmp/after >>"$log" 2>&1 || bad "files are as before"
 good "files are as before"
-echo "all passed on $RELEASE"
+echo "all passed on $RELEASE $(dpkg --print-architecture)"

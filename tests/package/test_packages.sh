@@ -1,7 +1,7 @@
 #!/bin/sh
-# Tries packages in a fresh Debian: test_packages.sh FOLDER RELEASE PACKAGES. RELEASE is bookworm or trixie, PACKAGES the folder with
-# both of its packages; FOLDER keeps a fresh system of each release (make_base.sh) and what a test left in FOLDER/RELEASE.tried.
-# Inside, inside.sh does it. Needs to be root, with mounts of its own.
+# Tries packages in a fresh Debian: test_packages.sh FOLDER RELEASE ARCH PACKAGES. RELEASE is bookworm or trixie, ARCH amd64 or arm64,
+# which is emulated, PACKAGES the folder with both packages; FOLDER keeps a fresh system of each (make_base.sh) and what a test left
+# in FOLDER/RELEASE-ARCH.tried. Inside, inside.sh does it. Needs to be root, with mounts of its own.
 set -eu
 here=$(cd "$(dirname "$0")" && pwd)
 if [ "$(id -u)" != 0 ]; then
@@ -13,17 +13,25 @@ if [ -z "${TRAYGAUGE_UNSHARED:-}" ]; then
   TRAYGAUGE_UNSHARED=1 exec unshare --mount --pid --fork --kill-child "$0" "$@"
 fi
 release=$2
-package=$(ls "$3"/traygauge_*.deb)
-simulator=$(ls "$3"/traygauge-simulator_*.deb)
-"$here/make_base.sh" "$1" "$release"
+arch=$3
+package=$(ls "$4"/traygauge_*.deb)
+simulator=$(ls "$4"/traygauge-simulator_*.deb)
+# The kernel starts programs of the other architecture by the emulator as long as these mounts last. Flag F: it is opened now, so
+# that it need not be in the new root.
+if [ "$arch" = arm64 ] && [ "$(dpkg --print-architecture)" != arm64 ]; then
+  [ -e /proc/sys/fs/binfmt_misc/register ] || mount -t binfmt_misc binfmt_misc /proc/sys/fs/binfmt_misc
+  [ -e /proc/sys/fs/binfmt_misc/qemu-aarch64 ] || cat /usr/lib/binfmt.d/qemu-aarch64.conf >/proc/sys/fs/binfmt_misc/register
+  lintian --fail-on error,warning --allow-root "$package" "$simulator"
+fi
+"$here/make_base.sh" "$1" "$release" "$arch"
 folder=$(realpath "$1")
-root=$folder/$release.tried
+root=$folder/$release-$arch.tried
 rm -rf "$root"
-cp -a "$folder/$release" "$root"
+cp -a "$folder/$release-$arch" "$root"
 mkdir -p "$root/packages"
 cp "$package" "$root/packages/first.deb"
 cp "$simulator" "$root/packages/simulator.deb"
-cp "$here"/*.sh "$here/../support/write_station.sh" "$root/packages"
+cp "$here"/*.sh "$here/demo_volumes.txt" "$here/../support/write_station.sh" "$root/packages"
 cp "$here/../../simulator/demo/fish_and_potatoes/card.png" "$root/packages"
 
 # Later versions: a good one, three that cannot take over, one that dpkg refuses, and one whose hub takes every store.
