@@ -2,7 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <random>
+#include <span>
+
 #include "tests/firmware/store/memory_folder.hpp"
+#include "tests/support/random_seed.hpp"
 
 namespace traygauge::test {
 namespace {
@@ -65,6 +70,40 @@ TEST(SqliteStore, KeepsEachIdOnceAndTwinsBeside) {
   batch = (*store)->put(events({other_time}), 3);
   EXPECT_EQ(batch->repeated, 1U) << "a twin that came again is no news";
   EXPECT_EQ(*(*store)->count(), 2);
+}
+
+// As brokers deliver after a failure: in any order, some of them several times, and the collector is started
+// again in between.
+TEST(SqliteStore, TakesEventsInAnyOrderAnyNumberOfTimes) {
+  const MemoryFolder folder;
+  std::mt19937 random(random_seed());
+  constexpr std::size_t kEvents = 300;
+  std::vector<CollectedEvent> deliveries;
+  for (std::size_t i = 0; i < kEvents; ++i) {
+    const auto event = read_event("traygauge", message("kitchen-" + std::to_string(i)));
+    deliveries.insert(deliveries.end(), 1 + random() % 4, *event);
+  }
+  std::shuffle(deliveries.begin(), deliveries.end(), random);
+  StoredBatch sum;
+  std::span<const CollectedEvent> left = deliveries;
+  while (!left.empty()) {
+    auto store = SqliteStore::open(folder.path() / "r.db");
+    ASSERT_TRUE(store.ok()) << store.failure();
+    for (int batches = 0; batches < 10 && !left.empty(); ++batches) {
+      const std::size_t count = std::min<std::size_t>(left.size(), 1 + random() % 32);
+      const auto batch = (*store)->put(left.first(count), 1);
+      ASSERT_TRUE(batch.ok()) << batch.failure();
+      sum.stored += batch->stored;
+      sum.repeated += batch->repeated;
+      EXPECT_TRUE(batch->twins.empty());
+      left = left.subspan(count);
+    }
+  }
+  EXPECT_EQ(sum.stored, kEvents);
+  EXPECT_EQ(sum.repeated, deliveries.size() - kEvents);
+  auto store = SqliteStore::open(folder.path() / "r.db");
+  ASSERT_TRUE(store.ok()) << store.failure();
+  EXPECT_EQ(*(*store)->count(), std::int64_t{kEvents});
 }
 
 }  // namespace
