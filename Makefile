@@ -87,6 +87,7 @@ endif
 # Accepts what is measured now as golden numbers: review the diff.
 golden: check-captures build-all
 	TRAYGAUGE_GOLDEN_UPDATE=1 build/tests/golden/golden_test
+	TRAYGAUGE_GOLDEN_UPDATE=1 tests/package/demo_volumes.sh build/traygauge-station simulator/demo tests/package/demo_volumes.txt
 
 # Benchmarks are tests with the label bench: they print figures and run alone.
 bench: build-all
