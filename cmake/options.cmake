@@ -18,7 +18,7 @@ add_library(traygauge_options INTERFACE)
 target_compile_options(traygauge_options INTERFACE
   -Wall -Wextra -Wconversion -Wsign-conversion -Wshadow -Wnon-virtual-dtor -Wold-style-cast
   $<$<BOOL:${TRAYGAUGE_WERROR}>:-Werror>
-  -ffp-contract=off)  # the compiler fuses no multiply and add: processors differ by what Eigen's own ARM code fuses
+  -ffp-contract=off)  # no fused multiply-add, so that processors differ less: Eigen's own code for ARM still has some
 if(CMAKE_CXX_COMPILER_ID STREQUAL GNU AND CMAKE_CXX_COMPILER_VERSION VERSION_GREATER_EQUAL 14
     AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 15)
   # Debian 13's GCC 14.2 takes stores for dead that a called function reads: five_point_test then compares with matrices that were

@@ -11,10 +11,8 @@ build_a=$1
 build_b=$2
 shift 2
 
-# label, volume and status of each item, one a line, from the document's "items"
-list_volumes() {
-  ${3:-} "$1/traygauge" measure "$2" --json --seed 1 | tr -d ' \n' | sed 's/.*"items":\[\([^]]*\)\].*/\1/' |
-    tr '}' '\n' | sed -n 's/.*"label":\([0-9]*\).*"volume_ml":\([0-9.eE+-]*\).*/\1 \2/p'
+list_volumes() { # BUILD CAPTURE EMULATOR
+  ${3:-} "$1/traygauge" measure "$2" --json --seed 1 | "$(dirname "$0")/../support/item_volumes.sh"
 }
 
 work=$(mktemp -d)

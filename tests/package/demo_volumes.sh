@@ -13,8 +13,7 @@ for outlines in given auto; do
   scans=$("$program" station --devices "simulator:$demo" --scans 2 --labels "$outlines" --json)
   echo "$scans" | while read -r scan; do
     tray=$(echo "$scan" | sed 's/.*"tray":"\([^"]*\)".*/\1/')
-    echo "$scan" | sed 's/.*"items":\[\([^]]*\)\].*/\1/' | tr '}' '\n' |
-      sed -n 's/.*"label":\([0-9]*\),.*"volume_ml":\([0-9.]*\),.*/\1 \2/p' |
+    echo "$scan" | "$(dirname "$0")/../support/item_volumes.sh" |
       while read -r label volume_ml; do printf '%s %s %s %.4f\n' "$outlines" "$tray" "$label" "$volume_ml"; done
   done
 done >"$measured"

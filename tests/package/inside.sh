@@ -39,7 +39,8 @@ every_file() {
     -o -path /var/cache -o -path /var/lib/apt -o -path /var/lib/dpkg -o -name '*-' -path '/etc/*' -o -path /etc/.pwd.lock \
     -o -path /usr/local/bin/systemctl \) -prune -o -printf '%y %m %u %p\n' | sort
 }
-# By the files in its memory: under emulation /proc/PID/exe is the emulator. Names lead astray where a file has two.
+# Whether the running hub was started from the program in that folder. Under emulation /proc/PID/exe is the emulator, so its maps are
+# read; by inode, because programs and previous are hard links of the same file.
 hub_is_of() {
   awk -v inode="$(stat -c %i "$1/traygauge-hub")" '$5 == inode { found = 1 } END { exit !found }' "/proc/$hub/maps"
 }
@@ -65,7 +66,7 @@ measure_one() { # through the hub, by the programs that the units start
     --devices simulator:/usr/share/traygauge/self-check --scans 1 --hub "$data/hub/hub" --keep "$data/hub/waiting" --name kitchen
 }
 
-if command -v lintian >/dev/null; then
+if [ "$IS_EMULATED" = no ]; then # else lintian has run outside
   begin "lintian"
   expect "lintian finds nothing" lintian --fail-on error,warning --allow-root /packages/first.deb /packages/simulator.deb
   cat "$log"
@@ -118,7 +119,7 @@ mkdir -p "$data/hub/waiting"
 chown traygauge-hub:traygauge "$data/hub"
 chown traygauge-station:traygauge "$data/hub/waiting"
 chmod 750 "$data/hub"
-/packages/write_station.sh "$station" "$data/hub"
+/support/write_station.sh "$station" "$data/hub"
 cp /packages/card.png /etc/traygauge
 echo 'aaaaaaaaaaaaaaaaaaaaaaaa ann' >/etc/traygauge/view.tokens
 chmod 600 /etc/traygauge/view.tokens

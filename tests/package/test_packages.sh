@@ -18,9 +18,11 @@ package=$(ls "$4"/traygauge_*.deb)
 simulator=$(ls "$4"/traygauge-simulator_*.deb)
 # The kernel starts programs of the other architecture by the emulator as long as these mounts last. Flag F: it is opened now, so
 # that it need not be in the new root.
+is_emulated=no
 if [ "$arch" = arm64 ] && [ "$(dpkg --print-architecture)" != arm64 ]; then
   [ -e /proc/sys/fs/binfmt_misc/register ] || mount -t binfmt_misc binfmt_misc /proc/sys/fs/binfmt_misc
   [ -e /proc/sys/fs/binfmt_misc/qemu-aarch64 ] || cat /usr/lib/binfmt.d/qemu-aarch64.conf >/proc/sys/fs/binfmt_misc/register
+  is_emulated=yes
   lintian --fail-on error,warning --allow-root "$package" "$simulator"
 fi
 "$here/make_base.sh" "$1" "$release" "$arch"
@@ -28,10 +30,11 @@ folder=$(realpath "$1")
 root=$folder/$release-$arch.tried
 rm -rf "$root"
 cp -a "$folder/$release-$arch" "$root"
-mkdir -p "$root/packages"
+mkdir -p "$root/packages" "$root/support"
 cp "$package" "$root/packages/first.deb"
 cp "$simulator" "$root/packages/simulator.deb"
-cp "$here"/*.sh "$here/demo_volumes.txt" "$here/../support/write_station.sh" "$root/packages"
+cp "$here"/*.sh "$here/demo_volumes.txt" "$root/packages"
+cp "$here"/../support/*.sh "$root/support"
 cp "$here/../../simulator/demo/fish_and_potatoes/card.png" "$root/packages"
 
 # Later versions: a good one, three that cannot take over, one that dpkg refuses, and one whose hub takes every store.
@@ -57,4 +60,4 @@ cp /etc/resolv.conf "$root/etc/resolv.conf" 2>/dev/null || true
 cd /
 # Not exec: as the first process of its own it would not be ended by signals.
 chroot "$root" env -i HOME=/tmp PATH=/usr/local/sbin:/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin LC_ALL=C.UTF-8 \
-  DEBIAN_FRONTEND=noninteractive RELEASE="$release" sh /packages/inside.sh
+  DEBIAN_FRONTEND=noninteractive RELEASE="$release" IS_EMULATED="$is_emulated" sh /packages/inside.sh
