@@ -5,9 +5,12 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <chrono>
 #include <csignal>
+#include <cstdint>
 #include <fstream>
 #include <iterator>
+#include <thread>
 
 namespace traygauge::test {
 namespace {
@@ -51,6 +54,14 @@ int LoggedProcess::end(int signal) {
   return status;
 }
 
+int LoggedProcess::stop() {
+  constexpr std::chrono::seconds kLongestStart{20};
+  const auto end_of_wait = std::chrono::steady_clock::now() + kLongestStart;
+  while (!handles(SIGTERM) && std::chrono::steady_clock::now() < end_of_wait)
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  return end(SIGTERM);
+}
+
 std::string LoggedProcess::log() const {
   std::ifstream stream(log_);
   return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
@@ -63,6 +74,15 @@ long LoggedProcess::status_kib(const std::string& key) const {
     if (word == key && status >> kib) return kib;
   }
   return 0;
+}
+
+bool LoggedProcess::handles(int signal) const {
+  std::ifstream status("/proc/" + std::to_string(id_) + "/status");
+  for (std::string word; status >> word;) {
+    std::uint64_t caught = 0;
+    if (word == "SigCgt:" && status >> std::hex >> caught) return ((caught >> (signal - 1)) & 1U) != 0;
+  }
+  return false;
 }
 
 }  // namespace traygauge::test

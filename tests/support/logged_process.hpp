@@ -21,6 +21,8 @@ class LoggedProcess {
   void start(std::vector<std::string> arguments, std::vector<std::string> environment = {});
   // Waits for the end; the status as waitpid() has it, 0 where nothing runs.
   int end(int signal);
+  // Ends it by SIGTERM once it handles that, which a program does not from its first moment.
+  int stop();
 
   std::string log() const;
   // KiB, now and at most since the start; 0 where nothing runs.
@@ -29,6 +31,7 @@ class LoggedProcess {
 
  private:
   long status_kib(const std::string& key) const;
+  bool handles(int signal) const;
 
   std::filesystem::path log_;
   pid_t id_ = 0;

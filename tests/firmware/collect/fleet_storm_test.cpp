@@ -54,12 +54,22 @@ TEST(FleetStorm, EverythingIsStoredOnceWhateverIsKilled) {
   const std::chrono::duration<double> took = SteadyClock::now() - begin;
   const long collector_kib = collector.peak_kib();
   const long broker_kib = broker.resident_kib();
-  EXPECT_EQ(collector.end(SIGTERM), 0) << collector.log();
+  EXPECT_EQ(collector.stop(), 0) << collector.log();
 
   expect_each_once(collector.store(), hubs, results);
   std::cout << hubs << " hubs with " << results << " results each stored in " << took.count()
             << " s, published " << storm.published() << " times; collector " << collector_kib
             << " KiB, broker " << broker_kib << " KiB" << std::endl;
+}
+
+TEST(FleetStorm, ACollectorEndsInOrderRightAfterItsStart) {
+  TRAYGAUGE_NEED_BROKER();
+  const BrokerProcess broker;
+  CollectorProgram collector(lines_of(broker));
+  for (int start = 0; start < 20; ++start) {
+    ASSERT_EQ(collector.stop(), 0) << collector.log();
+    collector.start();
+  }
 }
 
 // A day of a hub, with 2,000 results, passes in some seconds, and the longest wait for the broker is shorter
@@ -91,7 +101,7 @@ TEST(FleetStorm, ABrokerThatIsAwayForDaysLosesNothing) {
   const auto begin = SteadyClock::now();
   EXPECT_TRUE(storm.drain(std::chrono::seconds(60 + days * 20))) << storm.waiting() << collector.log();
   const std::chrono::duration<double> took = SteadyClock::now() - begin;
-  EXPECT_EQ(collector.end(SIGTERM), 0) << collector.log();
+  EXPECT_EQ(collector.stop(), 0) << collector.log();
   expect_each_once(collector.store(), kHubs, results);
   std::cout << days << " days: " << kHubs << " hubs with " << results << " results each stored in "
             << took.count() << " s" << std::endl;

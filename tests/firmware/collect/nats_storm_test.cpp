@@ -44,7 +44,7 @@ TEST(NatsStorm, EverythingIsStoredOnceWhicheverNodeIsKilled) {
   EXPECT_TRUE(storm.drain(std::chrono::seconds(180))) << storm.waiting() << collector.log();
   const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
   const long collector_kib = collector.peak_kib();
-  EXPECT_EQ(collector.end(SIGTERM), 0) << collector.log();
+  EXPECT_EQ(collector.stop(), 0) << collector.log();
   expect_each_once(collector.store(), hubs, results);
   std::cout << hubs << " hubs with " << results << " results each stored in " << took.count()
             << " s, published " << storm.published() << " times; collector " << collector_kib

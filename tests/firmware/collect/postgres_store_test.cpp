@@ -198,8 +198,8 @@ TEST(PostgresStorm, EverythingIsStoredOnceWhateverIsKilled) {
     }
   }
   EXPECT_TRUE(storm.drain(std::chrono::seconds(120))) << storm.waiting() << first.log() << second.log();
-  EXPECT_EQ(first.end(SIGTERM), 0) << first.log();
-  EXPECT_EQ(second.end(SIGTERM), 0) << second.log();
+  EXPECT_EQ(first.stop(), 0) << first.log();
+  EXPECT_EQ(second.stop(), 0) << second.log();
   EXPECT_EQ(postgres.value_of("SELECT count(*) FROM events"), std::to_string(kHubs * kResults));
   EXPECT_EQ(postgres.value_of("SELECT count(*) FROM twins"), "0");
 }

@@ -48,6 +48,7 @@ class CollectorProgram {
 
   void start() { process_.start({TRAYGAUGE_COLLECT, "collect", config()}); }
   int end(int signal) { return process_.end(signal); }
+  int stop() { return process_.stop(); }
   long peak_kib() const { return process_.peak_kib(); }
   std::string log() const { return process_.log(); }
   std::filesystem::path store() const { return folder_.path() / "collected.db"; }
