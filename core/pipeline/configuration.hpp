@@ -33,7 +33,8 @@ struct PipelineParams {
   // Above the tallest sparse point on a dish the surface is searched this much higher: corners sit on edges
   // and texture, not on every summit.
   double summit_margin_mm = 20.0;
-  // No search ends below this height over a dish's bottom, however few points there are on the food.
+  // No search ends below this height over a dish's bottom, however few points there are on the food, and
+  // however low its outlines lie.
   double min_top_mm = 40.0;
   // Of a dish's outlines on the rim found, or on the wall below it; fewer: the outlines are of another
   // picture. Right ones reach 0.93 and more, those of a view 5 degrees off 0.63 to 0.80.

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/stereo/median.hpp"
+#include "core/stereo/outline_height.hpp"
 #include "core/stereo/symmetric_census.hpp"
 #include "core/stereo/view_slope.hpp"
 
@@ -300,16 +301,25 @@ Status run_dense_stereo(const std::array<StoredView, 2>& views, const LabelTable
                         double bottom_height_mm, double top_height_mm, const DenseStereoParams& params,
                         DenseStereoWorkspace& workspace, std::array<SurfaceGrid, 2>& grids,
                         DenseStereoReport& report) {
-  const double highest_mm = std::clamp(top_height_mm - bottom_height_mm, 5.0, params.highest_mm);
   PlaneRectification grid;
   DisparityRange range;
-  const Status built =
-      build_grid(views, kept, bottom_height_mm, highest_mm, params, workspace.rows, grid, range);
-  if (!built.ok()) return built;
-  report = {grid.rows(), grid.columns(), grid.column_step_mm(), range, {}};
+  std::array<View, 2>& sampled = workspace.views;
   assert(params.levels >= 1 && params.levels <= kMaxSurfaceLevels);
+  const auto sample_up_to = [&](double highest_mm) {
+    const Status built =
+        build_grid(views, kept, bottom_height_mm, highest_mm, params, workspace.rows, grid, range);
+    if (!built.ok()) return built;
+    for (std::size_t v = 0; v < 2; ++v) sample_view(grid, views[v], kept, params.levels, sampled[v]);
+    return built;
+  };
+  const double highest_mm = std::clamp(top_height_mm - bottom_height_mm, 5.0, params.highest_mm);
+  Status status = sample_up_to(highest_mm);
+  if (!status.ok()) return status;
+  const double by_outlines_mm = height_by_outlines_mm(grid, {sampled[0].labels[0], sampled[1].labels[0]});
+  if (by_outlines_mm > highest_mm) status = sample_up_to(std::min(by_outlines_mm, params.highest_mm));
+  if (!status.ok()) return status;
+  report = {grid.rows(), grid.columns(), grid.column_step_mm(), range, {}};
 
-  for (std::size_t v = 0; v < 2; ++v) sample_view(grid, views[v], kept, params.levels, workspace.views[v]);
   for (int level = params.levels - 1; level >= 0; --level) {
     match_level(workspace, static_cast<std::size_t>(level), range, level == params.levels - 1, params);
     if (level > 0) filter_level(workspace, static_cast<std::size_t>(level));

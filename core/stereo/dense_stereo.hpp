@@ -28,7 +28,7 @@ struct DenseStereoParams {
   int levels = kMaxSurfaceLevels;  // or fewer; the coarsest searches all heights, finer ones a band of
                                    // kBandLanes disparities about the level before
   double min_height_mm = -2.0;     // below the bottom: the pose's error, and the table beside the dish
-  double highest_mm = 90.0;        // no food is higher above the bottom
+  double highest_mm = 150.0;       // above the bottom; what is higher comes out low
   SgmParams sgm;
   OcclusionParams gaps;
   SubpixelRefinementParams refinement;
@@ -103,8 +103,9 @@ struct DenseStereoReport {
   std::array<double, 2> confirmed{};  // share of the dish's samples that either view matched the same way
 };
 
-// The grids live in `workspace` until the next call. `bottom_height_mm` is the dish's bottom, `top_height_mm`
-// what nothing on it exceeds (the tallest sparse track and a margin), both above the table.
+// The grids live in `workspace` until the next call. `bottom_height_mm` is the dish's bottom; heights are
+// searched up to `top_height_mm` (the tallest sparse track and a margin), or further where the items'
+// outlines reach higher. Both are above the table.
 Status run_dense_stereo(const std::array<StoredView, 2>& views, const LabelTable& kept,
                         double bottom_height_mm, double top_height_mm, const DenseStereoParams& params,
                         DenseStereoWorkspace& workspace, std::array<SurfaceGrid, 2>& grids,

@@ -31,9 +31,10 @@ struct PointTrackingParams {
   // Corners looked for at most: time grows with them, errors fall with their root.
   int max_corners = 1200;
 
-  // Heights over the table that are searched. Below it lie a tray's foot and the error of a card's pose.
+  // Heights over the table that are searched. Below it lie a tray's foot and the error of a card's pose. What
+  // stands higher is told by its outlines (height_by_outlines_mm).
   double min_height_mm = -5.0;
-  double max_height_mm = 80.0;
+  double max_height_mm = 110.0;
   // One warp serves so much height: at 400 mm the patch grows by 5% over it.
   double band_height_mm = 20.0;
 

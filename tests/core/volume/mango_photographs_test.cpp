@@ -9,7 +9,6 @@
 #include <cmath>
 #include <cstdio>
 #include <numbers>
-#include <opencv2/aruco.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <string>
@@ -20,6 +19,7 @@
 #include "core/volume/round_body.hpp"
 #include "tests/core/stereo/capture_scene.hpp"
 #include "tests/core/volume/height_measurement.hpp"
+#include "tests/support/marker_card.hpp"
 #include "tests/support/sparse_stages.hpp"
 
 namespace traygauge {
@@ -38,40 +38,10 @@ constexpr double kDishRadiusMm = 85.0;
 const Vec3 kDishOnPage(93.0, -141.0, 0.0);
 
 // Four markers of the page's upper right corner, where it lies flattest, and half of the gaps around them.
-constexpr int kMarkersAcrossPage = 5;
 constexpr int kFirstMarker = 3;
-constexpr int kBlockSide = 2;
-constexpr double kPitchMm = 40.0;
-constexpr double kMarkerMm = 33.0;
-constexpr double kCardMm = kBlockSide * kPitchMm;
-const Vec3 kCardOnPage(kFirstMarker* kPitchMm - 0.5 * (kPitchMm - kMarkerMm), 0.5 * (kPitchMm - kMarkerMm),
-                       0.0);
-
-// OpenCV renamed it in 4.7.
-void draw_marker(const auto& dictionary, int id, int side_px, cv::Mat& marker) {
-#if CV_VERSION_MAJOR > 4 || CV_VERSION_MINOR >= 7
-  cv::aruco::generateImageMarker(dictionary, id, side_px, marker);
-#else
-  cv::aruco::drawMarker(dictionary, id, side_px, marker);
-#endif
-}
-
-cv::Mat1b draw_card() {
-  constexpr int kPxPerMm = 12;
-  constexpr int kPitchPx = 40 * kPxPerMm;
-  constexpr int kMarkerPx = 33 * kPxPerMm;
-  constexpr int kGapPx = (kPitchPx - kMarkerPx) / 2;
-  const auto dictionary = cv::aruco::getPredefinedDictionary(cv::aruco::DICT_7X7_1000);
-  cv::Mat1b print(kBlockSide * kPitchPx, kBlockSide * kPitchPx, std::uint8_t{255});
-  for (int row = 0; row < kBlockSide; ++row) {
-    for (int column = 0; column < kBlockSide; ++column) {
-      cv::Mat marker;
-      draw_marker(dictionary, kMarkersAcrossPage * row + kFirstMarker + column, kMarkerPx, marker);
-      marker.copyTo(print({column * kPitchPx + kGapPx, row * kPitchPx + kGapPx, kMarkerPx, kMarkerPx}));
-    }
-  }
-  return print;
-}
+constexpr double kCardMm = test::kCardSideMarkers * test::kMarkerPitchMm;
+constexpr double kHalfGapMm = 0.5 * (test::kMarkerPitchMm - test::kMarkerSideMm);
+const Vec3 kCardOnPage(kFirstMarker* test::kMarkerPitchMm - kHalfGapMm, kHalfGapMm, 0.0);
 
 struct PagePair {
   std::string first;
@@ -216,9 +186,9 @@ TEST_F(Mango, ColumnVolumeWithPosesFromMarkersAndTracks) {
   Allocated<CardPattern> pattern(params.pattern);
   Allocated<CardAlignmentWorkspace> alignment_space(params);
   test::SparseStages stages;
+  const cv::Mat1b card = test::draw_marker_card(0, kFirstMarker);
   ASSERT_TRUE(
-      prepare_card_pattern(test::view_of(draw_card()), {kCardMm, kCardMm, 0.0}, params.pattern, *pattern)
-          .ok());
+      prepare_card_pattern(test::view_of(card), {kCardMm, kCardMm, 0.0}, params.pattern, *pattern).ok());
   std::vector<double> column_ml;
   std::vector<double> turn_deg;
   std::size_t refused = 0;
