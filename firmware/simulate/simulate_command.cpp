@@ -37,6 +37,7 @@ struct RenderOptions {
   int samples = RenderSettings().samples;
   int pairs = 0;  // of each scene; 0: all
   bool is_reduced = false;
+  bool is_quick = false;
   std::string config;  // of a plan's dish
   CaptureExtras extras;
 };
@@ -46,11 +47,19 @@ bool is_set(const std::string& name) {
   return std::any_of(sets.begin(), sets.end(), [&](const SceneSet& set) { return set.name == name; });
 }
 
+SetSize size_of(const RenderOptions& options) {
+  if (options.is_quick) return SetSize::quick;
+  return options.is_reduced ? SetSize::reduced : SetSize::full;
+}
+
 std::vector<SceneDescription> find_scenes(const RenderOptions& options) {
   std::vector<SceneDescription> scenes;
   if (is_set(options.what)) {
-    scenes = make_scenes(options.what, options.seed, options.is_reduced);
+    scenes = make_scenes(options.what, options.seed, size_of(options));
   } else if (std::filesystem::path(options.what).extension() == ".toml") {
+    if (options.is_quick)
+      throw UsageError("--quick: expected a set (see traygauge-simulate list), found the scene " +
+                       options.what + ", whose own camera says how large its pictures are");
     scenes.push_back(read_scene_file(options.what));
   } else {
     throw UsageError(options.what +
@@ -69,7 +78,7 @@ std::vector<SceneDescription> find_scenes(const RenderOptions& options) {
 
 int render_scenes(std::vector<SceneDescription> scenes, const RenderOptions& options, std::ostream& out,
                   std::ostream& error) {
-  RenderSettings settings;
+  RenderSettings settings = options.is_quick ? quick_settings() : RenderSettings();
   settings.samples = options.samples;
   settings.threads = options.jobs;
   const std::filesystem::path folder = options.out;
@@ -117,20 +126,23 @@ int run_list(std::ostream& out) {
   return kExitMeasured;
 }
 
-// Of whatever is rendered.
-void add_render_options(Command& command, RenderOptions& options, const std::string& seed,
-                        const std::string& reduced) {
+// Of whatever is rendered; returns --reduced.
+CommandOption add_render_options(Command& command, RenderOptions& options, const std::string& seed,
+                                 const std::string& reduced) {
   command.add_option("--out", options.out, "folder of the captures; complete ones in it are kept").required();
   command.add_option("--seed", options.seed, seed);
   command.add_option("--jobs", options.jobs, "threads; 0: one a core").range(0, 256);
   command.add_option("--samples", options.samples, "rays a pixel").range(8, 4096);
-  command.add_flag("--reduced", options.is_reduced, reduced);
+  return command.add_flag("--reduced", options.is_reduced, reduced);
 }
 
 void add_render(Program& program, RenderOptions& options) {
   Command command = program.add_command("render", "Render a set, or one scene, into capture folders.");
   command.add_option("what", options.what, "a set (see list) or a scene as .toml").required();
-  add_render_options(command, options, "of the set's scenes", "a few scenes of the set, in small pictures");
+  const CommandOption reduced = add_render_options(command, options, "of the set's scenes",
+                                                   "a few scenes of the set, in small pictures");
+  command.add_flag("--quick", options.is_quick, "all scenes of the set in pictures of 320 x 240, to train on")
+      .excludes(reduced);
   command.add_option("--only", options.only, "the one scene of this name");
   command.add_option("--pairs", options.pairs, "of each scene, the first N; 0: all").range(0, 1000);
   command.add_flag("--kinds", options.extras.has_kinds,

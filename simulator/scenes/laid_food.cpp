@@ -20,8 +20,7 @@
 namespace traygauge {
 namespace {
 
-constexpr double kStepMm = 0.3;        // of the grid that is meshed
-constexpr double kCheckStepMm = 0.21;  // of the other, which is summed
+constexpr double kCheckStepFraction = 0.7;  // of the meshed grid's step: of the one that is summed
 constexpr double kMlPerMm3 = 1e-3;
 constexpr double kColumnStepMm = 0.2;
 constexpr double kSharedStepMm = 0.5;
@@ -84,22 +83,24 @@ HeightField paint(const Order& order, const DishShell& shell, double step_mm) {
   return field;
 }
 
-// Each food on both grids, that which is meshed and that which is summed; each gives way to earlier ones.
+// Each food on both grids, that of `step_mm`, which is meshed, and the finer one, which is summed; each gives
+// way to earlier ones.
 struct PaintedFoods {
   std::vector<HeightField> meshed;
   std::vector<HeightField> summed;
 };
 
-PaintedFoods paint_all(const std::vector<Order>& orders, const DishShell& shell, int threads) {
+PaintedFoods paint_all(const std::vector<Order>& orders, const DishShell& shell, double step_mm,
+                       int threads) {
   PaintedFoods painted;
   painted.meshed.resize(orders.size());
   painted.summed.resize(orders.size());
   share_work(2 * static_cast<int>(orders.size()), threads, {}, [&](int number) {
     const auto i = static_cast<std::size_t>(number / 2);
     if (number % 2 == 0)
-      painted.summed[i] = paint(orders[i], shell, kCheckStepMm);  // the longer work first
+      painted.summed[i] = paint(orders[i], shell, kCheckStepFraction * step_mm);  // the longer work first
     else
-      painted.meshed[i] = paint(orders[i], shell, kStepMm);
+      painted.meshed[i] = paint(orders[i], shell, step_mm);
   });
   for (std::vector<HeightField>* fields : {&painted.meshed, &painted.summed}) {
     for (std::size_t i = 1; i < fields->size(); ++i)
@@ -234,7 +235,7 @@ std::vector<ServedFood> serve_foods(const SceneDescription& scene, int dish, con
     served.push_back(std::move(solid));
     served.back().name = food.name;
   }
-  PaintedFoods painted = paint_all(orders, shell, threads);
+  PaintedFoods painted = paint_all(orders, shell, scene.food_step_mm, threads);
   const std::size_t solids = served.size();
   served.resize(solids + orders.size());
   share_work(static_cast<int>(orders.size()), threads, {}, [&](int number) {

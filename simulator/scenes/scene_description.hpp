@@ -132,6 +132,7 @@ struct SceneDescription {
   std::uint64_t seed = 1;  // of the renderer's and the sensor's noise
   std::vector<LaidDish> dishes;
   std::vector<LaidFood> foods;
+  double food_step_mm = 0.3;  // of the grid that foods are painted on and meshed from
   LaidCard card;
   Table table;
   std::optional<Tray> tray;

@@ -147,9 +147,11 @@ class Digest {
 
 std::string digest_of(const SceneDescription& scene, const RenderSettings& settings) {
   Digest digest;
-  const auto& [name, origin, seed, dishes, foods, card, table, tray, utensils, lamps, ambient, photography,
-               views, pairs] = scene;
+  const auto& [name, origin, seed, dishes, foods, food_step_mm, card, table, tray, utensils, lamps, ambient,
+               photography, views, pairs] = scene;
   digest.add(seed, dishes, foods, card, table, tray, utensils, lamps, ambient, photography, views, pairs);
+  // Captures on the usual grid keep the digest that they have.
+  if (food_step_mm != SceneDescription().food_step_mm) digest.add(food_step_mm);
   const auto& [samples, edge_samples, calm_spread, indirect_samples, penumbra_samples, bounces,
                indirect_filter_px, threads, settings_seed, view] = settings;
   digest.add(samples, edge_samples, calm_spread, indirect_samples, penumbra_samples, bounces,

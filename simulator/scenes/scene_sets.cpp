@@ -6,6 +6,7 @@
 #include <string>
 
 #include "simulator/scenes/draws.hpp"
+#include "simulator/scenes/scene_menu.hpp"
 #include "simulator/scenes/scene_parts.hpp"
 #include "simulator/scenes/scene_views.hpp"
 #include "simulator/scenes/tray_layout.hpp"
@@ -26,41 +27,6 @@ constexpr auto kSets = std::to_array<SceneSet>({
 
 constexpr double kPhoneFocalPx = 1400.0;  // 60 degrees across: the phones of the paper
 constexpr double kWideFocalPx = 1225.0;   // 66 degrees: a whole tray from 60 cm
-
-// Deals foods like cards: each kind comes up once before any comes up again.
-class Menu {
- public:
-  Menu(Draws& draws, std::initializer_list<FoodGroup> groups, FoodServing serving) : draws_(draws) {
-    for (const FoodKind& kind : food_kinds()) {
-      if (kind.serving != serving) continue;
-      if (std::find(groups.begin(), groups.end(), kind.group) != groups.end()) kinds_.push_back(&kind);
-    }
-    next_ = kinds_.size();
-  }
-
-  const FoodKind* deal() {
-    if (next_ == kinds_.size()) {
-      draws_.shuffle(std::span<const FoodKind*>(kinds_));
-      next_ = 0;
-    }
-    return kinds_[next_++];
-  }
-
-  // All different.
-  std::vector<const FoodKind*> deal(std::size_t count) {
-    std::vector<const FoodKind*> hand;
-    while (hand.size() < count) {
-      const FoodKind* kind = deal();
-      if (std::find(hand.begin(), hand.end(), kind) == hand.end()) hand.push_back(kind);
-    }
-    return hand;
-  }
-
- private:
-  Draws& draws_;
-  std::vector<const FoodKind*> kinds_;
-  std::size_t next_ = 0;
-};
 
 std::string numbered(const char* letter, std::size_t number) {
   return std::string(letter) + (number < 10 ? "0" : "") + std::to_string(number);
@@ -270,19 +236,44 @@ std::vector<SceneDescription> make_spoilt_cards(std::uint64_t seed) {
   });
 }
 
-// A quarter of the pixels.
-void halve(CameraDescription& camera) {
-  camera.size = {camera.size.width / 2, camera.size.height / 2};
-  camera.fx_px *= 0.5;
-  camera.fy_px *= 0.5;
-  camera.cx_px = 0.5 * (camera.cx_px + 0.5) - 0.5;
-  camera.cy_px = 0.5 * (camera.cy_px + 0.5) - 0.5;
+// One pixel for a square of `factor` x `factor`.
+void shrink(CameraDescription& camera, int factor) {
+  const double scale = 1.0 / factor;
+  camera.size = {camera.size.width / factor, camera.size.height / factor};
+  camera.fx_px *= scale;
+  camera.fy_px *= scale;
+  camera.cx_px = scale * (camera.cx_px + 0.5) - 0.5;
+  camera.cy_px = scale * (camera.cy_px + 0.5) - 0.5;
 }
 
 // The first scenes, spread over what varies in the set.
 void reduce(std::vector<SceneDescription>& scenes, std::size_t count) {
   scenes.resize(std::min(count, scenes.size()));
-  for (SceneDescription& scene : scenes) halve(scene.photography.camera);
+  for (SceneDescription& scene : scenes) shrink(scene.photography.camera, 2);
+}
+
+// The small picture is to look like a large one that was reduced: a pixel holds the electrons of all that it
+// stands for, and what compression does to the large one hardly shows.
+void make_quick(SceneDescription& scene) {
+  constexpr int kFactor = 5;
+  PhotographySettings& photography = scene.photography;
+  shrink(photography.camera, kFactor);
+  photography.full_well_electrons *= kFactor * kFactor;
+  photography.read_noise_electrons *= kFactor;
+  photography.jpeg_quality = 98;
+  scene.food_step_mm = 0.6;  // pixels show 1.5 mm and more
+}
+
+constexpr std::string_view size_note(SetSize size) {
+  switch (size) {
+    case SetSize::full:
+      return "";
+    case SetSize::reduced:
+      return ", reduced";
+    case SetSize::quick:
+      return ", quick";
+  }
+  return "";
 }
 
 }  // namespace
@@ -291,7 +282,7 @@ std::span<const SceneSet> scene_sets() {
   return kSets;
 }
 
-std::vector<SceneDescription> make_scenes(std::string_view set, std::uint64_t seed, bool is_reduced) {
+std::vector<SceneDescription> make_scenes(std::string_view set, std::uint64_t seed, SetSize size) {
   std::vector<SceneDescription> scenes;
   std::size_t reduced_count = 1;
   if (set == "meals-45") {
@@ -318,10 +309,24 @@ std::vector<SceneDescription> make_scenes(std::string_view set, std::uint64_t se
   } else {
     throw std::invalid_argument("no set is called " + std::string(set));
   }
-  if (is_reduced) reduce(scenes, reduced_count);
-  for (SceneDescription& scene : scenes)
-    scene.origin = std::string(set) + ", seed " + std::to_string(seed) + (is_reduced ? ", reduced" : "");
+  if (size == SetSize::reduced) reduce(scenes, reduced_count);
+  for (SceneDescription& scene : scenes) {
+    if (size == SetSize::quick) make_quick(scene);
+    scene.origin = std::string(set) + ", seed " + std::to_string(seed) + std::string(size_note(size));
+  }
   return scenes;
+}
+
+RenderSettings quick_settings() {
+  RenderSettings settings;
+  settings.samples = 8;
+  settings.edge_samples = 8;
+  settings.calm_spread = 0.15F;
+  settings.indirect_samples = 2;
+  settings.penumbra_samples = 2;
+  settings.bounces = 1;
+  settings.indirect_filter_px = 4.0F;
+  return settings;
 }
 
 }  // namespace traygauge

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "simulator/render/render_settings.hpp"
 #include "simulator/scenes/scene_description.hpp"
 
 namespace traygauge {
@@ -17,8 +18,16 @@ struct SceneSet {
 
 std::span<const SceneSet> scene_sets();
 
-// Reduced: a few scenes of the set, pictures of a quarter of the size, for continuous integration. Throws
-// std::invalid_argument for a set that does not exist.
-std::vector<SceneDescription> make_scenes(std::string_view set, std::uint64_t seed, bool is_reduced);
+enum class SetSize : std::uint8_t {
+  full,
+  reduced,  // a few scenes of the set, pictures of a quarter of the size, for continuous integration
+  quick,    // all scenes, pictures of 320 x 240, foods on a coarser grid: for networks that take no more
+};
+
+// Throws std::invalid_argument for a set that does not exist.
+std::vector<SceneDescription> make_scenes(std::string_view set, std::uint64_t seed, SetSize size);
+
+// As few rays as pictures of SetSize::quick need to look sound.
+RenderSettings quick_settings();
 
 }  // namespace traygauge

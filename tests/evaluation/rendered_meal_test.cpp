@@ -24,7 +24,7 @@ constexpr std::size_t kAllTrue = kStageVariants - 1;
 
 // The first two views of one of a set's reduced scenes.
 void render_pair(const char* set, const char* name, const std::filesystem::path& folder) {
-  for (SceneDescription& scene : make_scenes(set, 1, true)) {
+  for (SceneDescription& scene : make_scenes(set, 1, SetSize::reduced)) {
     if (scene.name != name) continue;
     scene.views.resize(2);
     scene.pairs = {{0, 1}};

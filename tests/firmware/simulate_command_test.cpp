@@ -50,6 +50,8 @@ TEST(SimulateCommand, TellsWhatIsWrong) {
       {{"render", "meals-45"}, "--out"},
       {{"render", "meals-45", "--out", out, "--only", "m99"}, "m99"},
       {{"render", "meals-45", "--out", out, "--samples", "1"}, "--samples"},
+      {{"render", "meals-45", "--out", out, "--quick", "--reduced"}, "--quick"},
+      {{"render", example().string(), "--out", out, "--quick"}, "--quick"},
       {{"render", (folder.path() / "b.toml").string(), "--out", out}, "b.toml"},
       {{"render", (folder.path() / "a.toml").string(), "--out", out}, "sead"},
       {{"render", example().string(), "--out", (folder.path() / "file").string()}, "file"},

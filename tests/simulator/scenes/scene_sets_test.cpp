@@ -41,7 +41,7 @@ std::set<std::string> kinds_of(const std::vector<SceneDescription>& scenes) {
 
 // Paper, section IV-A.
 TEST(SceneSets, MealsAreAsManyAndSeenAsInThePaper) {
-  const auto scenes = make_scenes("meals-45", kSeed, false);
+  const auto scenes = make_scenes("meals-45", kSeed, SetSize::full);
   ASSERT_EQ(scenes.size(), 45U);
   std::size_t items = 0;
   std::size_t with_three = 0;
@@ -67,7 +67,7 @@ TEST(SceneSets, MealsAreAsManyAndSeenAsInThePaper) {
 }
 
 TEST(SceneSets, ArmTurnsInStepsOfFiveDegrees) {
-  const auto scenes = make_scenes("angles-13", kSeed, false);
+  const auto scenes = make_scenes("angles-13", kSeed, SetSize::full);
   ASSERT_EQ(scenes.size(), 13U);
   for (const SceneDescription& scene : scenes) {
     ASSERT_EQ(scene.pairs.size(), 7U);
@@ -85,7 +85,7 @@ TEST(SceneSets, ArmTurnsInStepsOfFiveDegrees) {
 }
 
 TEST(SceneSets, PlatesCarryTheSamePortions) {
-  const auto scenes = make_scenes("plates-18", kSeed, false);
+  const auto scenes = make_scenes("plates-18", kSeed, SetSize::full);
   ASSERT_EQ(scenes.size(), 18U);
   for (std::size_t meal = 0; meal < 6; ++meal) {
     std::set<std::string> styles;
@@ -101,13 +101,13 @@ TEST(SceneSets, PlatesCarryTheSamePortions) {
 }
 
 TEST(SceneSets, OtherMealsShareNoFoodAndNoTableWithTheRest) {
-  const auto other = make_scenes("meals-14", kSeed, false);
+  const auto other = make_scenes("meals-14", kSeed, SetSize::full);
   ASSERT_EQ(other.size(), 14U);
   std::set<SurfaceKind> tables;
   for (const SceneDescription& scene : other) tables.insert(scene.table.kind);
   const std::set<std::string> kinds = kinds_of(other);
   for (const char* name : {"meals-45", "angles-13", "plates-18", "trays-8", "moved-4"}) {
-    const auto scenes = make_scenes(name, kSeed, false);
+    const auto scenes = make_scenes(name, kSeed, SetSize::full);
     for (const std::string& kind : kinds_of(scenes))
       EXPECT_FALSE(kinds.contains(kind)) << kind << " in " << name;
     for (const SceneDescription& scene : scenes)
@@ -117,7 +117,7 @@ TEST(SceneSets, OtherMealsShareNoFoodAndNoTableWithTheRest) {
 
 TEST(SceneSets, TraysHoldTheirDishesApart) {
   for (const char* name : {"trays-8", "moved-4"}) {
-    for (const SceneDescription& scene : make_scenes(name, kSeed, false)) {
+    for (const SceneDescription& scene : make_scenes(name, kSeed, SetSize::full)) {
       EXPECT_GE(scene.dishes.size(), 2U);
       for (std::size_t i = 0; i < scene.dishes.size(); ++i) {
         for (std::size_t k = 0; k < i; ++k) {
@@ -138,7 +138,7 @@ TEST(SceneSets, TraysHoldTheirDishesApart) {
 }
 
 TEST(SceneSets, MovedTraysTurnUnderAStillCamera) {
-  for (const SceneDescription& scene : make_scenes("moved-4", kSeed, false)) {
+  for (const SceneDescription& scene : make_scenes("moved-4", kSeed, SetSize::full)) {
     ASSERT_EQ(scene.views.size(), 2U);
     EXPECT_DOUBLE_EQ(scene.views[0].azimuth_deg, scene.views[1].azimuth_deg);
     EXPECT_DOUBLE_EQ(scene.views[0].distance_mm, scene.views[1].distance_mm);
@@ -152,7 +152,7 @@ TEST(SceneSets, MovedTraysTurnUnderAStillCamera) {
 }
 
 TEST(SceneSets, SlipsMoveOneThingInTheSecondView) {
-  for (const SceneDescription& scene : make_scenes("slips-10", kSeed, false)) {
+  for (const SceneDescription& scene : make_scenes("slips-10", kSeed, SetSize::full)) {
     ASSERT_EQ(scene.pairs.size() + 1, scene.views.size());
     EXPECT_TRUE(scene.views[0].displaced.empty());
     EXPECT_TRUE(scene.views[1].displaced.empty());
@@ -177,7 +177,7 @@ TEST(SceneSets, SlipsMoveOneThingInTheSecondView) {
 TEST(SceneSets, SpoiltCardsLeanOrAreBent) {
   std::vector<double> leans_deg;
   std::vector<double> bends_mm;
-  for (SceneDescription& scene : make_scenes("cards-8", kSeed, false)) {
+  for (SceneDescription& scene : make_scenes("cards-8", kSeed, SetSize::full)) {
     const LaidCard card = scene.card;
     leans_deg.push_back(card.tilt_deg);
     bends_mm.push_back(card.curl_mm);
@@ -203,7 +203,7 @@ TEST(SceneSets, SpoiltCardsLeanOrAreBent) {
 
 // A dish takes its food along, a food moves alone; what is painted on them moves with them.
 TEST(SceneSets, WhatIsDisplacedKeepsItsLook) {
-  SceneDescription description = make_scenes("meals-45", kSeed, true).front();
+  SceneDescription description = make_scenes("meals-45", kSeed, SetSize::reduced).front();
   LaidScene laid(description, 1);
   Photograph still = description.views[0];
   const Scene before = laid.scene_of(still);
@@ -234,9 +234,9 @@ TEST(SceneSets, WhatIsDisplacedKeepsItsLook) {
 }
 
 TEST(SceneSets, SeedDecides) {
-  const auto first = make_scenes("trays-8", 5, false);
-  const auto again = make_scenes("trays-8", 5, false);
-  const auto other = make_scenes("trays-8", 6, false);
+  const auto first = make_scenes("trays-8", 5, SetSize::full);
+  const auto again = make_scenes("trays-8", 5, SetSize::full);
+  const auto other = make_scenes("trays-8", 6, SetSize::full);
   for (std::size_t i = 0; i < first.size(); ++i) {
     EXPECT_EQ(first[i].dishes[0].centre_mm, again[i].dishes[0].centre_mm);
     EXPECT_EQ(first[i].foods[0].seed, again[i].foods[0].seed);
@@ -246,11 +246,11 @@ TEST(SceneSets, SeedDecides) {
 
 TEST(SceneSets, FirstPairsAreSeenFromTheSameViews) {
   const auto first_of = [](std::string_view set, std::size_t pairs) {
-    SceneDescription scene = make_scenes(set, kSeed, false).front();
+    SceneDescription scene = make_scenes(set, kSeed, SetSize::full).front();
     keep_first_pairs(scene, pairs);
     return scene;
   };
-  const SceneDescription whole = make_scenes("meals-45", kSeed, false).front();
+  const SceneDescription whole = make_scenes("meals-45", kSeed, SetSize::full).front();
   const SceneDescription one = first_of("meals-45", 1);
   ASSERT_EQ(one.views.size(), 2U);
   EXPECT_EQ(one.pairs, (std::vector<std::array<int, 2>>{{0, 1}}));
@@ -262,15 +262,32 @@ TEST(SceneSets, FirstPairsAreSeenFromTheSameViews) {
 
 TEST(SceneSets, ReducedScenesSeeTheSameInSmallerPictures) {
   for (const SceneSet& set : scene_sets()) {
-    const auto full = make_scenes(set.name, kSeed, false);
-    const auto reduced = make_scenes(set.name, kSeed, true);
+    const auto full = make_scenes(set.name, kSeed, SetSize::full);
+    const auto reduced = make_scenes(set.name, kSeed, SetSize::reduced);
     ASSERT_FALSE(reduced.empty());
     EXPECT_LE(reduced.size(), 10U);
     EXPECT_EQ(reduced[0].photography.camera.size.width, 800);
     for (const Photograph& view : reduced[0].views) EXPECT_TRUE(is_all_in_picture(reduced[0], view));
     EXPECT_EQ(reduced[0].foods[0].seed, full[0].foods[0].seed);
   }
-  EXPECT_THROW(make_scenes("meals-46", kSeed, false), std::invalid_argument);
+  EXPECT_THROW(make_scenes("meals-46", kSeed, SetSize::full), std::invalid_argument);
+}
+
+TEST(SceneSets, QuickScenesSeeTheSameInPicturesOfAFifth) {
+  quick_settings().check();
+  for (const SceneSet& set : scene_sets()) {
+    const auto full = make_scenes(set.name, kSeed, SetSize::full);
+    const auto quick = make_scenes(set.name, kSeed, SetSize::quick);
+    ASSERT_EQ(quick.size(), full.size()) << set.name;
+    EXPECT_NE(quick[0].origin.find("quick"), std::string::npos);
+    const CameraDescription& camera = quick[0].photography.camera;
+    EXPECT_EQ(camera.size, (PictureSize{320, 240}));
+    const CameraDescription& usual = full[0].photography.camera;
+    EXPECT_NEAR(5.0 * (camera.cx_px + 0.5), usual.cx_px + 0.5, 1e-9);
+    EXPECT_NEAR(5.0 * (camera.cy_px + 0.5), usual.cy_px + 0.5, 1e-9);
+    EXPECT_NEAR(5.0 * camera.fx_px, usual.fx_px, 1e-9);
+    EXPECT_EQ(quick[0].foods[0].seed, full[0].foods[0].seed);
+  }
 }
 
 }  // namespace
