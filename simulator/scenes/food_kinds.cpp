@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <vector>
 
+#include "simulator/scenes/pale_food_kinds.hpp"
+
 namespace traygauge {
 namespace {
 
@@ -333,7 +335,12 @@ std::vector<FoodKind> make_kinds() {
 }  // namespace
 
 std::span<const FoodKind> food_kinds() {
-  static const std::vector<FoodKind> kinds = make_kinds();
+  static const std::vector<FoodKind> kinds = [] {
+    std::vector<FoodKind> all = make_kinds();
+    const auto pale = pale_food_kinds();
+    all.insert(all.end(), pale.begin(), pale.end());
+    return all;
+  }();
   return kinds;
 }
 

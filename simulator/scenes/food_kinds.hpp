@@ -29,7 +29,8 @@ struct FoodTexture {
 enum class FoodGroup : std::uint8_t {
   canteen,
   fast_food,
-  other,  // in meals-14 alone
+  other,     // in meals-14 alone
+  training,  // in training-24 alone
 };
 
 enum class FoodServing : std::uint8_t { solid, soup, dessert };

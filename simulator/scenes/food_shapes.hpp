@@ -55,6 +55,18 @@ void paint_pizza(FoodPainter& painter, Draws& draws, const FoodSize& size);
 void paint_cake(FoodPainter& painter, Draws& draws, const FoodSize& size);
 void paint_lasagne(FoodPainter& painter, Draws& draws, const FoodSize& size);
 
+// Smooth, most of them white.
+void paint_fried_egg(FoodPainter& painter, Draws& draws, const FoodSize& size);
+void paint_egg_halves(FoodPainter& painter, Draws& draws, const FoodSize& size);
+void paint_mozzarella_slices(FoodPainter& painter, Draws& draws, const FoodSize& size);
+void paint_mozzarella_ball(FoodPainter& painter, Draws& draws, const FoodSize& size);
+void paint_dumplings(FoodPainter& painter, Draws& draws, const FoodSize& size);
+void paint_cubes(FoodPainter& painter, Draws& draws, const FoodSize& size);
+void paint_smooth_heap(FoodPainter& painter, Draws& draws, const FoodSize& size);
+void paint_panna_cotta(FoodPainter& painter, Draws& draws, const FoodSize& size);
+void paint_asparagus(FoodPainter& painter, Draws& draws, const FoodSize& size);
+void paint_roll(FoodPainter& painter, Draws& draws, const FoodSize& size);
+
 // What stands out of a liquid, above its level; the liquid itself has texture 0.
 void paint_smooth_liquid(FoodPainter& painter, Draws& draws, const FoodSize& size);
 void paint_vegetable_soup(FoodPainter& painter, Draws& draws, const FoodSize& size);
