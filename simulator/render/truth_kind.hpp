@@ -14,6 +14,9 @@ enum class TruthKind : std::uint8_t {
   card,
   cutlery,
   napkin,
+  cup,    // or a glass, with what is in it
+  hand,   // with its arm and sleeve
+  other,  // a phone, keys, a packet
 };
 
 }  // namespace traygauge

@@ -10,6 +10,7 @@
 #include "simulator/scenes/mesh_tools.hpp"
 #include "simulator/scenes/scene_poses.hpp"
 #include "simulator/scenes/tableware.hpp"
+#include "simulator/scenes/things.hpp"
 
 namespace traygauge {
 namespace {
@@ -70,6 +71,7 @@ LaidScene::LaidScene(SceneDescription description, int threads) : description_(s
   add_card();
   add_tray();
   add_utensils();
+  add_things();
   on_tray_ = std::move(scene_.objects);
   scene_.ambient = description_.ambient.cast<float>();
 }
@@ -128,6 +130,12 @@ void LaidScene::add_utensils() {
     const Eigen::Vector3d at(utensil.centre_mm.x(), utensil.centre_mm.y(), utensil.base_mm + kClearanceMm);
     transform(object.mesh, placement(at, utensil.rotation_deg));
     scene_.objects.push_back(std::move(object));
+  }
+}
+
+void LaidScene::add_things() {
+  for (const Thing& thing : description_.things) {
+    for (SceneObject& object : objects_of(thing)) scene_.objects.push_back(std::move(object));
   }
 }
 

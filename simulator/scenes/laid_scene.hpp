@@ -34,6 +34,7 @@ class LaidScene {
   void add_card();
   void add_tray();
   void add_utensils();
+  void add_things();
   void add_room(const Eigen::Isometry3d& world_of_room);
   Eigen::Vector2d middle_of(std::uint8_t label) const;
   void displace(const Displacement& displacement);

@@ -81,6 +81,19 @@ struct Utensil {
   std::uint32_t srgb = 0xC8C8C8;
 };
 
+enum class ThingKind : std::uint8_t { cup, hand, phone, wallet, keys, packet, napkin_with_roll };
+
+// What lies about and is no dish: without a label, known by its TruthKind alone.
+struct Thing {
+  ThingKind kind = ThingKind::cup;
+  Eigen::Vector2d centre_mm = Eigen::Vector2d::Zero();
+  double rotation_deg = 0.0;
+  double base_mm = 0.0;  // height of what it lies on
+  std::uint32_t srgb = 0xC8C8C8;
+  std::uint32_t second_srgb = 0x404040;  // of its drink, sleeve, screen, print or napkin
+  std::uint64_t seed = 1;                // of its measures
+};
+
 // A rectangle that shines towards the table; edge_u and edge_v span it.
 struct Lamp {
   Eigen::Vector3d centre_mm = Eigen::Vector3d(0.0, 0.0, 1800.0);
@@ -137,6 +150,7 @@ struct SceneDescription {
   Table table;
   std::optional<Tray> tray;
   std::vector<Utensil> utensils;
+  std::vector<Thing> things;
   std::vector<Lamp> lamps;
   Eigen::Vector3d ambient = Eigen::Vector3d::Constant(0.25);
   PhotographySettings photography;

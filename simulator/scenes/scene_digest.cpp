@@ -68,8 +68,10 @@ class Digest {
     add(inset_mm, width_mm);
   }
   void write(const Glaze& glaze) {
-    const auto& [srgb, roughness, decoration_srgb, lines, speck_fraction] = glaze;
+    const auto& [srgb, roughness, decoration_srgb, lines, speck_fraction, pattern, finish] = glaze;
     add(srgb, roughness, decoration_srgb, lines, speck_fraction);
+    // Captures of plain glaze keep the digest that they have.
+    if (pattern != GlazePattern::none || finish != GlazeFinish::glazed) add(pattern, finish);
   }
   void write(const LaidDish& laid) {
     const auto& [dish, centre_mm, rotation_deg, glaze, seed] = laid;
@@ -109,6 +111,10 @@ class Digest {
     const auto& [kind, centre_mm, rotation_deg, base_mm, srgb] = utensil;
     add(kind, centre_mm, rotation_deg, base_mm, srgb);
   }
+  void write(const Thing& thing) {
+    const auto& [kind, centre_mm, rotation_deg, base_mm, srgb, second_srgb, seed] = thing;
+    add(kind, centre_mm, rotation_deg, base_mm, srgb, second_srgb, seed);
+  }
   void write(const Lamp& lamp) {
     const auto& [centre_mm, edge_u_mm, edge_v_mm, radiance] = lamp;
     add(centre_mm, edge_u_mm, edge_v_mm, radiance);
@@ -147,10 +153,11 @@ class Digest {
 
 std::string digest_of(const SceneDescription& scene, const RenderSettings& settings) {
   Digest digest;
-  const auto& [name, origin, seed, dishes, foods, food_step_mm, card, table, tray, utensils, lamps, ambient,
-               photography, views, pairs] = scene;
+  const auto& [name, origin, seed, dishes, foods, food_step_mm, card, table, tray, utensils, things, lamps,
+               ambient, photography, views, pairs] = scene;
   digest.add(seed, dishes, foods, card, table, tray, utensils, lamps, ambient, photography, views, pairs);
-  // Captures on the usual grid keep the digest that they have.
+  // Captures without things and on the usual grid keep the digest that they have.
+  if (!things.empty()) digest.add(things);
   if (food_step_mm != SceneDescription().food_step_mm) digest.add(food_step_mm);
   const auto& [samples, edge_samples, calm_spread, indirect_samples, penumbra_samples, bounces,
                indirect_filter_px, threads, settings_seed, view] = settings;

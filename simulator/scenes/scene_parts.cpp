@@ -205,16 +205,20 @@ void draw_lamps(SceneDescription& scene, Draws& draws) {
       scene.lamps.push_back(ceiling_lamp(x + 1500.0, y, height, 595.0, 595.0, 5.0 * colour));
       break;
   }
+  set_room(scene, colour, room_fraction * draws.between(0.8, 1.3), 0.85);
+}
+
+void set_room(SceneDescription& scene, const Eigen::Vector3d& colour, double fraction, double mended) {
   double irradiance = 0.0;
   for (const Lamp& lamp : scene.lamps) {
     const Eigen::Vector3d normal = lamp.edge_u_mm.cross(lamp.edge_v_mm);
     const Eigen::Vector3d to = lamp.centre_mm;
     irradiance += lamp.radiance.y() * std::abs(normal.dot(to)) * to.z() / std::pow(to.norm(), 4.0);
   }
-  scene.ambient = room_fraction * draws.between(0.8, 1.3) * irradiance / 3.14159 *
-                  Eigen::Vector3d(0.5 * (colour + Eigen::Vector3d::Ones()));
+  scene.ambient = fraction * irradiance / 3.14159 * Eigen::Vector3d(0.5 * (colour + Eigen::Vector3d::Ones()));
   for (Photograph& view : scene.views) {
-    view.white_balance = {std::pow(colour.y() / colour.x(), 0.85), std::pow(colour.y() / colour.z(), 0.85)};
+    view.white_balance = {std::pow(colour.y() / colour.x(), mended),
+                          std::pow(colour.y() / colour.z(), mended)};
   }
 }
 

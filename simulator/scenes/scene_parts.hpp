@@ -27,6 +27,10 @@ void draw_filling(SceneDescription& scene, Draws& draws, int dish, const FoodKin
 // Ceiling panels, tubes, a window or a pendant lamp; a phone's white balance mends most of their colour.
 void draw_lamps(SceneDescription& scene, Draws& draws);
 
+// The room's light, which the lamps leave and which is their colour: `fraction` of theirs at the table. And
+// the white balance of all views, which mends `mended` of the colour: from 0 to 1.
+void set_room(SceneDescription& scene, const Eigen::Vector3d& colour, double fraction, double mended);
+
 // A phone's camera.
 void draw_camera(SceneDescription& scene, Draws& draws, double focal_px);
 

@@ -9,6 +9,7 @@
 #include "simulator/scenes/scene_menu.hpp"
 #include "simulator/scenes/scene_parts.hpp"
 #include "simulator/scenes/scene_views.hpp"
+#include "simulator/scenes/training_set.hpp"
 #include "simulator/scenes/tray_layout.hpp"
 
 namespace traygauge {
@@ -23,6 +24,8 @@ constexpr auto kSets = std::to_array<SceneSet>({
     {"moved-4", "4 trays, each moved under a still camera"},
     {"slips-10", "10 meals and trays whose card, dish or food slips by 0.5 to 15 mm between two pictures"},
     {"cards-8", "8 meals whose card leans by 0.5 to 4 degrees, or is bent up by 1 to 8 mm at one edge"},
+    {"training-24",
+     "24 meals, small dishes and trays, four views each, to train on: pale foods, colours, hands, cups"},
 });
 
 constexpr double kPhoneFocalPx = 1400.0;  // 60 degrees across: the phones of the paper
@@ -306,6 +309,9 @@ std::vector<SceneDescription> make_scenes(std::string_view set, std::uint64_t se
   } else if (set == "cards-8") {
     scenes = make_spoilt_cards(seed);
     reduced_count = 8;
+  } else if (set == "training-24") {
+    scenes = make_training_scenes(seed);
+    reduced_count = 6;
   } else {
     throw std::invalid_argument("no set is called " + std::string(set));
   }

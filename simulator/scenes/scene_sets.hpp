@@ -1,4 +1,4 @@
-// The sets of scenes that stand for the paper's (section IV-A), and two of our own.
+// The sets of scenes that stand for the paper's (section IV-A), and some of our own.
 #pragma once
 
 #include <cstdint>

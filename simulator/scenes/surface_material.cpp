@@ -239,6 +239,12 @@ class GlazeMaterial : public Material {
     Reflectance reflectance;
     reflectance.roughness = glaze_.roughness;
     reflectance.base = base_ * (1.0F + 0.02F * fractal_noise(at / 25.0F, seed_, 3));
+    if (glaze_.finish == GlazeFinish::metal) {
+      reflectance.is_metal = true;
+      return reflectance;
+    }
+    if (glaze_.pattern != GlazePattern::none)
+      reflectance.base = blend(reflectance.base, decoration_, decoration_share(at));
     if (glaze_.speck_fraction > 0.0) {
       const NearestCell cell = nearest_cell(at / 2.6F, seed_ + 11U);
       const float radius = 0.06F + 0.12F * hash_fraction(cell.id * 0x27D4EB2FU);
@@ -256,6 +262,26 @@ class GlazeMaterial : public Material {
   }
 
  private:
+  float decoration_share(const Eigen::Vector3f& at) const {
+    const float far_mm = at.head<2>().norm();
+    switch (glaze_.pattern) {
+      case GlazePattern::dots: {
+        constexpr float kPitchMm = 11.0F;
+        const auto off = [](float mm) { return mm - kPitchMm * std::round(mm / kPitchMm); };
+        return std::hypot(off(at.x()), off(at.y())) < 2.4F ? 1.0F : 0.0F;
+      }
+      case GlazePattern::rays: {
+        const float petal = std::cos(12.0F * std::atan2(at.y(), at.x()));
+        return smooth_step(-0.1F, 0.1F, petal - 0.3F) * smooth_step(30.0F, 34.0F, far_mm);
+      }
+      case GlazePattern::clouds:
+        return smooth_step(-0.35F, 0.45F, fractal_noise(at / 38.0F, seed_ + 5U, 4));
+      case GlazePattern::none:
+        break;
+    }
+    return 0.0F;
+  }
+
   Glaze glaze_;
   DishShell shell_;
   Eigen::Isometry3f dish_from_world_;

@@ -33,12 +33,23 @@ struct RimLine {
   double width_mm = 0.0;
 };
 
+enum class GlazePattern : std::uint8_t {
+  none,
+  dots,
+  rays,    // petals about the middle
+  clouds,  // glazes that ran into each other
+};
+
+enum class GlazeFinish : std::uint8_t { glazed, metal };
+
 struct Glaze {
   std::uint32_t srgb = 0xE6E4DC;
   float roughness = 0.12F;
   std::uint32_t decoration_srgb = 0x2A3C78;
   std::vector<RimLine> lines;
   double speck_fraction = 0.0;  // of cells of stoneware that carry a speck
+  GlazePattern pattern = GlazePattern::none;
+  GlazeFinish finish = GlazeFinish::glazed;
 };
 
 std::shared_ptr<const Material> make_glaze(const Glaze& glaze, const DishShell& shell, std::uint64_t seed,

@@ -39,14 +39,6 @@ std::vector<Eigen::Vector2d> border(const Footprint& footprint) {
   return points;
 }
 
-bool is_on_tray(const Footprint& footprint, const Tray& tray) {
-  const Footprint floor{
-      {0.0, 0.0}, 0.0, 0.5 * tray.size_mm[0] - kLipMm, 0.5 * tray.size_mm[1] - kLipMm, false};
-  const std::vector<Eigen::Vector2d> points = border(footprint);
-  return std::all_of(points.begin(), points.end(),
-                     [&](const Eigen::Vector2d& at) { return contains(floor, at, 0.0); });
-}
-
 // Moves it to a free place; false when none is found.
 bool find_place(Footprint& footprint, const Tray& tray, const std::vector<Footprint>& taken,
                 double largest_turn_deg, Draws& draws) {
@@ -112,6 +104,14 @@ void lay_cutlery(SceneDescription& scene, const std::vector<Footprint>& taken, D
 }
 
 }  // namespace
+
+bool is_on_tray(const Footprint& footprint, const Tray& tray) {
+  const Footprint floor{
+      {0.0, 0.0}, 0.0, 0.5 * tray.size_mm[0] - kLipMm, 0.5 * tray.size_mm[1] - kLipMm, false};
+  const std::vector<Eigen::Vector2d> points = border(footprint);
+  return std::all_of(points.begin(), points.end(),
+                     [&](const Eigen::Vector2d& at) { return contains(floor, at, 0.0); });
+}
 
 bool overlap(const Footprint& a, const Footprint& b, double gap_mm) {
   const auto enters = [&](const Footprint& one, const Footprint& other) {

@@ -21,6 +21,9 @@ struct Footprint {
 // Closer than `gap_mm` to each other, or one in the other.
 bool overlap(const Footprint& a, const Footprint& b, double gap_mm);
 
+// On its flat floor.
+bool is_on_tray(const Footprint& footprint, const Tray& tray);
+
 // Gives the tray's dishes, card and, where there is room, napkin and cutlery their places. Throws
 // std::invalid_argument when dishes and card do not fit.
 void lay_out_tray(SceneDescription& scene, Draws& draws);

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "simulator/scenes/dish_shell.hpp"
+#include "simulator/scenes/food_kinds.hpp"
 #include "simulator/scenes/laid_scene.hpp"
 #include "simulator/scenes/mesh_tools.hpp"
 #include "simulator/scenes/scene_poses.hpp"
@@ -106,7 +107,7 @@ TEST(SceneSets, OtherMealsShareNoFoodAndNoTableWithTheRest) {
   std::set<SurfaceKind> tables;
   for (const SceneDescription& scene : other) tables.insert(scene.table.kind);
   const std::set<std::string> kinds = kinds_of(other);
-  for (const char* name : {"meals-45", "angles-13", "plates-18", "trays-8", "moved-4"}) {
+  for (const char* name : {"meals-45", "angles-13", "plates-18", "trays-8", "moved-4", "training-24"}) {
     const auto scenes = make_scenes(name, kSeed, SetSize::full);
     for (const std::string& kind : kinds_of(scenes))
       EXPECT_FALSE(kinds.contains(kind)) << kind << " in " << name;
@@ -267,10 +268,41 @@ TEST(SceneSets, ReducedScenesSeeTheSameInSmallerPictures) {
     ASSERT_FALSE(reduced.empty());
     EXPECT_LE(reduced.size(), 10U);
     EXPECT_EQ(reduced[0].photography.camera.size.width, 800);
-    for (const Photograph& view : reduced[0].views) EXPECT_TRUE(is_all_in_picture(reduced[0], view));
+    // The network has to know what lies half outside.
+    for (const Photograph& view : reduced[0].views)
+      EXPECT_TRUE(set.name == "training-24" || is_all_in_picture(reduced[0], view));
     EXPECT_EQ(reduced[0].foods[0].seed, full[0].foods[0].seed);
   }
   EXPECT_THROW(make_scenes("meals-46", kSeed, SetSize::full), std::invalid_argument);
+}
+
+TEST(SceneSets, TrainingScenesHoldWhatTheOthersLack) {
+  std::size_t foods = 0;
+  std::size_t pale = 0;
+  std::set<ThingKind> things;
+  std::set<std::uint32_t> glazes;
+  for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+    const auto scenes = make_scenes("training-24", seed, SetSize::full);
+    ASSERT_EQ(scenes.size(), 24U);
+    for (const SceneDescription& scene : scenes) {
+      EXPECT_EQ(scene.views.size(), 4U);
+      for (const LaidFood& food : scene.foods) {
+        ++foods;
+        if (find_food_kind(food.kind)->group == FoodGroup::training) ++pale;
+      }
+      for (const LaidDish& dish : scene.dishes) glazes.insert(dish.glaze.srgb);
+      for (const Thing& thing : scene.things) {
+        things.insert(thing.kind);
+        for (const LaidDish& dish : scene.dishes) {
+          EXPECT_GT((thing.centre_mm - dish.centre_mm).norm(), 0.5 * dish.dish.outer_size_mm[1])
+              << scene.name;
+        }
+      }
+    }
+  }
+  EXPECT_GT(2 * pale, foods);
+  EXPECT_EQ(things.size(), 7U);
+  EXPECT_GT(glazes.size(), 15U);
 }
 
 TEST(SceneSets, QuickScenesSeeTheSameInPicturesOfAFifth) {
