@@ -74,8 +74,10 @@ struct PathTracer::Sum {
   RaySpread spread;
 };
 
-PathTracer::PathTracer(const RayScene& scene, const CameraRays& rays, const RenderSettings& settings)
+PathTracer::PathTracer(const RayScene& scene, const ClearObjects& clear, const CameraRays& rays,
+                       const RenderSettings& settings)
     : scene_(scene),
+      clear_(clear),
       rays_(rays),
       settings_(settings),
       few_(in_rounds(settings.samples) / 2),
@@ -117,7 +119,7 @@ PixelLight PathTracer::trace(int x, int y, PixelKind expected) const {
 }
 
 void PathTracer::trace_round(Round& round, const CameraRays::Pixel& pixel, Sum& sum) const {
-  aim(round, pixel);
+  aim(round, pixel, sum);
   look_for_steps(round, sum);
   add_lights(round, sum);
   add_mirrored(round, sum);
@@ -152,7 +154,7 @@ void PathTracer::look_for_steps(const Round& round, Sum& sum) const {
   }
 }
 
-void PathTracer::aim(Round& round, const CameraRays::Pixel& pixel) const {
+void PathTracer::aim(Round& round, const CameraRays::Pixel& pixel, Sum& sum) const {
   for (std::uint32_t i = 0; i < round.size; ++i) {
     const std::uint32_t index = round.first + i;
     RaySample sample;
@@ -165,10 +167,21 @@ void PathTracer::aim(Round& round, const CameraRays::Pixel& pixel) const {
   round.responses.clear();
   for (std::size_t i = 0; i < round.size; ++i) {
     const SurfaceHit& hit = round.hits[i];
+    ClearObjects::View through;
+    if (!clear_.is_empty()) {
+      through = clear_.look_through(round.rays[i], hit.object == nullptr ? round.rays[i].end : hit.distance);
+      sum.direct += through.mirrored;
+    }
     if (hit.object == nullptr) continue;
+    Reflectance reflectance = hit.object->material->at(hit.point_mm, hit.normal);
+    if (through.nearest.object != nullptr) {
+      // What passes glass is less of all that the surface sends.
+      reflectance.base = reflectance.base.cwiseProduct(through.passed);
+      reflectance.coat *= through.passed.mean();
+      sum.has_metal = true;  // and few rays agree by chance on what it mirrors
+    }
     round.of_hit[round.responses.size()] = i;
-    round.responses.emplace_back(hit.object->material->at(hit.point_mm, hit.normal), hit.normal,
-                                 -round.rays[i].direction);
+    round.responses.emplace_back(reflectance, hit.normal, -round.rays[i].direction);
   }
 }
 

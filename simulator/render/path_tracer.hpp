@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "simulator/render/camera_rays.hpp"
+#include "simulator/render/clear_objects.hpp"
 #include "simulator/render/light_gatherer.hpp"
 #include "simulator/render/light_quadrature.hpp"
 #include "simulator/render/ray_scene.hpp"
@@ -34,8 +35,9 @@ struct PixelLight {
 // as diffuse.
 class PathTracer {
  public:
-  // Refers to scene and rays.
-  PathTracer(const RayScene& scene, const CameraRays& rays, const RenderSettings& settings);
+  // Refers to scene, clear objects and rays.
+  PathTracer(const RayScene& scene, const ClearObjects& clear, const CameraRays& rays,
+             const RenderSettings& settings);
 
   // The number of rays must not depend on the pixel's own: a mean that stops early where the first rays look
   // alike is biased. Its neighbours tell.
@@ -49,7 +51,7 @@ class PathTracer {
 
   static std::uint32_t in_rounds(int rays);  // rounded up to whole rounds
   void trace_round(Round& round, const CameraRays::Pixel& pixel, Sum& sum) const;
-  void aim(Round& round, const CameraRays::Pixel& pixel) const;
+  void aim(Round& round, const CameraRays::Pixel& pixel, Sum& sum) const;
   void look_for_steps(const Round& round, Sum& sum) const;
   void add_lights(Round& round, Sum& sum) const;
   void add_light(Round& round, std::uint32_t number, Sum& sum) const;
@@ -61,6 +63,7 @@ class PathTracer {
   PixelKind kind_of(const Sum& sum) const;
 
   const RayScene& scene_;
+  const ClearObjects& clear_;
   const CameraRays& rays_;
   RenderSettings settings_;
   std::uint32_t few_, usual_, most_;  // rays of a pixel

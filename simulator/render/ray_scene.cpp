@@ -130,13 +130,15 @@ struct RayScene::Handles {
   RTCScene scene;
 };
 
-RayScene::RayScene(const Scene& scene) : scene_(scene), handles_(std::make_unique<Handles>()) {
+RayScene::RayScene(const Scene& scene, ObjectChoice choice)
+    : scene_(scene), handles_(std::make_unique<Handles>()) {
   handles_->check();
   rtcSetSceneFlags(handles_->scene, RTC_SCENE_FLAG_ROBUST);
   for (std::size_t i = 0; i < scene.objects.size(); ++i) {
     const SceneObject& object = scene.objects[i];
     check_mesh(object, i);
-    if (object.mesh.triangles.empty()) continue;
+    if (object.mesh.triangles.empty() || object.is_clear != (choice == ObjectChoice::clear)) continue;
+    is_empty_ = false;
     RTCGeometry geometry = make_geometry(handles_->device, object.mesh);
     rtcAttachGeometryByID(handles_->scene, geometry, static_cast<unsigned>(i));
     rtcReleaseGeometry(geometry);

@@ -31,17 +31,21 @@ struct SurfaceHit {
 // Whether neighbouring rays of a call take about the same way: a hint for speed alone.
 enum class RayBundle : std::uint8_t { scattered, coherent };
 
+enum class ObjectChoice : std::uint8_t { opaque, clear };
+
 // Rays may be traced by many threads at once.
 class RayScene {
  public:
-  // Refers to the scene, which must outlive it. Throws std::invalid_argument for an object without material
-  // or with indices or normals that do not fit its vertices, std::runtime_error when Embree fails.
-  explicit RayScene(const Scene& scene);
+  // Of the scene's opaque or of its clear objects. Refers to the scene, which must outlive it. Throws
+  // std::invalid_argument for an object without material or with indices or normals that do not fit its
+  // vertices, std::runtime_error when Embree fails.
+  explicit RayScene(const Scene& scene, ObjectChoice choice = ObjectChoice::opaque);
   ~RayScene();
   RayScene(const RayScene&) = delete;
   RayScene& operator=(const RayScene&) = delete;
 
   const Scene& scene() const { return scene_; }
+  bool is_empty() const { return is_empty_; }
 
   // As many hits as rays.
   void intersect(std::span<const Ray> rays, std::span<SurfaceHit> hits, RayBundle bundle) const;
@@ -61,6 +65,7 @@ class RayScene {
 
   const Scene& scene_;
   std::unique_ptr<Handles> handles_;
+  bool is_empty_ = true;
 };
 
 }  // namespace traygauge

@@ -20,6 +20,9 @@ struct SceneObject {
   TruthKind kind = TruthKind::table;
   // Of objects that are not the same everywhere: the kind at a point of the surface, instead of `kind`.
   std::function<TruthKind(const Eigen::Vector3f& point_mm)> kind_at{};
+  // Clear glass: seen from the camera it mirrors a little and lets the rest pass straight on, tinted by its
+  // material's base at each surface. Light passes it as if it were not there.
+  bool is_clear = false;
 };
 
 // A parallelogram that shines to the side of edge_u × edge_v. Not visible to the camera itself, only in

@@ -47,8 +47,17 @@ struct Canvas {
   std::vector<Eigen::Vector3f> albedo;
 };
 
+// Clear glass is what a pixel shows, unless food lies behind: people outline that through the glass.
+void name_clear(const SurfaceHit& clear, std::size_t at, Canvas& canvas) {
+  if (clear.object == nullptr || canvas.view.kinds[at] == TruthKind::food) return;
+  canvas.view.labels[at] = clear.object->label;
+  canvas.view.kinds[at] = clear.object->kind_at ? clear.object->kind_at(clear.point_mm) : clear.object->kind;
+  canvas.view.depth_mm[at] = clear.distance;
+}
+
 // Truth, at the centres of a row's pixels.
-void fill_truth(const RayScene& scene, const CameraRays& camera_rays, int y, Canvas& canvas) {
+void fill_truth(const RayScene& scene, const ClearObjects& clear, const CameraRays& camera_rays, int y,
+                Canvas& canvas) {
   const auto width = static_cast<std::size_t>(canvas.map.width);
   std::vector<Ray> rays;
   std::vector<SurfaceHit> hits(width);
@@ -66,6 +75,7 @@ void fill_truth(const RayScene& scene, const CameraRays& camera_rays, int y, Can
     canvas.map.normals[at] = hits[i].normal;
     canvas.map.objects[at] = static_cast<std::uint32_t>(hits[i].object - scene.scene().objects.data()) + 1;
     canvas.map.footprint_mm[at] = hits[i].distance * camera_rays.pixel_width();
+    if (!clear.is_empty()) name_clear(clear.look_through(rays[i], hits[i].distance).nearest, at, canvas);
   }
 }
 
@@ -104,7 +114,8 @@ RenderedView ViewRenderer::render(const ViewCamera& camera, const RenderSettings
                                   const RenderProgress& progress) const {
   settings.check();
   const CameraRays rays(camera);
-  const PathTracer tracer(scene_, rays, settings);
+  const ClearObjects clear(scene_, clear_);
+  const PathTracer tracer(scene_, clear, rays, settings);
   Canvas canvas(camera.width, camera.height);
   const int threads = settings.threads;
   const auto part_of = [&](double from, double to) -> RenderProgress {
@@ -113,7 +124,7 @@ RenderedView ViewRenderer::render(const ViewCamera& camera, const RenderSettings
   };
 
   share_work(camera.height, threads, part_of(0.0, kTruthShare),
-             [&](int y) { fill_truth(scene_, rays, y, canvas); });
+             [&](int y) { fill_truth(scene_, clear, rays, y, canvas); });
 
   const bool is_sharp = !rays.has_aperture() && !rays.moves();
   const int edge_reach_px = is_sharp ? 1 : kBlurredEdgeReach_px;

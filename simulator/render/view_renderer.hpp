@@ -17,7 +17,7 @@ using RenderProgress = std::function<void(double share)>;
 class ViewRenderer {
  public:
   // Refers to the scene, which must outlive it. Throws as RayScene does.
-  explicit ViewRenderer(const Scene& scene) : scene_(scene) {}
+  explicit ViewRenderer(const Scene& scene) : scene_(scene), clear_(scene, ObjectChoice::clear) {}
 
   // The same picture, bit by bit, for the same settings with any number of threads. Throws
   // std::invalid_argument for a camera or settings that make no sense.
@@ -26,6 +26,7 @@ class ViewRenderer {
 
  private:
   RayScene scene_;
+  RayScene clear_;
 };
 
 }  // namespace traygauge

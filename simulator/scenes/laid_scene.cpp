@@ -84,6 +84,7 @@ void LaidScene::add_dishes(int threads) {
                        static_cast<std::uint8_t>(dish.dish.label), TruthKind::glaze};
     object.kind_at = [shell = shells_[i], inverse = Eigen::Isometry3f(pose.inverse().cast<float>())](
                          const Eigen::Vector3f& point_mm) { return kind_of_dish(shell, inverse, point_mm); };
+    object.is_clear = dish.glaze.finish == GlazeFinish::clear;
     transform(object.mesh, moved(pose, 0.0, 0.0, kClearanceMm));
     scene_.objects.push_back(std::move(object));
     for (ServedFood& food :

@@ -239,10 +239,8 @@ class GlazeMaterial : public Material {
     Reflectance reflectance;
     reflectance.roughness = glaze_.roughness;
     reflectance.base = base_ * (1.0F + 0.02F * fractal_noise(at / 25.0F, seed_, 3));
-    if (glaze_.finish == GlazeFinish::metal) {
-      reflectance.is_metal = true;
-      return reflectance;
-    }
+    reflectance.is_metal = glaze_.finish == GlazeFinish::metal;
+    if (glaze_.finish != GlazeFinish::glazed) return reflectance;
     if (glaze_.pattern != GlazePattern::none)
       reflectance.base = blend(reflectance.base, decoration_, decoration_share(at));
     if (glaze_.speck_fraction > 0.0) {

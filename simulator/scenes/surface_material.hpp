@@ -40,7 +40,7 @@ enum class GlazePattern : std::uint8_t {
   clouds,  // glazes that ran into each other
 };
 
-enum class GlazeFinish : std::uint8_t { glazed, metal };
+enum class GlazeFinish : std::uint8_t { glazed, metal, clear };
 
 struct Glaze {
   std::uint32_t srgb = 0xE6E4DC;

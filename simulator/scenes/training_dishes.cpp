@@ -100,7 +100,13 @@ LaidDish draw_small_dish(Draws& draws, SmallDish kind, int label) {
   laid.dish.rim_height_mm = laid.dish.profile[1].height_mm;
   laid.dish.bottom_height_mm = laid.dish.profile.back().height_mm;
   draw_training_glaze(draws, laid.glaze);
-  if (kind == SmallDish::salad_bowl && draws.chance(0.4)) {
+  if (kind != SmallDish::salad_bowl) return laid;
+  const double material = draws.between(0.0, 1.0);
+  if (material < 0.4) {
+    laid.glaze = Glaze();
+    laid.glaze.finish = GlazeFinish::clear;
+    laid.glaze.srgb = 0xF9FCFA;  // of the light that meets one surface, what passes
+  } else if (material < 0.65) {
     laid.glaze = Glaze();
     laid.glaze.finish = GlazeFinish::metal;
     laid.glaze.srgb = 0xD2D2D0;

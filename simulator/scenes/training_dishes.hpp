@@ -1,4 +1,4 @@
-// Dishes of the training set: small ones, bowls of metal, and glazes of every colour.
+// Dishes of the training set: small ones, bowls of glass and metal, and glazes of every colour.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,7 @@ enum class SmallDish : std::uint8_t { side_plate, dessert_plate, salad_bowl, ram
 // White, or of a colour, a pattern, a painted rim.
 void draw_training_glaze(Draws& draws, Glaze& glaze);
 
-// Usual lengths times a drawn scale, glazed; a salad bowl is of metal at times.
+// Usual lengths times a drawn scale, glazed; a salad bowl is of clear glass or metal at times.
 LaidDish draw_small_dish(Draws& draws, SmallDish kind, int label);
 
 // One food in the middle of a dish, as large as it is usual or as has room.

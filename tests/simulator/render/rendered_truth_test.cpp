@@ -90,6 +90,46 @@ TEST(RenderedTruth, LabelsAndDepthOfPlaneAndSphereUnderDistortion) {
 
 // A white quad over black, lit by an even room: brightness is the share of a pixel's weight that the quad
 // covers. Its left edge is slanted and runs off the picture.
+// A pane over half of a table, with food below a part of it: the pane is named except before food, and passes
+// what its tint and its mirror leave.
+TEST(RenderedTruth, ClearGlassIsNamedUnlessFoodLiesBehindIt) {
+  Scene scene;
+  scene.ambient = Eigen::Vector3f::Ones();
+  scene.objects.push_back({square(2000.0F, 0.0F), matt(0.5F), 0, TruthKind::table});
+  scene.objects.push_back(
+      {quad({0.0F, 20.0F, 20.0F}, {60.0F, 0.0F, 0.0F}, {0.0F, 60.0F, 0.0F}), matt(0.5F), 2, TruthKind::food});
+  SceneObject pane{quad({0.0F, -200.0F, 60.0F}, {200.0F, 0.0F, 0.0F}, {0.0F, 400.0F, 0.0F}), matt(0.9F), 201,
+                   TruthKind::glaze};
+  pane.is_clear = true;
+  scene.objects.push_back(pane);
+  const ViewCamera camera = camera_at({0.0, 0.0, 400.0}, {0.0, 0.0, 0.0}, 80, 60, 100.0);
+  const RenderedView view = ViewRenderer(scene).render(camera);
+  int panes = 0;
+  int foods = 0;
+  for (int y = 0; y < 60; ++y) {
+    for (int x = 0; x < 80; ++x) {
+      const auto at = static_cast<std::size_t>(80 * y + x);
+      if (x < 40) {
+        EXPECT_EQ(view.kinds[at], TruthKind::table);
+      } else if (view.kinds[at] == TruthKind::food) {
+        EXPECT_EQ(view.labels[at], 2);
+        ++foods;
+      } else if (view.kinds[at] == TruthKind::glaze) {
+        EXPECT_EQ(view.labels[at], 201);
+        EXPECT_NEAR(view.depth_mm[at], 340.0F, 0.1F);
+        ++panes;
+      }
+    }
+  }
+  EXPECT_GT(panes, 500);
+  EXPECT_GT(foods, 100);
+  // Far from the food: 0.96 of the light passes the surface, 0.9 of that its tint, 0.04 of the room is
+  // mirrored.
+  const auto bare = static_cast<std::size_t>(80 * 30 + 15);
+  const auto behind = static_cast<std::size_t>(80 * 30 + 64);
+  EXPECT_NEAR(view.radiance[behind].y(), 0.96F * 0.9F * view.radiance[bare].y() + 0.04F, 0.02F);
+}
+
 class SlantedEdge : public ::testing::Test {
  protected:
   static constexpr double kSlant = 0.137;
