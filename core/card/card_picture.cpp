@@ -6,28 +6,11 @@
 
 #include "core/base/median.hpp"
 #include "core/base/units.hpp"
-#include "core/card/print_lanes.hpp"
 #include "core/card/print_plane.hpp"
+#include "core/card/tile_samples.hpp"
 
 namespace traygauge {
 namespace {
-
-static_assert(kCardTileSide % kFloatLanes == 0);
-
-std::uint64_t mask_of(CardSampling sampling) {
-  switch (sampling) {
-    case CardSampling::all:
-      return ~std::uint64_t{0};
-    case CardSampling::half:
-      return 0x00FF00FF00FF00FFU;
-    default:
-      return 0x0000FF000000FF00U;
-  }
-}
-
-bool is_taken(const CardTile& tile, CardSampling sampling) {
-  return sampling != CardSampling::sixteenth || ((tile.x + 2 * tile.y) / kCardTileSide) % 4 == 0;
-}
 
 // The tile's pixels with the label that lie inside it along rows and columns: those nearer to its border hold
 // light of both sides.
@@ -58,72 +41,6 @@ bool undistort_tile(const LensModel& lens, CardTile& tile) {
   return true;
 }
 
-// Calls use(tile, place, bits) for every tile with samples.
-template <class Use>
-void for_each_tile(std::span<const CardTile> tiles, const PrintPlane& plane, CardSampling sampling, Use use) {
-  const std::uint64_t mask = mask_of(sampling);
-  for (const CardTile& tile : tiles) {
-    const std::uint64_t bits = tile.used & mask;
-    if (bits == 0 || !is_taken(tile, sampling)) continue;
-    const PrintPlace place = plane.place(tile.ray);
-    if (place.valid()) use(tile, place, bits);
-  }
-}
-
-// Calls use(column, row, flags) for every kFloatLanes pixels of a tile of which some are samples.
-template <class Use>
-void for_each_lanes(std::uint64_t bits, Use use) {
-  constexpr unsigned kLaneBits = (1U << kFloatLanes) - 1U;
-  for (int bit = 0; bit < kCardTileSide * kCardTileSide; bit += kFloatLanes) {
-    const auto here = static_cast<unsigned>(bits >> bit) & kLaneBits;
-    if (here != 0) use(bit % kCardTileSide, bit / kCardTileSide, here);
-  }
-}
-
-// The tone at a tile, taken as constant there.
-class TileTone {
- public:
-  TileTone(const CardTone& tone, const Vec2& normalised) : linear_(1.0, normalised.x(), normalised.y()) {
-    gain_ = tone.head<3>().dot(linear_);
-    gain_lane_ = static_cast<float>(gain_);
-    offset_lane_ = static_cast<float>(tone.tail<3>().dot(linear_));
-  }
-  double gain() const { return gain_; }
-  const Vec3& linear() const { return linear_; }  // derivative of gain, and of offset, by their parameters
-  FloatLanes residual(FloatLanes picture, FloatLanes print) const {
-    return picture - gain_lane_ * print - offset_lane_;
-  }
-
- private:
-  Vec3 linear_;
-  double gain_ = 0.0;
-  float gain_lane_ = 0.0F;
-  float offset_lane_ = 0.0F;
-};
-
-// Weighted sums over a tile's samples of the products of (by_x, by_y, gray, 1) among themselves and with the
-// residual.
-struct TileSums {
-  std::array<FloatLanes, 10> products{};  // lower triangle by rows
-  std::array<FloatLanes, 4> residuals{};
-  FloatLanes weights{};
-  FloatLanes slopes{};
-
-  void add(const PrintLanes& print, FloatLanes residual, FloatLanes weight) {
-    const std::array<FloatLanes, 3> v = {print.by_x, print.by_y, print.gray};
-    std::size_t k = 0;
-    for (std::size_t i = 0; i < 3; ++i) {
-      const FloatLanes scaled = weight * v[i];
-      residuals[i] += scaled * residual;
-      for (std::size_t j = 0; j <= i; ++j) products[k++] += scaled * v[j];
-    }
-    for (std::size_t j = 0; j < 3; ++j) products[k++] += weight * v[j];
-    products[k] += weight;
-    residuals[3] += weight * residual;
-    weights += weight;
-  }
-};
-
 using Histogram = std::array<std::uint32_t, kByteValues>;
 
 void count_sizes(FloatLanes residual, unsigned bits, Histogram& histogram) {
@@ -141,47 +58,6 @@ double median_of(const Histogram& histogram, int count) {
     below += here;
   }
   return static_cast<double>(kByteValues);
-}
-
-// Adds a tile's sums. Its grey values move with the pose's step by `gray_by_step` times (by_x, by_y), and
-// with gain and offset, each by `linear` times its three parameters.
-void add_tile(const TileSums& sums, const Eigen::Matrix<double, 2, 6>& gray_by_step, const Vec3& linear,
-              CardLinearisation& to) {
-  std::array<double, 10> p{};
-  std::array<double, 4> r{};
-  for (std::size_t i = 0; i < 10; ++i) p[i] = sum_of(sums.products[i]);
-  for (std::size_t i = 0; i < 4; ++i) r[i] = sum_of(sums.residuals[i]);
-  Eigen::Matrix<double, 12, 1> gradient;
-  auto& hessian = to.equations.hessian;
-  for (int i = 0; i < 6; ++i) {
-    const double a = gray_by_step(0, i);
-    const double b = gray_by_step(1, i);
-    gradient[i] = a * r[0] + b * r[1];
-    const double along_x = a * p[0] + b * p[1];
-    const double along_y = a * p[1] + b * p[2];
-    for (int j = 0; j <= i; ++j) hessian(i, j) += along_x * gray_by_step(0, j) + along_y * gray_by_step(1, j);
-    const double with_gain = a * p[3] + b * p[4];
-    const double with_offset = a * p[6] + b * p[7];
-    for (int k = 0; k < 3; ++k) {
-      hessian(6 + k, i) += with_gain * linear[k];
-      hessian(9 + k, i) += with_offset * linear[k];
-    }
-  }
-  for (int i = 0; i < 3; ++i) {
-    gradient[6 + i] = r[2] * linear[i];
-    gradient[9 + i] = r[3] * linear[i];
-    for (int j = 0; j < 3; ++j) {
-      const double both = linear[i] * linear[j];
-      hessian(9 + i, 6 + j) += both * p[8];
-      if (j > i) continue;
-      hessian(6 + i, 6 + j) += both * p[5];
-      hessian(9 + i, 9 + j) += both * p[9];
-    }
-  }
-  to.equations.gradient -= gradient;
-  for (int i = 0; i < 12; ++i) {
-    for (int j = 0; j <= i; ++j) to.scatter(i, j) += gradient[i] * gradient[j];
-  }
 }
 
 }  // namespace
@@ -300,16 +176,12 @@ CardLinearisation CardPicture::linearise(const Pose& camera_from_table, const Ca
           const PrintLanes print = sampler.at(column, row);
           const FloatLanes gray = load_gray(gray_.row(tile.y + row) + tile.x + column);
           const FloatLanes residual = tile_tone.residual(gray, print.gray);
-          const FloatLanes ratio = residual * inverse_cutoff;
-          const FloatLanes root = 1.0F / (1.0F + ratio * ratio);
-          const FloatLanes weight = flags_of(flags) * root * root;
-          sums.add(print, residual, weight);
-          sums.slopes += weight * (4.0F * root - 3.0F);
+          sums.add_weighed(print, residual, inverse_cutoff, flags);
           count_sizes(residual, flags, histogram);
         });
         const Eigen::Matrix<double, 2, 6> gray_by_step =
             tile_tone.gain() * level.px_per_mm().asDiagonal() * plane.print_by_step(place, tile.ray);
-        add_tile(sums, gray_by_step, tile_tone.linear(), result);
+        add_tile(sums, gray_by_step, tile_tone.linear(), result.equations, result.scatter);
         result.weights += sum_of(sums.weights);
         result.slopes += sum_of(sums.slopes);
         result.samples += std::popcount(bits);

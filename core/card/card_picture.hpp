@@ -99,6 +99,9 @@ class CardPicture {
   int labelled_pixels() const { return labelled_; }
   int used_pixels() const { return used_; }
 
+  ImageView<const std::uint8_t> gray() const { return gray_; }
+  std::span<const CardTile> tiles() const { return tiles_; }
+
  private:
   ImageView<const std::uint8_t> gray_;
   std::span<CardTile> storage_;
