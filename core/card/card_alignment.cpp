@@ -190,6 +190,7 @@ Result<CardAlignment> align_card(ImageView<const std::uint8_t> gray, ImageView<c
   const bool is_seen = alignment.correlation >= params.min_correlation &&
                        alignment.visible_fraction >= params.min_visible_fraction;
   if (!is_seen) return StatusCode::card_not_found;
+  alignment.condition = refinement.judge(level, sampling, candidate.state, params.condition);
   return alignment;
 }
 

@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "core/base/result.hpp"
+#include "core/card/card_condition.hpp"
 #include "core/card/card_outline.hpp"
 #include "core/card/card_pattern.hpp"
 #include "core/card/card_picture.hpp"
@@ -24,6 +25,7 @@ struct CardAlignmentParams {
   CardOutlineParams outline;
   CardPictureParams picture;
   CardRefinementParams refinement;
+  CardConditionParams condition;
 
   // Blur of the print in each stage, standard deviation in pixels of the picture: the reach within which
   // edges still find each other. Each about half of the one before.
@@ -59,6 +61,7 @@ struct CardAlignment {
   double rms_gray = 0.0;          // robust standard deviation of the residuals
   double gain = 0.0;              // of the picture's grey values over the print's
   double blur_px = 0.0;           // of the print, where it fits best
+  CardCondition condition;
 };
 
 struct CardAlignmentWorkspace {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "core/card/card_condition.hpp"
 #include "core/card/card_pattern.hpp"
 #include "core/card/card_picture.hpp"
 #include "core/geometry/camera.hpp"
@@ -72,6 +73,15 @@ class CardRefinement {
   // systematic error. False when the print does not fix the pose.
   bool inform(const CardPatternLevel& level, CardSampling sampling, CardFitState& state,
               PoseInformation& information) const;
+
+  // Whether the card is seen whole and flat under a refined pose.
+  CardCondition judge(const CardPatternLevel& level, CardSampling sampling, const CardFitState& state,
+                      const CardConditionParams& params) const {
+    const Pose& pose = state.camera_from_table;
+    return judge_card(
+        {picture_, pattern_.size, level, sampling, pose, state.tone, cutoff_gray(state), px_per_mm(pose)},
+        params);
+  }
 
   // Of the whole print in the picture, but for the lens's distortion.
   double projected_px2(const Pose& camera_from_table) const;

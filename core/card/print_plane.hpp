@@ -56,6 +56,12 @@ class PrintPlane {
     return -place.by_ray * ray_by_step;
   }
 
+  // Where the print under a fixed ray moves, in mm, as the card there rises by a mm.
+  Vec2 print_by_height(const Vec2& ray) const {
+    const Vec3 along = pose_.rotation.transpose() * ray.homogeneous();
+    return {along.x() / along.z(), -along.y() / along.z()};
+  }
+
   // −1 to 1 over the card.
   Vec2 normalised(const Vec2& print_mm) const {
     return {2.0 * print_mm.x() / size_.width_mm - 1.0, 2.0 * print_mm.y() / size_.height_mm - 1.0};

@@ -115,7 +115,7 @@ Status Segmenter::find_card(const SegmentedView& view, const LensModel& lens, st
                    configuration_.card_alignment, rounds, memory_.card.search, memory_.card.alignment},
                   card, outline_px);
   if (!status.ok()) return status;
-  if (card.correlation < params_.sure_card_correlation) result_.is_card_doubtful = true;
+  if (card.condition.is_doubtful) result_.is_card_doubtful = true;
   return is_within(view.frame, outline_px) ? StatusCode::ok : StatusCode::card_hidden;
 }
 

@@ -37,9 +37,6 @@ struct SegmenterParams {
   // Over the bottom of the dish, between which food is seen; what is carried to the other view counts where
   // both lead to the same item.
   std::array<double, 2> food_heights_mm{3.0, 22.0};
-  // Of print and picture, where the card lies flat and free: 0.954 and more in pictures without a fault. A
-  // fifth of the card covered leaves 0.7, ends bent up by a fiftieth of its length 0.92.
-  double sure_card_correlation = 0.94;
   // Of the card's alignment.
   int max_alignments = CardRoundsParams{}.max_alignments;
   double sure_correlation = CardRoundsParams{}.sure_correlation;

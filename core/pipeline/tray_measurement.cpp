@@ -122,6 +122,9 @@ void locate_tray(TrayMemory& memory, const Configuration& configuration, const S
       compare_pictures(memory.views[0].quality(), memory.views[1].quality(), configuration.view_checks,
                        measurement.report.pictures, measurement.warnings);
   if (!measurement.status.ok()) return;
+  measurement.warnings.raise_if(
+      std::ranges::any_of(views, [](const TrayView* view) { return view->card().condition.is_doubtful; }),
+      Warning::card_partly_hidden);
   warn_about_lens(views, configuration.view_checks, measurement.warnings);
   measurement.status = list_dishes(views, configuration, memory.geometry, geometry);
   if (!measurement.status.ok()) return;
