@@ -4,6 +4,9 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <span>
 
 #include "core/card/tile_samples.hpp"
 #include "core/geometry/table_frame.hpp"
@@ -12,8 +15,8 @@ namespace traygauge {
 namespace {
 
 // Places of 11 mm, on which a small card still has some 100 pixels. Twice as many say too little each.
-constexpr int kPlaceColumns = 8;
-constexpr int kPlaceRows = 5;
+constexpr std::size_t kPlaceColumns = 8;
+constexpr std::size_t kPlaceRows = 5;
 constexpr int kMinPlacePixels = 10;        // at the border
 constexpr double kRoundingVariance = 1.0;  // of a grey value: residuals below it are rounding
 
@@ -36,8 +39,9 @@ struct PrintAtPlace {
 
 using PrintPlaces = std::array<PrintAtPlace, kPlaceColumns * kPlaceRows>;
 
-int place_of(double normalised, int count) {
-  return std::clamp(static_cast<int>(0.5 * (normalised + 1.0) * count), 0, count - 1);
+std::size_t place_of(double normalised, std::size_t count) {
+  const double place = 0.5 * (normalised + 1.0) * static_cast<double>(count);
+  return static_cast<std::size_t>(std::clamp(place, 0.0, static_cast<double>(count - 1)));
 }
 
 PrintPlaces sum_places(const AlignedPrint& print) {
@@ -63,9 +67,8 @@ PrintPlaces sum_places(const AlignedPrint& print) {
                   for (std::size_t i = 0; i < sums.size(); ++i) sums[i] = sum_of(lanes[i]);
                   const double n = std::popcount(bits);
                   const Vec2 at = plane.normalised(under.centre);
-                  const int index =
-                      place_of(at.y(), kPlaceRows) * kPlaceColumns + place_of(at.x(), kPlaceColumns);
-                  PrintAtPlace& place = places[static_cast<std::size_t>(index)];
+                  PrintAtPlace& place =
+                      places[place_of(at.y(), kPlaceRows) * kPlaceColumns + place_of(at.x(), kPlaceColumns)];
                   place.pixels += n;
                   place.tiles += 1.0;
                   place.print += sums[2] - sums[0] * sums[0] / n;
@@ -77,16 +80,19 @@ PrintPlaces sum_places(const AlignedPrint& print) {
 
 // The median by pixels: as long as half of the card is seen, what hides the rest does not count.
 double usual_slope(const PrintPlaces& places) {
-  std::array<PrintAtPlace, kPlaceColumns * kPlaceRows> sorted;
-  const auto end = std::copy_if(places.begin(), places.end(), sorted.begin(),
-                                [](const PrintAtPlace& place) { return place.is_textured(); });
-  std::sort(sorted.begin(), end,
-            [](const PrintAtPlace& a, const PrintAtPlace& b) { return a.slope() < b.slope(); });
+  PrintPlaces sorted;
+  std::size_t count = 0;
   double rest = 0.0;
-  for (auto place = sorted.begin(); place != end; ++place) rest += 0.5 * place->pixels;
-  for (auto place = sorted.begin(); place != end; ++place) {
-    rest -= place->pixels;
-    if (rest <= 0.0) return place->slope();
+  for (const PrintAtPlace& place : places) {
+    if (!place.is_textured()) continue;
+    sorted[count++] = place;
+    rest += 0.5 * place.pixels;
+  }
+  const std::span<PrintAtPlace> textured = std::span(sorted).first(count);
+  std::ranges::sort(textured, {}, &PrintAtPlace::slope);
+  for (const PrintAtPlace& place : textured) {
+    rest -= place.pixels;
+    if (rest <= 0.0) return place.slope();
   }
   return 0.0;
 }

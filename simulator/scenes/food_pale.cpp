@@ -13,9 +13,10 @@ namespace {
 std::vector<Eigen::Vector2d> in_a_row(Draws& draws, double length_mm, double pitch_mm, double jitter_mm) {
   const int count = std::max(1, static_cast<int>(length_mm / pitch_mm));
   std::vector<Eigen::Vector2d> places;
+  places.reserve(static_cast<std::size_t>(count));
   for (int i = 0; i < count; ++i) {
-    places.emplace_back(pitch_mm * (i - 0.5 * (count - 1)) + draws.between(-0.5, 0.5) * jitter_mm,
-                        draws.between(-1.0, 1.0) * jitter_mm);
+    const double along_mm = pitch_mm * (i - 0.5 * (count - 1)) + draws.between(-0.5, 0.5) * jitter_mm;
+    places.emplace_back(along_mm, draws.between(-1.0, 1.0) * jitter_mm);
   }
   return places;
 }
@@ -42,8 +43,8 @@ void paint_balls(FoodPainter& painter, Draws& draws, const FoodSize& size, doubl
 void paint_fried_egg(FoodPainter& painter, Draws& draws, const FoodSize& size) {
   const BlobOutline outline(draws, size.length_mm, size.width_mm, 0.3);
   const double sheet_mm = draws.between(2.0, 4.5);
-  const Eigen::Vector2d yolk(draws.between(-0.12, 0.12) * size.length_mm,
-                             draws.between(-0.12, 0.12) * size.width_mm);
+  const Eigen::Vector2d yolk{draws.between(-0.12, 0.12) * size.length_mm,
+                             draws.between(-0.12, 0.12) * size.width_mm};
   const double yolk_mm = draws.between(17.0, 21.0);
   const auto white_mm = [&](double x_mm, double y_mm, double inside_mm) {
     const double far = (Eigen::Vector2d(x_mm, y_mm) - yolk).norm() / (1.9 * yolk_mm);

@@ -212,9 +212,9 @@ std::vector<SceneObject> napkin_with_roll(const Thing& thing, Draws& draws, cons
   std::vector<SceneObject> objects = napkin.take();
   Parts roll(TruthKind::food);
   const double height_mm = draws.between(19.0, 25.0);
-  roll.add_block({draws.between(-15.0, 15.0), draws.between(-15.0, 15.0), 1.3 + height_mm},
-                 {draws.between(40.0, 52.0), draws.between(30.0, 38.0), height_mm}, 2.25,
-                 std::make_shared<Crust>(thing.srgb, pose.inverse()));
+  const Eigen::Vector3d centre_mm{draws.between(-15.0, 15.0), draws.between(-15.0, 15.0), 1.3 + height_mm};
+  const Eigen::Vector3d half_mm{draws.between(40.0, 52.0), draws.between(30.0, 38.0), height_mm};
+  roll.add_block(centre_mm, half_mm, 2.25, std::make_shared<Crust>(thing.srgb, pose.inverse()));
   objects.push_back(std::move(roll.take().front()));
   return objects;
 }

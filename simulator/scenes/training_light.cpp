@@ -10,13 +10,19 @@ namespace traygauge {
 namespace {
 
 // A window, or with a small size the sun, low over the table.
-Lamp side_lamp(Draws& draws, double away_mm, double middle_mm, double width_mm, double height_mm,
-               const Eigen::Vector3d& radiance) {
+struct SideLight {
+  double away_mm = 0.0;
+  double middle_mm = 0.0;
+  double width_mm = 0.0;
+  double height_mm = 0.0;
+};
+
+Lamp side_lamp(Draws& draws, const SideLight& light, const Eigen::Vector3d& radiance) {
   const double direction = draws.angle_rad();
   const Eigen::Vector3d out(std::cos(direction), std::sin(direction), 0.0);
   const Eigen::Vector3d across(-out.y(), out.x(), 0.0);
-  return {away_mm * out + Eigen::Vector3d(0.0, 0.0, middle_mm), width_mm * across,
-          Eigen::Vector3d(0.0, 0.0, height_mm), radiance};
+  return {light.away_mm * out + Eigen::Vector3d(0.0, 0.0, light.middle_mm), light.width_mm * across,
+          Eigen::Vector3d(0.0, 0.0, light.height_mm), radiance};
 }
 
 }  // namespace
@@ -27,14 +33,15 @@ void draw_training_light(SceneDescription& scene, Draws& draws) {
   const Eigen::Vector3d day(0.95, 1.0, 1.06);
   switch (draws.whole(0, 5)) {
     case 0: {
-      scene.lamps.push_back(side_lamp(draws, draws.between(900.0, 1500.0), draws.between(500.0, 900.0),
-                                      draws.between(700.0, 1400.0), draws.between(700.0, 1200.0), 9.0 * day));
+      const SideLight window{draws.between(900.0, 1500.0), draws.between(500.0, 900.0),
+                             draws.between(700.0, 1400.0), draws.between(700.0, 1200.0)};
+      scene.lamps.push_back(side_lamp(draws, window, 9.0 * day));
       set_room(scene, day, draws.between(0.05, 0.14), 0.85);
       break;
     }
     case 1: {
-      scene.lamps.push_back(side_lamp(draws, draws.between(1500.0, 2200.0), draws.between(1000.0, 2600.0),
-                                      160.0, 160.0, 400.0 * Eigen::Vector3d(1.08, 1.0, 0.88)));
+      const SideLight sun{draws.between(1500.0, 2200.0), draws.between(1000.0, 2600.0), 160.0, 160.0};
+      scene.lamps.push_back(side_lamp(draws, sun, 400.0 * Eigen::Vector3d(1.08, 1.0, 0.88)));
       set_room(scene, day, draws.between(0.1, 0.3), 0.85);
       break;
     }
@@ -46,7 +53,8 @@ void draw_training_light(SceneDescription& scene, Draws& draws) {
                              {side_mm, 0.0, 0.0},
                              {0.0, side_mm, 0.0},
                              20.0 * colour});
-      set_room(scene, colour, draws.between(0.08, 0.25), draws.between(0.2, 0.9));
+      const double room_fraction = draws.between(0.08, 0.25);
+      set_room(scene, colour, room_fraction, draws.between(0.2, 0.9));
       break;
     }
     default:
