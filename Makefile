@@ -156,7 +156,8 @@ board-power-cuts: board-guest
 
 # The cross-build under user-mode emulation: tests of the core without captures, the drivers' tests, and the volumes of the
 # demo beside this machine's. Not the alignment of the card, which takes minutes: the volumes depend on the card's place.
-# On CI those of the core whose results show in the demo's volumes are left out.
+# On CI those of the core whose results show in the demo's volumes are left out. Both processors round differently: a cell of
+# a height map that goes to the other side moves a volume by up to 0.03 ml, where sigma is 1 to 4 ml.
 ARM_TESTS = base_test geometry_test image_test network_test features_test tracking_test pixels_test v4l2_test gpio_test serial_test drivers_test \
   $(if $(filter true,$(CI)),,card_test adjustment_test dish_test segmentation_test stereo_test paper_sparse_test)
 arm_libraries = /usr/lib/aarch64-linux-gnu
@@ -166,7 +167,7 @@ arm-test: build arm-sysroot
 	cmake --build --preset aarch64 -j $(JOBS) --target traygauge $(ARM_TESTS)
 	printf '%s\n' $(ARM_TESTS) | xargs -P $(JOBS) -I TEST \
 	  env TRAYGAUGE_CAPTURES= sh -c '$(in_arm) "$$(find build-aarch64/tests -type f -name TEST)" --gtest_brief=1 --gtest_filter=-CardAlignment*'
-	RUN_B='$(in_arm)' LIMIT_ML=0.01 tests/captures/compare_builds.sh build build-aarch64 simulator/demo/*_and_*
+	RUN_B='$(in_arm)' LIMIT_ML=0.05 tests/captures/compare_builds.sh build build-aarch64 simulator/demo/*_and_*
 
 # The packages stay in build-package/ARCHITECTURE/packages. A commit's packages are the same whenever they are made.
 SOURCE_DATE_EPOCH ?= $(shell git log -1 --format=%ct 2>/dev/null || echo 0)
