@@ -30,8 +30,8 @@ struct ServedFood {
   int dish = 0;
 };
 
-// Throws std::invalid_argument where the two volumes contradict each other.
-void require_agreement(const ServedFood& food);
+// Throws std::invalid_argument where the two volumes contradict each other. `step_mm`: of the meshed grid.
+void require_agreement(const ServedFood& food, double step_mm = SceneDescription().food_step_mm);
 
 // All foods of one dish, in their order; where two want one place the earlier stands there. `first_label`: of
 // the food that comes first in scene.foods. Throws InputError for a mesh that cannot be read,

@@ -107,6 +107,10 @@ TEST(FoodTruth, VolumesThatContradictEachOtherAreRefused) {
     for (const char* part : {"peas", "100.000 ml", "99.790 ml"})
       EXPECT_NE(text.find(part), std::string::npos) << text;
   }
+  constexpr double kQuickStepMm = 0.6;
+  EXPECT_NO_THROW(require_agreement(food, kQuickStepMm));
+  food.check_volume_ml = 98.9;
+  EXPECT_THROW(require_agreement(food, kQuickStepMm), std::invalid_argument);
 }
 
 // A crumb's edge is a few squares of the grid: 0.2 % of it would ask more of the grids than they have.
