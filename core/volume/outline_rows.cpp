@@ -8,8 +8,7 @@
 namespace traygauge {
 namespace {
 
-constexpr int kSlantRows = 2;    // to either side, over which an outline's slant is taken
-constexpr int kCentreSteps = 3;  // of the fixed point: the correction is a few per cent
+constexpr int kSlantRows = 2;  // to either side, over which an outline's slant is taken
 
 OutlineChord chord_of(const std::uint8_t* labels, int width, std::uint8_t label) {
   OutlineChord chord;
@@ -19,12 +18,6 @@ OutlineChord chord_of(const std::uint8_t* labels, int width, std::uint8_t label)
     chord.end = x + 1;
   }
   return chord;
-}
-
-bool is_free(const SurfaceGrid& view, int y, const OutlineChord& chord) {
-  const std::uint8_t* labels = view.labels.row(y);
-  return chord.first > 0 && chord.end < view.labels.width && !is_item(labels[chord.first - 1]) &&
-         !is_item(labels[chord.end]);
 }
 
 // Sum of squares over the four ends: columns by which an outline moves from row to row.
@@ -108,7 +101,7 @@ OutlineRows collect_outline_rows(const std::array<SurfaceGrid, 2>& views, std::u
     bool usable = true;
     for (std::size_t v = 0; v < 2; ++v) {
       usable = usable && row.chords[v].count() > 1 && !above.chords[v].empty() && !below.chords[v].empty() &&
-               is_free(views[v], y, row.chords[v]);
+               is_free(views[v].labels.row(y), views[v].labels.width, row.chords[v]);
     }
     if (!usable) continue;
     outline.steepest_run = std::max(outline.steepest_run, place_middle(views, y, level_mm, row));
@@ -126,17 +119,13 @@ double centre_height_mm(const OutlineRows& outline, const std::array<SurfaceGrid
     double weight = 0.0;
     for (const OutlineRow& row : outline.rows) {
       if (!(row.weight > 0.0)) continue;
-      std::array<double, 2> run{};
-      std::array<double, 2> foot_mm{};
-      for (std::size_t v = 0; v < 2; ++v) {
-        const double camera_mm = views[v].camera_mm.z() - level_mm;
-        const double share = std::min(centre_mm, 0.5 * row.length_mm) / (camera_mm - centre_mm);
-        run[v] = (1.0 - share * share) * row.middle_run[v];
-        foot_mm[v] = row.direction.dot(views[v].camera_mm.head<2>()) + camera_mm * run[v];
-      }
-      // Views side by side along the row see its middle from different sides.
-      if (!(std::abs(run[1] - run[0]) > 1e-6)) continue;
-      sum += row.weight * (foot_mm[1] - foot_mm[0]) / (run[1] - run[0]);
+      std::array<ChordSight, 2> sights;
+      for (std::size_t v = 0; v < 2; ++v)
+        sights[v] = {row.direction.dot(views[v].camera_mm.head<2>()), views[v].camera_mm.z() - level_mm,
+                     row.middle_run[v], 0.5 * row.length_mm};
+      const std::optional<double> height_mm = centre_between_sides_mm(sights, centre_mm);
+      if (!height_mm) continue;
+      sum += row.weight * *height_mm;
       weight += row.weight;
     }
     if (!(weight > 0.0)) return 0.0;

@@ -7,18 +7,10 @@
 #include <span>
 
 #include "core/geometry/geometry.hpp"
+#include "core/stereo/outline_chord.hpp"
 #include "core/stereo/surface_grid.hpp"
 
 namespace traygauge {
-
-// Samples from the item's first to its last one in a row or column.
-struct OutlineChord {
-  int first = 0;
-  int end = 0;
-
-  constexpr bool empty() const { return end <= first; }
-  constexpr int count() const { return end - first; }
-};
 
 struct OutlineRow {
   std::array<OutlineChord, 2> chords;  // by view
@@ -52,10 +44,8 @@ int count_pieces(ImageView<const std::uint8_t> labels, std::uint8_t label);
 OutlineRows collect_outline_rows(const std::array<SurfaceGrid, 2>& views, std::uint8_t label, double level_mm,
                                  std::span<OutlineRow> rows);
 
-// Height over the level of the centre of a body whose sections with the rows' planes are central conics: the
-// line of sight to the centre runs (m₁ + m₂)/2 · (1 − b²/H²) along the row, with m the runs of the two
-// tangents, H the camera's height over the centre and b the section's half height, here the smaller of centre
-// height and half a chord. 0 without usable rows.
+// Height over the level of the centre of a body whose sections with the rows' planes are central conics, by
+// all of its rows (centre_between_sides_mm). 0 without usable rows.
 double centre_height_mm(const OutlineRows& outline, const std::array<SurfaceGrid, 2>& views, double level_mm);
 
 }  // namespace traygauge

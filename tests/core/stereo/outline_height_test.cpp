@@ -12,6 +12,7 @@
 
 #include "core/base/units.hpp"
 #include "tests/support/cameras.hpp"
+#include "tests/support/pictures.hpp"
 #include "tests/support/random_seed.hpp"
 
 namespace traygauge {
@@ -71,7 +72,7 @@ class OutlinedSolids {
       view.lens = test::phone_lens(0.25);
       view.camera_from_table = test::looking_at(eyes_mm[v], {0.0, 0.0, kFloorMm}, 0.3);
       labels_[v] = cv::Mat1b(view.lens.height, view.lens.width, kDishLabel);
-      view.gray = view.labels = {labels_[v].data, labels_[v].cols, labels_[v].rows};
+      view.gray = view.labels = test::view_of(labels_[v]);
       view.dish = {0, 0, labels_[v].cols, labels_[v].rows};
     }
   }
@@ -98,12 +99,9 @@ class OutlinedSolids {
     std::array<cv::Mat1b, 2> sampled;
     for (std::size_t v = 0; v < 2; ++v) {
       sampled[v] = cv::Mat1b(grid.rows(), grid.columns());
-      grid.sample_labels(views_[v], kept, {sampled[v].data, sampled[v].cols, sampled[v].rows});
+      grid.sample_labels(views_[v], kept, test::view_of(sampled[v]));
     }
-    const auto view_of = [&](std::size_t v) {
-      return ImageView<const std::uint8_t>{sampled[v].data, sampled[v].cols, sampled[v].rows};
-    };
-    return height_by_outlines_mm(grid, {view_of(0), view_of(1)});
+    return height_by_outlines_mm(grid, {test::view_of(sampled[0]), test::view_of(sampled[1])});
   }
 
  private:
@@ -134,8 +132,8 @@ TEST(OutlineHeight, OfWholeFruit) {
   RandomViews random;
   for (int i = 0; i < 20; ++i) {
     const double half_width_mm = random.between(25.0, 55.0);
-    const Ellipsoid fruit{half_width_mm *
-                          Vec3(random.between(0.8, 1.2), random.between(0.8, 1.2), random.between(0.8, 1.2))};
+    const Vec3 shape{random.between(0.8, 1.2), random.between(0.8, 1.2), random.between(0.8, 1.2)};
+    const Ellipsoid fruit{half_width_mm * shape};
     OutlinedSolids outlined(random.eyes());
     outlined.add(kSolid, fruit);
     EXPECT_GE(outlined.height_mm(), 0.97 * fruit.height_mm()) << fruit.half_axes_mm.transpose();
