@@ -44,21 +44,11 @@ DishDescription usual_dish(DishStyle style) {
                       {10, 21.5}, {15, 13.5},  {22, 7.6},   {32, 4.4}};
       break;
   }
-  dish.rim_height_mm = dish.profile[1].height_mm;
-  dish.bottom_height_mm = dish.profile.back().height_mm;
   return dish;
 }
 
 double tenths(double value) {
   return std::round(10.0 * value) / 10.0;
-}
-
-void scale_dish(DishDescription& dish, double scale) {
-  for (double& size : dish.outer_size_mm) size = tenths(scale * size);
-  for (ProfilePoint& point : dish.profile)
-    point = {tenths(scale * point.inset_mm), tenths(scale * point.height_mm)};
-  dish.rim_height_mm = tenths(scale * dish.rim_height_mm);
-  dish.bottom_height_mm = tenths(scale * dish.bottom_height_mm);
 }
 
 // Room for one of several foods on a dish.
@@ -113,6 +103,14 @@ Lamp ceiling_lamp(double x_mm, double y_mm, double height_mm, double u_mm, doubl
 }
 
 }  // namespace
+
+void scale_dish(DishDescription& dish, double scale) {
+  for (double& size : dish.outer_size_mm) size = tenths(scale * size);
+  for (ProfilePoint& point : dish.profile)
+    point = {tenths(scale * point.inset_mm), tenths(scale * point.height_mm)};
+  dish.rim_height_mm = dish.profile[1].height_mm;
+  dish.bottom_height_mm = dish.profile.back().height_mm;
+}
 
 LaidDish draw_dish(Draws& draws, DishStyle style, double scale, int label) {
   LaidDish laid;

@@ -13,6 +13,9 @@ namespace traygauge {
 
 enum class DishStyle : std::uint8_t { dinner, soup, oval, bowl, dessert_bowl };
 
+// Sizes and profile to tenths of a mm; the rim is the profile's second point, the bottom its last.
+void scale_dish(DishDescription& dish, double scale);
+
 // All lengths of the usual dish of this style times `scale`, glazed.
 LaidDish draw_dish(Draws& draws, DishStyle style, double scale, int label);
 

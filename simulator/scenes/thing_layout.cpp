@@ -89,19 +89,25 @@ std::uint32_t pick_second_colour(Draws& draws, ThingKind kind) {
   return draws.pick(std::span<const std::uint32_t>(kOthers));
 }
 
+Footprint place_of(const Thing& thing) {
+  const Eigen::Vector2d half_mm = half_size_mm(thing.kind);
+  return {thing.centre_mm, thing.rotation_deg, half_mm.x(), half_mm.y(), false};
+}
+
+Footprint arm_of(const Thing& hand) {
+  const Eigen::Vector2d along = Eigen::Rotation2Dd(radians(hand.rotation_deg)) * Eigen::Vector2d::UnitX();
+  return {hand.centre_mm - 230.0 * along, hand.rotation_deg, 160.0, 90.0, false};
+}
+
 // Its palm near the dishes, its arm away from them.
 bool place_hand(Thing& hand, const SceneDescription& scene, const std::vector<Footprint>& taken,
                 Draws& draws) {
-  const Eigen::Vector2d half_mm = half_size_mm(ThingKind::hand);
   for (int tries = 0; tries < kBesideTries; ++tries) {
     const double angle = draws.angle_rad();
     const Eigen::Vector2d out(std::cos(angle), std::sin(angle));
     hand.centre_mm = draws.between(120.0, reach_mm(scene) + 180.0) * out;
     hand.rotation_deg = 180.0 + angle * 180.0 / std::numbers::pi + draws.between(-15.0, 15.0);
-    const Eigen::Vector2d along = Eigen::Rotation2Dd(radians(hand.rotation_deg)) * Eigen::Vector2d::UnitX();
-    const Footprint palm{hand.centre_mm, hand.rotation_deg, half_mm.x(), half_mm.y(), false};
-    const Footprint arm{hand.centre_mm - 230.0 * along, hand.rotation_deg, 160.0, 90.0, false};
-    if (is_free(palm, taken) && is_free(arm, taken)) {
+    if (is_free(place_of(hand), taken) && is_free(arm_of(hand), taken)) {
       hand.base_mm = scene.tray ? kTrayLipMm : 0.0;
       return true;
     }
@@ -112,17 +118,12 @@ bool place_hand(Thing& hand, const SceneDescription& scene, const std::vector<Fo
 // On the tray, or on the table.
 bool place_thing(Thing& thing, const SceneDescription& scene, const std::vector<Footprint>& taken,
                  Draws& draws) {
-  const Eigen::Vector2d half_mm = half_size_mm(thing.kind);
   const double farthest_mm = reach_mm(scene) + 130.0;
   for (int tries = 0; tries < kBesideTries; ++tries) {
-    Footprint place{{draws.between(-farthest_mm, farthest_mm), draws.between(-farthest_mm, farthest_mm)},
-                    draws.between(0.0, 360.0),
-                    half_mm.x(),
-                    half_mm.y(),
-                    false};
+    thing.centre_mm = {draws.between(-farthest_mm, farthest_mm), draws.between(-farthest_mm, farthest_mm)};
+    thing.rotation_deg = draws.between(0.0, 360.0);
+    const Footprint place = place_of(thing);
     if (!is_free(place, taken)) continue;
-    thing.centre_mm = place.centre_mm;
-    thing.rotation_deg = place.rotation_deg;
     thing.base_mm = 0.0;
     if (!scene.tray || is_on_tray(place, *scene.tray)) return true;
     const Footprint tray{{0.0, 0.0}, 0.0, 0.5 * scene.tray->size_mm[0], 0.5 * scene.tray->size_mm[1], false};
@@ -174,13 +175,8 @@ void lay_things(SceneDescription& scene, Draws& draws, int count) {
     if (!(is_hand ? place_hand(thing, scene, taken, draws) : place_thing(thing, scene, taken, draws)))
       continue;
     has_hand = has_hand || is_hand;
-    const Eigen::Vector2d half_mm = half_size_mm(thing.kind);
-    taken.push_back({thing.centre_mm, thing.rotation_deg, half_mm.x(), half_mm.y(), false});
-    if (is_hand) {
-      const Eigen::Vector2d along =
-          Eigen::Rotation2Dd(radians(thing.rotation_deg)) * Eigen::Vector2d::UnitX();
-      taken.push_back({thing.centre_mm - 230.0 * along, thing.rotation_deg, 160.0, 90.0, false});
-    }
+    taken.push_back(place_of(thing));
+    if (is_hand) taken.push_back(arm_of(thing));
     scene.things.push_back(thing);
   }
 }

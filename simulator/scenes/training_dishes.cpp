@@ -6,6 +6,7 @@
 #include <span>
 
 #include "simulator/scenes/dish_shell.hpp"
+#include "simulator/scenes/scene_parts.hpp"
 
 namespace traygauge {
 namespace {
@@ -36,10 +37,6 @@ DishDescription usual_dish(SmallDish kind) {
       break;
   }
   return dish;
-}
-
-double to_tenths(double value) {
-  return std::round(10.0 * value) / 10.0;
 }
 
 std::uint32_t any_colour(Draws& draws) {
@@ -93,12 +90,7 @@ LaidDish draw_small_dish(Draws& draws, SmallDish kind, int label) {
   laid.dish = usual_dish(kind);
   laid.dish.label = label;
   laid.seed = draws.seed();
-  const double scale = draws.between(0.88, 1.15);
-  for (double& size : laid.dish.outer_size_mm) size = to_tenths(scale * size);
-  for (ProfilePoint& point : laid.dish.profile)
-    point = {to_tenths(scale * point.inset_mm), to_tenths(scale * point.height_mm)};
-  laid.dish.rim_height_mm = laid.dish.profile[1].height_mm;
-  laid.dish.bottom_height_mm = laid.dish.profile.back().height_mm;
+  scale_dish(laid.dish, draws.between(0.88, 1.15));
   draw_training_glaze(draws, laid.glaze);
   if (kind != SmallDish::salad_bowl) return laid;
   const double material = draws.between(0.0, 1.0);
