@@ -2,12 +2,12 @@
 // height before it is matched: where too little height was searched, a third of it was missing.
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <cstdio>
 #include <string>
 #include <vector>
 
 #include "firmware/evaluate/protocol.hpp"
+#include "firmware/evaluate/statistics.hpp"
 #include "tests/evaluation/real/fruit_captures.hpp"
 #include "tests/simulator/capture/temporary_capture.hpp"
 
@@ -39,11 +39,8 @@ FruitFigures measure(const std::string& board, const BoardFruit& fruit) {
   }
   EXPECT_TRUE(skipped.empty());
   figures.measured = columns_ml.size();
-  for (const double ml : columns_ml) figures.mean_ml += ml / static_cast<double>(columns_ml.size());
-  double squares = 0.0;
-  for (const double ml : columns_ml) squares += std::pow(ml - figures.mean_ml, 2);
-  figures.deviation_percent =
-      100.0 * std::sqrt(squares / static_cast<double>(columns_ml.size())) / figures.mean_ml;
+  figures.mean_ml = mean(columns_ml);
+  figures.deviation_percent = 100.0 * population_deviation(columns_ml) / figures.mean_ml;
   std::printf("%s: %zu of %zu pairs measured, %.0f ml of %.0f (%+.1f %%), standard deviation %.1f %%\n",
               board.c_str(), figures.measured, figures.captures, figures.mean_ml, fruit.column_ml,
               100.0 * (figures.mean_ml / fruit.column_ml - 1.0), figures.deviation_percent);

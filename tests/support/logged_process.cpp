@@ -5,12 +5,12 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <chrono>
 #include <csignal>
-#include <cstdint>
 #include <fstream>
 #include <iterator>
-#include <thread>
+#include <string>
+
+#include "tests/support/becomes_true.hpp"
 
 namespace traygauge::test {
 namespace {
@@ -55,10 +55,7 @@ int LoggedProcess::end(int signal) {
 }
 
 int LoggedProcess::stop() {
-  constexpr std::chrono::seconds kLongestStart{20};
-  const auto end_of_wait = std::chrono::steady_clock::now() + kLongestStart;
-  while (!handles(SIGTERM) && std::chrono::steady_clock::now() < end_of_wait)
-    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  becomes_true([this] { return handles(SIGTERM); });
   return end(SIGTERM);
 }
 
@@ -68,21 +65,21 @@ std::string LoggedProcess::log() const {
 }
 
 long LoggedProcess::status_kib(const std::string& key) const {
-  std::ifstream status("/proc/" + std::to_string(id_) + "/status");
-  for (std::string word; status >> word;) {
-    long kib = 0;
-    if (word == key && status >> kib) return kib;
-  }
-  return 0;
+  const std::string kib = status_of(key);
+  return kib.empty() ? 0 : std::stol(kib);
 }
 
 bool LoggedProcess::handles(int signal) const {
+  const std::string caught = status_of("SigCgt:");
+  return !caught.empty() && ((std::stoull(caught, nullptr, 16) >> (signal - 1)) & 1U) != 0;
+}
+
+std::string LoggedProcess::status_of(const std::string& key) const {
   std::ifstream status("/proc/" + std::to_string(id_) + "/status");
-  for (std::string word; status >> word;) {
-    std::uint64_t caught = 0;
-    if (word == "SigCgt:" && status >> std::hex >> caught) return ((caught >> (signal - 1)) & 1U) != 0;
+  for (std::string word, value; status >> word;) {
+    if (word == key && status >> value) return value;
   }
-  return false;
+  return {};
 }
 
 }  // namespace traygauge::test

@@ -32,6 +32,8 @@ class LoggedProcess {
  private:
   long status_kib(const std::string& key) const;
   bool handles(int signal) const;
+  // What stands behind a key of /proc/PID/status; empty where nothing runs.
+  std::string status_of(const std::string& key) const;
 
   std::filesystem::path log_;
   pid_t id_ = 0;
