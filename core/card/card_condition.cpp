@@ -17,8 +17,9 @@ namespace {
 // Places of 11 mm, on which a small card still has some 100 pixels. Twice as many say too little each.
 constexpr std::size_t kPlaceColumns = 8;
 constexpr std::size_t kPlaceRows = 5;
-constexpr int kMinPlacePixels = 10;        // at the border
-constexpr double kRoundingVariance = 1.0;  // of a grey value: residuals below it are rounding
+// At the border a place may be cut: with ten pixels of a tile its own noise is known to a quarter (1 / sqrt(2
+// · 8)).
+constexpr int kMinPlacePixels = 10;
 
 // Sums over a place's pixels, each tile about its own means: light that changes from tile to tile is none.
 struct PrintAtPlace {
@@ -33,7 +34,7 @@ struct PrintAtPlace {
   double slope_sigma() const {
     const double left = std::max(0.0, picture - together * together / print);
     const double freedom = std::max(1.0, pixels - 2.0 * tiles);
-    return std::sqrt(std::max(kRoundingVariance, left / freedom) / print);
+    return std::sqrt(left / freedom / print);
   }
 };
 
@@ -180,6 +181,8 @@ double largest_rise_mm(const Bend& bend_mm) {
 
 // Leaves both numbers 0 where nothing tells a bend.
 void measure_bend(const AlignedPrint& print, const CardConditionParams& params, CardCondition& condition) {
+  // On 76 views of unseen trays the second step moves the bend by 0.12 mm at most, the third by 0.10 (median
+  // 0.006).
   constexpr int kIterations = 3;
   BentFit fit{print.camera_from_table, print.tone};
   Mat3 covariance = Mat3::Zero();
