@@ -10,6 +10,7 @@
 #include "firmware/base/exit_status.hpp"
 #include "firmware/station/recorded_captures.hpp"
 #include "firmware/station/station_command.hpp"
+#include "tests/simulator/capture/small_demo.hpp"
 #include "tests/simulator/devices/random_faults.hpp"
 
 namespace traygauge {
@@ -27,8 +28,9 @@ struct Played {
 };
 
 Played play(const std::filesystem::path& faults, bool by_hand = false, std::uint64_t scans = kScans) {
+  static const SmallDemo demo;
   StationCommand command;
-  command.devices = "simulator:" TRAYGAUGE_SOURCE_DIR "/simulator/demo";
+  command.devices = "simulator:" + demo.folder().string();
   command.faults = faults.string();
   command.scans = scans;
   command.json = true;
