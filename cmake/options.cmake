@@ -39,6 +39,9 @@ if(TRAYGAUGE_SANITIZERS)
   target_compile_options(traygauge_options INTERFACE
     -fsanitize=${TRAYGAUGE_SANITIZERS} -fno-sanitize-recover=all -fno-omit-frame-pointer)
   target_link_options(traygauge_options INTERFACE -fsanitize=${TRAYGAUGE_SANITIZERS})
+  if(TRAYGAUGE_SANITIZERS MATCHES address)
+    target_compile_definitions(traygauge_options INTERFACE TRAYGAUGE_ADDRESS_SANITIZER)  # compilers name it differently
+  endif()
   if(TRAYGAUGE_SANITIZERS MATCHES undefined)
     # More than a third of the time to compile Eigen's templates goes into these. The address sanitizer meets null pointers and what
     # leaves an object as well, Eigen asserts its alignment, and there is no downcast to check.

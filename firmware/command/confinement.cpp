@@ -25,7 +25,7 @@ constexpr auto kNeverNeeded = std::to_array<int>({
       SCMP_SYS(finit_module), SCMP_SYS(delete_module), SCMP_SYS(kexec_load), SCMP_SYS(kexec_file_load),
       SCMP_SYS(reboot), SCMP_SYS(mknod), SCMP_SYS(mknodat), SCMP_SYS(add_key), SCMP_SYS(request_key),
       SCMP_SYS(keyctl),
-#if !defined(__SANITIZE_ADDRESS__)
+#if !defined(TRAYGAUGE_ADDRESS_SANITIZER)
       SCMP_SYS(ptrace),  // by which the leak sanitizer stops the threads
 #endif
 });

@@ -34,16 +34,14 @@ INSTANTIATE_TEST_SUITE_P(Both, ViewOrderOfCaptures, testing::Values(Profile::bes
 TEST_P(ViewOrderOfCaptures, ReversedPairsMeasureTheSame) {
   if (captures_folder().empty()) GTEST_SKIP() << "TRAYGAUGE_CAPTURES names no captures";
   double largest = 0.0;
-  for (const auto& [folder, capture] : single_dish_captures()) {
-    for (const auto& pair : capture.pairs) {
-      const auto forward = volumes_of(GetParam(), capture, pair);
-      const auto reverse = volumes_of(GetParam(), capture, {pair[1], pair[0]});
-      ASSERT_EQ(forward.size(), reverse.size());
-      for (const auto& [label, volume_ml] : forward) {
-        const double difference = std::abs(reverse.at(label) / volume_ml - 1.0);
-        EXPECT_LE(difference, kMaxDifference) << folder.filename() << " item " << label;
-        largest = std::max(largest, difference);
-      }
+  for (const auto& [folder, capture, pair] : single_dish_pairs(GetParam() == Profile::best ? 1 : 3)) {
+    const auto forward = volumes_of(GetParam(), capture, pair);
+    const auto reverse = volumes_of(GetParam(), capture, {pair[1], pair[0]});
+    ASSERT_EQ(forward.size(), reverse.size());
+    for (const auto& [label, volume_ml] : forward) {
+      const double difference = std::abs(reverse.at(label) / volume_ml - 1.0);
+      EXPECT_LE(difference, kMaxDifference) << folder.filename() << " item " << label;
+      largest = std::max(largest, difference);
     }
   }
   std::printf("largest difference %.4f %%\n", 100.0 * largest);

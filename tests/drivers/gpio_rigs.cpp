@@ -104,7 +104,7 @@ template <class RigType, class Base>
 RigMakers<Base> makers(const std::string& prefix) {
   RigMakers<Base> list;
   for (const auto& [name, make] : benches()) {
-    list.push_back({prefix + "_" + name, [make] { return std::make_unique<RigType>(make); }});
+    list.push_back({prefix + "_" + name, [make = make] { return std::make_unique<RigType>(make); }});
   }
   return list;
 }

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <filesystem>
 #include <span>
 #include <vector>
 
@@ -18,7 +19,10 @@ namespace traygauge {
 
 class DemoTray {
  public:
-  DemoTray() : DemoTray(read_capture(TRAYGAUGE_SOURCE_DIR "/simulator/demo/mash_and_meatballs")) {}
+  DemoTray() : DemoTray(std::filesystem::path(TRAYGAUGE_SOURCE_DIR "/simulator/demo")) {}
+  // From a folder with the demo's captures.
+  explicit DemoTray(const std::filesystem::path& demo)
+      : DemoTray(read_capture(demo / "mash_and_meatballs")) {}
 
   template <class Config = Configuration>
   Config configuration() const {
@@ -41,7 +45,8 @@ class DemoTray {
     const auto& [k1, k2, p1, p2, k3] = camera.distortion;
     setup_.lens = {camera.size.width, camera.size.height, {}, k1, k2, p1, p2, k3};
     setup_.lens.pinhole = {camera.fx_px, camera.fy_px, camera.cx_px, camera.cy_px};
-    setup_.card = {capture.card.width_mm, capture.card.height_mm, capture.card.thickness_mm, pattern_.gray()};
+    setup_.card = {{capture.card.width_mm, capture.card.height_mm, capture.card.thickness_mm},
+                   pattern_.gray()};
     const DishDescription& dish = capture.dishes.front();
     dishes_[0] = {dish.outer_size_mm, dish.rim_height_mm, dish.bottom_height_mm};
     setup_.dishes = dishes_;

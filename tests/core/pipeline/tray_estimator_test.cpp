@@ -10,6 +10,7 @@
 #include "core/pipeline/memory_report.hpp"
 #include "tests/core/pipeline/demo_tray.hpp"
 #include "tests/core/pipeline/measuring_bench.hpp"
+#include "tests/simulator/capture/small_demo.hpp"
 
 namespace traygauge {
 namespace {
@@ -19,18 +20,21 @@ constexpr std::byte kGuard{0x5C};
 constexpr double kDoubtedScale = 1.02;  // between what is warned of and what is refused
 
 const DemoTray& demo() {
+  static const DemoTray tray(SmallDemo().folder());
+  return tray;
+}
+const DemoTray& whole_demo() {
   static const DemoTray tray;
   return tray;
 }
 
-std::array<ViewInput, 2> views_of(bool is_outlined) {
-  return {is_outlined ? demo().view(0) : demo().bare_view(0),
-          is_outlined ? demo().view(1) : demo().bare_view(1)};
+std::array<ViewInput, 2> views_of(const DemoTray& tray, bool is_outlined) {
+  return {is_outlined ? tray.view(0) : tray.bare_view(0), is_outlined ? tray.view(1) : tray.bare_view(1)};
 }
 
 class TrayEstimatorTest : public testing::TestWithParam<bool> {
  protected:
-  const std::array<ViewInput, 2> views_ = views_of(GetParam());
+  const std::array<ViewInput, 2> views_ = views_of(demo(), GetParam());
 };
 INSTANTIATE_TEST_SUITE_P(Labels, TrayEstimatorTest, testing::Values(true, false),
                          [](const auto& labels) { return labels.param ? "Given" : "Found"; });
@@ -48,29 +52,30 @@ TEST_P(TrayEstimatorTest, MeasuresAgainAndAgainTheSameBits) {
 TEST_P(TrayEstimatorTest, NothingLeaksFromGivenLabelsIntoFoundOnesOrBack) {
   MeasuringBench bench(demo().configuration());
   const auto before = numbers_of(bench.measure(views_[0], views_[1], 5));
-  const auto others = views_of(!GetParam());
+  const auto others = views_of(demo(), !GetParam());
   EXPECT_FALSE(have_equal_bits(before, numbers_of(bench.measure(others[0], others[1], 5))));
   EXPECT_TRUE(have_equal_bits(before, numbers_of(bench.measure(views_[0], views_[1], 5))));
 }
 
 // Other lenses are tried in the memory of the measurement, and nothing of them stays.
 TEST_P(TrayEstimatorTest, ALensThatDoesNotFitLeavesNothingBehind) {
-  Configuration configuration = demo().configuration();
+  Configuration configuration = whole_demo().configuration();
   const LensModel lens = configuration.lens;
+  const std::array<ViewInput, 2> views = views_of(whole_demo(), GetParam());
   configuration.lens = LensChange{0.9}.of(lens);
   MeasuringBench bench(configuration);
-  const auto first = numbers_of(bench.measure(views_[0], views_[1], 5));
+  const auto first = numbers_of(bench.measure(views[0], views[1], 5));
   EXPECT_NE(first.front(), static_cast<double>(StatusCode::ok));
   if (GetParam()) {
     EXPECT_EQ(first.front(), static_cast<double>(StatusCode::lens_does_not_fit));
   }
   EXPECT_TRUE(have_equal_bits(first, numbers_of(bench.estimator.estimate(5))));
-  std::array<ViewInput, 2> right = views_;
+  std::array<ViewInput, 2> right = views;
   for (ViewInput& view : right) view.lens = lens;
   const auto measured = numbers_of(bench.measure(right[0], right[1], 5));
-  MeasuringBench other(demo().configuration());
-  EXPECT_TRUE(have_equal_bits(measured, numbers_of(other.measure(views_[0], views_[1], 5))));
-  EXPECT_TRUE(have_equal_bits(first, numbers_of(bench.measure(views_[0], views_[1], 5))));
+  MeasuringBench other(whole_demo().configuration());
+  EXPECT_TRUE(have_equal_bits(measured, numbers_of(other.measure(views[0], views[1], 5))));
+  EXPECT_TRUE(have_equal_bits(first, numbers_of(bench.measure(views[0], views[1], 5))));
 }
 
 // A pair that is doubted and measured keeps its volumes and heights while others are tried.

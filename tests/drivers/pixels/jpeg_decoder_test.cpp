@@ -70,7 +70,8 @@ TEST_F(Jpeg, KnowsWhereAPictureEnds) {
   for (const std::size_t behind : {0U, 1U, 2U, 300U, 700U}) {
     for (const bool is_noise : {false, true}) {
       auto bytes = whole;
-      for (std::size_t i = 0; i < behind; ++i) bytes.push_back(is_noise ? random() % 256 : 0);
+      for (std::size_t i = 0; i < behind; ++i)
+        bytes.push_back(is_noise ? static_cast<std::uint8_t>(random()) : 0);
       EXPECT_EQ(find_jpeg(bytes).length, length) << behind;
       EXPECT_TRUE(find_jpeg(bytes).has_end) << behind;
     }

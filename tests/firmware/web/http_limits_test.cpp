@@ -24,7 +24,7 @@ using std::chrono::milliseconds;
 using std::chrono::seconds;
 using Clock = std::chrono::steady_clock;
 
-#if defined(__SANITIZE_ADDRESS__)
+#if defined(TRAYGAUGE_ADDRESS_SANITIZER)
 constexpr bool kMemoryIsMeasured = false;  // freed memory is kept aside
 #else
 constexpr bool kMemoryIsMeasured = true;
