@@ -5,8 +5,11 @@
 #include "firmware/base/json_number.hpp"
 
 namespace traygauge {
+namespace {
 
 using Json = nlohmann::ordered_json;
+
+}  // namespace
 
 Json item_document(const ItemResult& item) {
   const bool measured = item.status == StatusCode::ok;
