@@ -28,8 +28,7 @@ paper = -DTRAYGAUGE_PAPER=$(if $(filter true,$(CI)),OFF,ON)
 # What comes next, and when it began.
 say = @echo "== $$(date +%T) $(1)"
 sources = git ls-files '*.cpp' '*.hpp'
-# One more than there are cores: browser, brokers and stations wait for most of their time.
-ctest = ctest --output-on-failure --no-tests=error -j $$(($(JOBS) + 1)) -LE '^bench$$'
+ctest = ctest --output-on-failure --no-tests=error -j $(JOBS) -LE '^bench$$'
 
 .PHONY: configure build build-all demo verify-demo test test-programs golden bench board-test board-packages board-guest arm-sysroot board-programs board-drivers board-gpiod-2 board-station board-systemd board-power-cuts arm-test test-debian13 lint lint-changed format check-format check-captures sanitize asan-ubsan tsan soak soak-station soak-cuts soak-kills fuzz fuzz-programs soak-trays packages clang-packages page-packages package package-debian13 package-test train train-packages clean
 
