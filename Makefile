@@ -156,7 +156,7 @@ board-power-cuts: board-guest
 
 # The cross-build under user-mode emulation: tests of the core without captures, the drivers' tests, and the volumes that the station
 # measures of the demo's trays. Not the alignment of the card, which takes minutes: the volumes depend on the card's place. On CI
-# tests of the core whose results show in those volumes are left out.
+# tests of the core whose results show in those volumes are left out. `BOARD=arm64 make package` builds the other programs.
 ARM_TESTS = base_test geometry_test image_test network_test features_test tracking_test pixels_test v4l2_test gpio_test serial_test drivers_test \
   $(if $(filter true,$(CI)),,card_test adjustment_test dish_test segmentation_test stereo_test paper_sparse_test)
 arm_libraries = /usr/lib/aarch64-linux-gnu
@@ -251,7 +251,7 @@ page-packages: packages
 
 # Compiles Eigen's templates with sanitizers in half of GCC's time.
 clang-packages: packages
-	@config/install_packages.sh tests/fuzz/packages.txt
+	@config/install_packages.sh tests/clang_packages.txt
 
 # Torch, for the training and for the test that trains a toy.
 train-packages: packages
@@ -295,7 +295,7 @@ lint-changed: packages
 sanitize: asan-ubsan tsan
 
 # On CI what reads pictures, files, messages and devices, with what is fuzzed of them, and the estimator, which leads through all of
-# core. The tests of its stages and the other programs take three times as long.
+# core. Tests of its stages and the other programs are left to `make sanitize`.
 ASAN_TESTS = $(addsuffix _test,image labels network pipeline estimator capture simulated_devices drivers pixels v4l2 gpio serial \
   firmware_base journal journal_power_cut web) web_request_fuzz message_fuzz journal_fuzz network_file_fuzz
 empty =

@@ -17,8 +17,8 @@ namespace {
 // Places of 11 mm, on which a small card still has some 100 pixels. Twice as many say too little each.
 constexpr std::size_t kPlaceColumns = 8;
 constexpr std::size_t kPlaceRows = 5;
-// At the border a place may be cut: with ten pixels of a tile its own noise is known to a quarter (1 / sqrt(2
-// · 8)).
+// At the border a place may be cut. Ten pixels of one tile leave eight degrees of freedom: what is estimated
+// as their noise is right to 1 / sqrt(2 · 8), a quarter.
 constexpr int kMinPlacePixels = 10;
 
 // Sums over a place's pixels, each tile about its own means: light that changes from tile to tile is none.

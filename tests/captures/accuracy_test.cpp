@@ -9,7 +9,7 @@
 
 #include "firmware/evaluate/evaluation.hpp"
 #include "firmware/evaluate/statistics.hpp"
-#include "tests/captures/single_dish_captures.hpp"
+#include "tests/simulator/capture/temporary_capture.hpp"
 
 namespace traygauge {
 namespace {

@@ -6,37 +6,27 @@
 #include <filesystem>
 #include <vector>
 
+#include "firmware/config/profile.hpp"
 #include "simulator/capture/capture.hpp"
 #include "tests/simulator/capture/temporary_capture.hpp"
 
 namespace traygauge {
 
-struct NamedCapture {
-  std::filesystem::path folder;
-  Capture capture;
-};
-
-inline std::vector<NamedCapture> single_dish_captures() {
-  std::vector<NamedCapture> captures;
-  for (const std::filesystem::path& folder : capture_folders()) {
-    Capture capture = read_capture(folder);
-    if (capture.dishes.size() == 1) captures.push_back({folder, std::move(capture)});
-  }
-  return captures;
-}
-
-// One of its pairs.
+// A pair of views of such a capture.
 struct NamedPair {
   std::filesystem::path folder;
   Capture capture;
   std::array<int, 2> views{};
 };
 
-// Every `step`th pair of them all.
-inline std::vector<NamedPair> single_dish_pairs(std::size_t step) {
+// All pairs for the product, every third for profile paper.
+inline std::vector<NamedPair> single_dish_pairs(Profile profile) {
+  const std::size_t step = profile == Profile::best ? 1 : 3;
   std::vector<NamedPair> pairs;
   std::size_t seen = 0;
-  for (const auto& [folder, capture] : single_dish_captures()) {
+  for (const std::filesystem::path& folder : capture_folders()) {
+    const Capture capture = read_capture(folder);
+    if (capture.dishes.size() != 1) continue;
     for (const auto& views : capture.pairs) {
       if (seen++ % step == 0) pairs.push_back({folder, capture, views});
     }

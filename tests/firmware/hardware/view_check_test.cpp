@@ -35,7 +35,7 @@ class CardInDemo : public testing::TestWithParam<const char*> {
   std::filesystem::path folder_ = std::filesystem::path(TRAYGAUGE_SOURCE_DIR) / "simulator/demo" / GetParam();
   Capture capture_ = read_capture(folder_);
   Picture pattern_ = load_pattern(capture_.card);
-  ReferenceCard card_{capture_.card.width_mm, capture_.card.height_mm, capture_.card.thickness_mm,
+  ReferenceCard card_{{capture_.card.width_mm, capture_.card.height_mm, capture_.card.thickness_mm},
                       pattern_.gray()};
   std::array<Picture, 2> pictures_;
   std::array<Pose, 2> truth_;  // world to camera

@@ -1,4 +1,5 @@
-// The demo's trays in pictures of half the size, for tests that measure them many times: a third of the time.
+// The demo's trays in pictures of half the size, for tests that measure them many times: in less than
+// half of the time.
 #pragma once
 
 #include <filesystem>
