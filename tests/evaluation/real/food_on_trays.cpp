@@ -16,6 +16,7 @@
 
 #include "core/pipeline/segmenter_memory.hpp"
 #include "firmware/base/aligned_block.hpp"
+#include "firmware/network/food_network.hpp"
 
 namespace {
 
@@ -107,6 +108,13 @@ class Finder {
     return plan.high_water_bytes();
   }
 
+  // The plan of memory needs a network.
+  static Configuration configure() {
+    Configuration configuration;
+    configuration.network = &food_network();
+    return configuration;
+  }
+
   void mark_food(const FrameView& frame, const DishSearchView& view, const FoundDish& dish, cv::Mat1b& food) {
     FoodOutlineWorkspace& workspace = memory_.food.outline;
     DishRaster raster;
@@ -133,7 +141,7 @@ class Finder {
     }
   }
 
-  Configuration configuration_;
+  Configuration configuration_ = configure();
   AlignedBlock block_;
   SegmenterMemory memory_;
   std::unique_ptr<AlignedBlock> edge_search_block_;
