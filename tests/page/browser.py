@@ -50,8 +50,12 @@ class Browser:
         return lambda: self.driver.execute_cdp_cmd("Page.removeScriptToEvaluateOnNewDocument", added)
 
     def open(self, address):
-        self.driver.get("about:blank")  # so that a change of the part after "#" alone loads the page, too
-        self.driver.get(address)
+        if address.partition("#")[0] != self.driver.current_url.partition("#")[0]:
+            self.driver.get(address)
+            return
+        # A change of the part after "#" alone would load nothing.
+        self.run("history.replaceState(null, '', arguments[0])", address)
+        self.driver.refresh()
 
     def run(self, script, *arguments):
         return self.driver.execute_script(script, *arguments)
