@@ -211,8 +211,8 @@ def write_results(run, held_out, plan, arguments):
 
 
 def keep_freed_memory():
-    """Tensors come and go at each step. If they went back to the system each time, fetching pages again would take half of
-    the time."""
+    """Each step frees its tensors. Given back to the system, their memory would have to be fetched again, which takes
+    half of the time."""
     libc = ctypes.CDLL(None)
     libc.mallopt(M_MMAP_THRESHOLD, MOST_MMAP_THRESHOLD)
     libc.mallopt(M_TRIM_THRESHOLD, (1 << 31) - 1)
