@@ -13,6 +13,7 @@
 #include "core/pipeline/segmenter_params.hpp"
 #include "core/pipeline/tray_check_params.hpp"
 #include "core/pipeline/tray_setup.hpp"
+#include "core/segmentation/food_evidence.hpp"
 #include "core/stereo/dense_stereo.hpp"
 #include "core/tracking/point_tracking.hpp"
 #include "core/volume/height_map.hpp"
@@ -55,7 +56,8 @@ struct Configuration : TraySetup {
   // Reads the pictures of a pair that comes without labels, and outlives the estimator. Null: no memory is
   // taken for that, and such a pair is refused.
   const Network* network = nullptr;
-  CardParams card_search;  // among corners, where no labels are given
+  FoodObserver* food_observer = nullptr;  // of finding labels; outlives the estimator, too
+  CardParams card_search;                 // among corners, where no labels are given
   SegmenterParams segmentation;
   CardAlignmentParams card_alignment;
   PointTrackingParams tracking;

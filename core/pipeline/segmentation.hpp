@@ -25,6 +25,9 @@ struct SegmentedDish {
   int items = 0;                          // that lie on it: their labels follow those of the dish before
   bool is_split_doubtful = false;         // two of them may be one food
   bool is_bare = false;                   // found, and neither view shows food on it
+  bool is_told_by_height = false;         // some of its food, and by nothing else
+
+  bool has_doubtful_items() const { return is_split_doubtful || is_told_by_height; }
 };
 
 // The labels themselves are in the pictures that were to be filled.
@@ -47,8 +50,8 @@ struct Segmentation {
   }
   // Every dish that was asked for was found, and neither view shows food on any of them.
   bool is_bare() const { return dish_count > 0 && std::ranges::all_of(sought(), &SegmentedDish::is_bare); }
-  bool is_split_doubtful() const {
-    return misses_hint || std::ranges::any_of(sought(), &SegmentedDish::is_split_doubtful);
+  bool has_doubtful_items() const {
+    return misses_hint || std::ranges::any_of(sought(), &SegmentedDish::has_doubtful_items);
   }
   double total_ms() const { return card_ms + dish_ms + food_ms; }
 };

@@ -69,7 +69,7 @@ void Segmenter::segment() {
   if (result_.status.ok()) {
     clock.enter(Stage::volume);
     draw_dishes();
-    read_first_picture();
+    read_pictures();
     look_at_dishes();
     draw_items(params_.food);
     if (params_.items > 0) {
@@ -168,11 +168,11 @@ void Segmenter::draw_items(const FoodOutlineParams& params) {
   draw_food(params);
 }
 
-// Items are told in the first view; the second one's follow from it.
-void Segmenter::read_first_picture() {
+void Segmenter::read_pictures() {
   const Network& network = *configuration_.network;
   NetworkRunner runner(network, memory_.food.network);
-  reading_ = read_picture(views_[0].frame, network, runner, memory_.food.reading);
+  for (std::size_t v = 0; v < 2; ++v)
+    readings_[v] = read_picture(views_[v].frame, network, runner, memory_.food.readings[v]);
 }
 
 // Dense matching over every dish, once a pair: it does not depend on how food is drawn.
@@ -206,6 +206,7 @@ void Segmenter::draw_food(const FoodOutlineParams& params) {
     dish.items = 0;
     dish.is_split_doubtful = false;
     dish.is_bare = false;
+    dish.is_told_by_height = false;
     const DishInViews& scene = scenes_[d];
     if (!scene.is_described) continue;
     const auto first = static_cast<std::uint8_t>(kFirstItemLabel + result_.items);
@@ -213,7 +214,8 @@ void Segmenter::draw_food(const FoodOutlineParams& params) {
     DishRaster raster;
     ImageView<std::uint8_t> cells;
     if (!outline_view(dish, scene, 0, raster, cells)) continue;
-    const ItemSplit split = label_items(raster, reading_, params, memory_.food.outline, first, room, cells);
+    const ItemSplit split =
+        label_items(raster, readings_[0], params, memory_.food.outline, first, room, cells);
     draw_cells(raster, cells, dish.label, views_[0].labels);
     if (!outline_view(dish, scene, 1, raster, cells)) continue;
     const std::span<const std::uint8_t> second(
@@ -229,8 +231,8 @@ void Segmenter::draw_food(const FoodOutlineParams& params) {
 }
 
 // Food and glaze of one dish in one view, as outline_food marks them.
-bool Segmenter::outline_view(const SegmentedDish& dish, const DishInViews& scene, std::size_t v,
-                             DishRaster& raster, ImageView<std::uint8_t>& cells) {
+bool Segmenter::outline_view(SegmentedDish& dish, const DishInViews& scene, std::size_t v, DishRaster& raster,
+                             ImageView<std::uint8_t>& cells) {
   const DishSearchView& camera = cameras_[v];
   const DishPose& place = dish.found.place;
   const DishProfile& profile = scene.inner.profile;
@@ -242,7 +244,6 @@ bool Segmenter::outline_view(const SegmentedDish& dish, const DishInViews& scene
     return false;
   mark_zone(raster, outline, DishZone::edge);
   const double edge_mm = profile.height_at_inset_mm(0.0);
-  raster.depth_mm = edge_mm - profile.bottom_height_mm();
   const double most_mm = kMostFlange * std::min(place.size_mm[0], place.size_mm[1]);
   double well_mm = params_.flange_begin_mm;
   while (well_mm < most_mm && profile.height_at_inset_mm(well_mm) > edge_mm - params_.flange_depth_mm)
@@ -257,7 +258,11 @@ bool Segmenter::outline_view(const SegmentedDish& dish, const DishInViews& scene
   cells = {memory_.food.cells.data(), raster.width(), raster.height()};
   const ImageView<HeightSample> relief{memory_.food.outline.relief.data(), raster.width(), raster.height()};
   lay_height_evidence(scene.relief, v, scene.stored[v], raster, relief);
-  return outline_food(raster, relief, params_.food, memory_.food.outline, cells);
+  if (configuration_.food_observer != nullptr) configuration_.food_observer->on_view(v);
+  const OutlinedFood outlined = outline_food({raster, relief, readings_[v], configuration_.food_observer},
+                                             params_.food, memory_.food.outline, cells);
+  dish.is_told_by_height |= outlined.is_told_by_height;
+  return outlined.is_outlined;
 }
 
 // Seeds for the second view: food that lies on the same item in the first view, whether it is low or high.

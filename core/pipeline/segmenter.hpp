@@ -56,13 +56,13 @@ class Segmenter {
   Status find_dishes();
   void follow_own_motion();
   void draw_dishes() const;
-  void read_first_picture();
+  void read_pictures();
   void look_at_dishes();
   void draw_items(const FoodOutlineParams& params);
   void meet_hint();
   bool join_most_alike();
   void draw_food(const FoodOutlineParams& params);
-  bool outline_view(const SegmentedDish& dish, const DishInViews& scene, std::size_t v, DishRaster& raster,
+  bool outline_view(SegmentedDish& dish, const DishInViews& scene, std::size_t v, DishRaster& raster,
                     ImageView<std::uint8_t>& cells);
   void carry_labels(const DishRaster& raster, const SegmentedDish& dish, ImageView<std::uint8_t> cells) const;
   int keep_confirmed(std::uint8_t first, int items, std::uint8_t dish) const;
@@ -80,7 +80,7 @@ class Segmenter {
   std::array<SegmentedView, 2> views_;
   DishSearchViews cameras_;
   std::array<DishInViews, kMaxPlacedDishes> scenes_;
-  PictureReading reading_;
+  std::array<PictureReading, 2> readings_;
   std::size_t view_count_ = 0;
 };
 

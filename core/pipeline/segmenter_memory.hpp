@@ -30,7 +30,7 @@ struct CardStageWorkspace {
 
 // What the network read and the reliefs of all dishes stay while food is outlined.
 struct FoodStageWorkspace {
-  PictureReadingStorage reading;
+  std::array<PictureReadingStorage, 2> readings;
   std::array<HeightEvidenceStorage, kMaxPlacedDishes> reliefs;
   std::span<std::byte> network;
   HeightEvidenceWorkspace matching;
@@ -41,7 +41,7 @@ struct FoodStageWorkspace {
   template <class Allocator>
   constexpr void allocate(Allocator& arena, const Configuration& configuration) {
     const SegmenterParams& params = configuration.segmentation;
-    reading.allocate(arena, *configuration.network);
+    for (PictureReadingStorage& reading : readings) reading.allocate(arena, *configuration.network);
     for (HeightEvidenceStorage& relief : reliefs) relief.allocate(arena, params.relief);
     const auto max_cells = static_cast<std::size_t>(params.food.raster.max_cells);
     arena.overlay([&] { network = arena.template take<std::byte>(required_bytes(*configuration.network)); },

@@ -42,7 +42,6 @@ struct DishRaster {
   int top_px = 0;
   int step_px = 1;
   double cell_mm = 1.0;
-  double depth_mm = 0.0;  // of the dish, from its edge to its bottom
   ImageView<CellColour> colours;
   ImageView<DishZone> zones;
 

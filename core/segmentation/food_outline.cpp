@@ -4,40 +4,12 @@
 #include <array>
 #include <cmath>
 
+#include "core/segmentation/components.hpp"
 #include "core/segmentation/neighbours.hpp"
 #include "core/segmentation/square_sums.hpp"
 
 namespace traygauge {
 namespace {
-
-// Visits connected cells of equal value; four neighbours.
-class Components {
- public:
-  Components(ImageView<std::uint8_t> cells, std::span<std::int32_t> queue) : cells_(cells), queue_(queue) {}
-
-  // Gives the component of `start` another value; returns its cells, in the order of the visit.
-  std::span<const std::int32_t> repaint(int start, std::uint8_t value) {
-    const std::uint8_t old = cells_.data[start];
-    const int width = cells_.width;
-    const int count = width * cells_.height;
-    std::size_t size = 0;
-    const auto take = [&](int cell) {
-      if (cells_.data[cell] != old) return;
-      cells_.data[cell] = value;
-      queue_[size++] = cell;
-    };
-    if (old == value) return {};
-    take(start);
-    for (std::size_t i = 0; i < size; ++i) for_each_neighbour(queue_[i], width, count, take);
-    return queue_.first(size);
-  }
-
- private:
-  ImageView<std::uint8_t> cells_;
-  std::span<std::int32_t> queue_;
-};
-
-constexpr std::uint8_t kVisited = kLastFurtherDishLabel + 1;  // no label of a dish or item
 
 bool has_labelled_neighbour(ImageView<const std::uint8_t> cells, std::span<const std::int32_t> visited) {
   const int count = cells.width * cells.height;
@@ -47,22 +19,6 @@ bool has_labelled_neighbour(ImageView<const std::uint8_t> cells, std::span<const
                        [&](int neighbour) { is_labelled |= is_item(cells.data[neighbour]); });
     return is_labelled;
   });
-}
-
-// Repaints components of `from` with fewer cells than `min_cells`; they become `to`.
-void drop_small(ImageView<std::uint8_t> cells, std::uint8_t from, std::uint8_t to, double min_cells,
-                std::span<std::int32_t> queue) {
-  Components components(cells, queue);
-  const int count = cells.width * cells.height;
-  for (int cell = 0; cell < count; ++cell) {
-    if (cells.data[cell] != from) continue;
-    const auto visited = components.repaint(cell, kVisited);
-    if (static_cast<double>(visited.size()) >= min_cells) continue;
-    for (const std::int32_t i : visited) cells.data[i] = to;
-  }
-  for (int cell = 0; cell < count; ++cell) {
-    if (cells.data[cell] == kVisited) cells.data[cell] = from;
-  }
 }
 
 // Calls decide(cell, food) for every cell within the dish, with the number of cells of food in the square
@@ -97,16 +53,20 @@ void free_band(ImageView<std::uint8_t> cells, int radius, FoodOutlineWorkspace& 
 
 }  // namespace
 
-bool outline_food(const DishRaster& raster, ImageView<const HeightSample> relief,
-                  const FoodOutlineParams& params, FoodOutlineWorkspace& workspace,
-                  ImageView<std::uint8_t> cells) {
+OutlinedFood outline_food(const DishInView& dish, const FoodOutlineParams& params,
+                          FoodOutlineWorkspace& workspace, ImageView<std::uint8_t> cells) {
+  const DishRaster& raster = dish.raster;
   GlazeColour glaze;
-  if (!measure_glaze(raster, params.glaze, glaze)) return false;
+  if (!measure_glaze(raster, params.glaze, glaze)) return {};
   const double cells_per_mm = 1.0 / raster.cell_mm;
   const auto radius_of = [&](double radius_mm) {
     return std::clamp(static_cast<int>(std::lround(radius_mm * cells_per_mm)), 1, kMaxSquareRadius);
   };
-  segment_food(raster, relief, glaze, params.field, workspace.field, cells);
+  segment_food(dish, glaze, params.field, workspace.field, cells);
+  OutlinedFood outlined{true};
+  outlined.is_told_by_height =
+      add_standing_food(raster, dish.relief, params.field.evidence.relief, params.standing,
+                        params.min_item_mm2, {workspace.sums, workspace.column_sums, workspace.queue}, cells);
   free_band(cells, radius_of(params.band_mm), workspace);
   spread_owners(raster.colours, workspace.geodesic, cells);
   threshold_fraction(cells, radius_of(params.smoothing_mm), 0.5, workspace);
@@ -117,7 +77,7 @@ bool outline_food(const DishRaster& raster, ImageView<const HeightSample> relief
   const double per_mm2 = cells_per_mm * cells_per_mm;
   drop_small(cells, kFoodSeed, kGlazeSeed, params.min_item_mm2 * per_mm2, workspace.queue);
   drop_small(cells, kGlazeSeed, kFoodSeed, params.min_item_mm2 * per_mm2, workspace.queue);
-  return true;
+  return outlined;
 }
 
 ItemSplit label_items(const DishRaster& raster, const PictureReading& reading,

@@ -6,11 +6,13 @@
 
 #include "core/base/arena.hpp"
 #include "core/segmentation/dish_raster.hpp"
+#include "core/segmentation/food_evidence.hpp"
 #include "core/segmentation/geodesic.hpp"
 #include "core/segmentation/glaze.hpp"
 #include "core/segmentation/item_assignment.hpp"
 #include "core/segmentation/item_split.hpp"
 #include "core/segmentation/picture_reading.hpp"
+#include "core/segmentation/standing_food.hpp"
 #include "core/segmentation/tv_segmentation.hpp"
 
 namespace traygauge {
@@ -26,6 +28,7 @@ struct FoodOutlineParams {
   ItemSplitParams split;
   ItemAssignmentParams assignment;
   TvSegmentationParams field;
+  StandingFoodParams standing;
   double band_mm = 3.0;         // to either side of the field's outline, in which the picture's edges decide
   double smoothing_mm = 1.6;    // radius of the majority that smooths outlines
   double opening_mm = 2.4;      // radius of what fits into food: rings of decoration and bridges do not
@@ -61,12 +64,14 @@ struct FoodOutlineWorkspace {
   }
 };
 
-// `relief` has the raster's size; cells that are not known in it are told by colour alone. Marks the cells of
-// food as kFoodSeed, the rest of the dish as kGlazeSeed, kBarred outside. False when the flange shows too
-// little glaze.
-bool outline_food(const DishRaster& raster, ImageView<const HeightSample> relief,
-                  const FoodOutlineParams& params, FoodOutlineWorkspace& workspace,
-                  ImageView<std::uint8_t> cells);
+struct OutlinedFood {
+  bool is_outlined = false;        // not where the flange shows too little glaze
+  bool is_told_by_height = false;  // some of it, and by nothing else
+};
+
+// Marks the cells of food as kFoodSeed, the rest of the dish as kGlazeSeed, kBarred outside.
+OutlinedFood outline_food(const DishInView& dish, const FoodOutlineParams& params,
+                          FoodOutlineWorkspace& workspace, ImageView<std::uint8_t> cells);
 
 // Gives the food items labels from `first` on, kDishLabel to the rest of the dish and kBackgroundLabel
 // outside; `cells` as outline_food left them. There are at most `max_items`.

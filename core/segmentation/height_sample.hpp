@@ -32,13 +32,13 @@ struct HeightWeightParams {
 // the dish's surface, if the other view found it, too: beside food that hides the dish from the other view
 // any match is better than the dish's. Where it lies on the surface: against food, by how much better it is
 // than chance. Where nothing can be matched both are near 0.
-inline double lift_of(const HeightSample& sample, bool must_agree, const HeightWeightParams& params) {
+inline double lift_of(const HeightSample& sample, const HeightWeightParams& params) {
   if (!sample.is_known) return 0.0;
   const double chance = 0.5 * kSymmetricCensusBits;
   const double bits = sample.height_mm() > params.min_height_mm
                           ? 0.5 * (sample.glaze_cost - sample.food_cost)
                           : -std::max(0.0, chance - 0.5 * sample.food_cost);
-  if (bits > 0.0 && must_agree && !sample.is_confirmed) return 0.0;
+  if (bits > 0.0 && !sample.is_confirmed) return 0.0;
   return std::clamp(bits / params.full_bits, -1.0, 1.0);
 }
 

@@ -70,7 +70,7 @@ std::string compose_segment_document(const SegmentReport& report) {
   for (std::size_t d = 0; d < segmentation.dish_count; ++d)
     document["dishes"].push_back(dish_of(segmentation.dishes[d]));
   document["items"] = segmentation.items;
-  document["items_doubtful"] = segmentation.is_split_doubtful();
+  document["items_doubtful"] = segmentation.has_doubtful_items();
   document["views"] = Json::array();
   for (std::size_t v = 0; v < 2; ++v)
     document["views"].push_back(view_of(report.pair[v], measure_regions(report.drawn->labels[v].gray())));
@@ -103,12 +103,13 @@ std::string compose_segment_table(const SegmentReport& report) {
                                   ? fixed(place.size_mm[0], 0) + " x " + fixed(place.size_mm[1], 0) +
                                         " mm, " + fixed(100.0 * dish.found.support, 0) + " % of its rim seen"
                                   : std::string(name(dish.status.code()))));
+    if (dish.is_told_by_height) text += line("", "some of its food is told by its height alone");
   }
   if (segmentation.status.ok()) {
     text += line(
         "items",
         std::to_string(segmentation.items) +
-            (segmentation.is_split_doubtful() ? "; it is not sure where one ends and the next begins" : ""));
+            (segmentation.has_doubtful_items() ? "; it is not sure where one ends and the next begins" : ""));
   }
   if (report.scores) {
     for (std::size_t v = 0; v < 2; ++v)

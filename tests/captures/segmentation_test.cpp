@@ -25,16 +25,16 @@ struct Expected {
 // A little below what is reached.
 constexpr std::array kExpected = {
     Expected{"meals/m01", 0.99, 0.01, 0.96, 0.96, true},
-    Expected{"meals/m04", 0.99, 0.01, 0.95, 0.86, true},
-    Expected{"meals/m06", 0.99, 0.01, 0.93, 0.93, true},
+    Expected{"meals/m04", 0.99, 0.01, 0.95, 0.92, true},
+    Expected{"meals/m06", 0.99, 0.01, 0.88, 0.74, false},  // an egg's white passes for glaze
     Expected{"meals/m08", 0.99, 0.01, 0.96, 0.95, true},
-    Expected{"angles/a01", 0.99, 0.01, 0.91, 0.91, true},
+    Expected{"angles/a01", 0.99, 0.01, 0.91, 0.90, true},
     Expected{"plates/c1_oval", 0.99, 0.01, 0.94, 0.94, true},
     Expected{"plates/c1_soup", 0.99, 0.01, 0.97, 0.97, true},
-    Expected{"meals/m11", 0.99, 0.01, 0.94, 0.84, true},
+    Expected{"meals/m11", 0.99, 0.01, 0.98, 0.96, true},
     Expected{"trays/t01", 0.99, 0.015, 0.97, 0.96, true},
     Expected{"trays/t04", 0.99, 0.01, 0.95, 0.94, true},  // white yoghurt in a white bowl
-    Expected{"trays/t05", 0.99, 0.01, 0.94, 0.93, true},  // a cake's top and side
+    Expected{"trays/t05", 0.99, 0.01, 0.94, 0.92, true},  // a cake's top and side
 };
 
 class SegmentedCaptures : public testing::TestWithParam<Expected> {};

@@ -16,7 +16,7 @@ from collections import Counter
 from pathlib import Path
 
 HINT = re.compile(r"\b(items|weakest_border|border_step|likeness_step|most_likeness|doubtful_likeness) = ")
-FOOD = re.compile(r"segmentation/(food_parts|part_joining|item_split|tv_segmentation|glaze)|pipeline/segmenter_hint")
+FOOD = re.compile(r"segmentation/(food_parts|part_joining|item_split|tv_segmentation|food_evidence|standing_food|glaze)|pipeline/segmenter_hint")
 APART = ("paper", "enrolment")
 KINDS = ("parameters", "constants", "derived", "literals")
 TYPE = r"(?:std::)?(?:u?int(?:\d+_t)?|size_t|ptrdiff_t|unsigned|long|float|double|auto|array<[^;={]*>|[A-Z]\w*)"

@@ -33,7 +33,7 @@ TEST(Segmentation, WarnsOfEachDoubtAndNothingElse) {
   EXPECT_TRUE(warnings.holds(Warning::items_doubtful));
   EXPECT_TRUE(warnings.holds(Warning::dish_not_found));
   EXPECT_TRUE(warnings.holds(Warning::card_partly_hidden));
-  EXPECT_TRUE(found.is_split_doubtful());
+  EXPECT_TRUE(found.has_doubtful_items());
   EXPECT_FALSE(found.has_all_dishes());
 
   Segmentation missing;
@@ -41,7 +41,17 @@ TEST(Segmentation, WarnsOfEachDoubtAndNothingElse) {
   WarningSet hint;
   warn_about_labels(missing, hint);
   EXPECT_TRUE(hint.holds(Warning::items_doubtful));
-  EXPECT_TRUE(missing.is_split_doubtful());
+  EXPECT_TRUE(missing.has_doubtful_items());
+}
+
+TEST(Segmentation, FoodToldByHeightAloneIsDoubtful) {
+  Segmentation found;
+  found.dish_count = 1;
+  found.dishes[0].is_told_by_height = true;
+  WarningSet warnings;
+  warn_about_labels(found, warnings);
+  EXPECT_TRUE(warnings.holds(Warning::items_doubtful));
+  EXPECT_TRUE(found.has_doubtful_items());
 }
 
 // What a dish beyond dish_count holds is of an earlier tray.
@@ -51,7 +61,7 @@ TEST(Segmentation, CountsDishesOfThisTrayAlone) {
   found.dishes[1].status = StatusCode::dish_unknown;
   found.dishes[1].is_split_doubtful = true;
   EXPECT_TRUE(found.has_all_dishes());
-  EXPECT_FALSE(found.is_split_doubtful());
+  EXPECT_FALSE(found.has_doubtful_items());
 }
 
 }  // namespace

@@ -34,10 +34,16 @@ struct Disc {
   std::optional<std::array<int, 3>> other_bgr{};
   bool is_agreed = true;  // by both views, upon its height
   int food = 0;           // discs of one food have one embedding
+  double margin = 0.0;    // of the network, which knows nothing of the rest of the plate
 };
 
 inline Disc of_food(int food, Disc disc) {
   disc.food = food;
+  return disc;
+}
+
+inline Disc with_margin(double margin, Disc disc) {
+  disc.margin = margin;
   return disc;
 }
 
@@ -78,7 +84,6 @@ class Plate {
     const FrameView frame{pixels_.data(), kSide, kSide, 3 * kSide, PixelFormat::bgr8};
     std::vector<Vec2> rim = ring(kRimPx);
     EXPECT_TRUE(load_dish_raster(frame, rim, kPxPerMm, params_.raster, memory_->raster, raster));
-    raster.depth_mm = depth_mm_;
     mark_zone(raster, rim, DishZone::edge);
     rim = ring(kRimPx - 6.0);
     mark_zone(raster, rim, DishZone::flange);
@@ -88,10 +93,16 @@ class Plate {
     const ImageView<std::uint8_t> cells{labels.data(), raster.width(), raster.height()};
     lay_height_evidence(raster);
     const ImageView<const HeightSample> relief{relief_.data(), raster.width(), raster.height()};
-    EXPECT_TRUE(outline_food(raster, relief, params_, *memory_, cells));
     draw_reading();
-    return label_items(raster, reading_.view(), params_, *memory_, kFirstItemLabel, 100, cells).items;
+    const PictureReading reading = reading_.view();
+    const OutlinedFood outlined = outline_food({raster, relief, reading}, params_, *memory_, cells);
+    EXPECT_TRUE(outlined.is_outlined);
+    is_told_by_height_ = outlined.is_told_by_height;
+    return label_items(raster, reading, params_, *memory_, kFirstItemLabel, 100, cells).items;
   }
+
+  // Some of the food, at the last call of outline().
+  bool is_told_by_height() const { return is_told_by_height_; }
 
   // Share of the cells whose being food or not is right.
   double right_fraction(const std::vector<std::uint8_t>& labels, const DishRaster& raster) const {
@@ -129,8 +140,6 @@ class Plate {
     }
     return static_cast<double>(right) / all;
   }
-  // From the edge to the bottom.
-  void set_depth_mm(double depth_mm) { depth_mm_ = depth_mm; }
 
  private:
   // What two views would say: food of some height differs where it is compared on the glaze. Noise as of
@@ -165,13 +174,22 @@ class Plate {
 
   // Embeddings of two foods differ by 3, as the network's training asks for.
   void draw_reading() {
-    reading_.draw([&](const Vec2& pixel, int channel) {
-      int food = -1;
+    const auto at = [&](const Vec2& pixel) {
+      const Disc* on = nullptr;
       for (const Disc& disc : food_) {
-        if (distance(pixel.x(), pixel.y(), disc) < disc.radius) food = disc.food;
+        if (distance(pixel.x(), pixel.y(), disc) < disc.radius) on = &disc;
       }
-      return food == channel ? 3.0 / std::numbers::sqrt2 : 0.0;
-    });
+      return on;
+    };
+    reading_.draw(
+        [&](const Vec2& pixel) {
+          const Disc* on = at(pixel);
+          return on == nullptr ? 0.0 : on->margin;
+        },
+        [&](const Vec2& pixel, int channel) {
+          const Disc* on = at(pixel);
+          return on != nullptr && on->food == channel ? 3.0 / std::numbers::sqrt2 : 0.0;
+        });
   }
 
   // Pieces of 8 mm, either kind as often.
@@ -189,7 +207,7 @@ class Plate {
 
   std::vector<Disc> food_;
   bool has_relief_;
-  double depth_mm_ = 18.0;
+  bool is_told_by_height_ = false;
   DrawnReading reading_{kSide, 8};
   std::vector<HeightSample> relief_;
   std::vector<std::uint8_t> pixels_;

@@ -18,14 +18,16 @@ class DrawnReading {
   DrawnReading(int side_px, int cell_px)
       : cells_((side_px + cell_px - 1) / cell_px),
         cell_px_(cell_px),
+        margins_(static_cast<std::size_t>(cells_ * cells_)),
         embedding_(static_cast<std::size_t>(cells_ * cells_) * kDrawnEmbedding) {}
 
-  // `embedding_of` gives the number `channel` at the middle of a cell.
-  template <class EmbeddingOf>
-  void draw(EmbeddingOf&& embedding_of) {
+  // Gives each cell its margin, and the numbers of its embedding by channel, by the cell's middle.
+  template <class MarginOf, class EmbeddingOf>
+  void draw(MarginOf&& margin_of, EmbeddingOf&& embedding_of) {
     for (int y = 0; y < cells_; ++y) {
       for (int x = 0; x < cells_; ++x) {
         const Vec2 middle((x + 0.5) * cell_px_ - 0.5, (y + 0.5) * cell_px_ - 0.5);
+        margins_[static_cast<std::size_t>(y * cells_ + x)] = byte(margin_of(middle));
         for (int c = 0; c < kDrawnEmbedding; ++c)
           embedding_[static_cast<std::size_t>((y * cells_ + x) * kDrawnEmbedding + c)] =
               byte(embedding_of(middle, c));
@@ -35,6 +37,8 @@ class DrawnReading {
 
   PictureReading view() const {
     PictureReading reading;
+    reading.margins = {margins_.data(), cells_, cells_};
+    reading.margin_step = kUnit;
     reading.embedding = {embedding_.data(), cells_ * kDrawnEmbedding, cells_};
     reading.embedding_size = kDrawnEmbedding;
     reading.embedding_step = kUnit;
@@ -54,6 +58,7 @@ class DrawnReading {
 
   int cells_;
   int cell_px_;
+  std::vector<std::int8_t> margins_;
   std::vector<std::int8_t> embedding_;
 };
 

@@ -53,11 +53,12 @@ class Food {
     DishRaster raster;
     raster.colours = {colours_.data(), kWide, kWide};
     test::DrawnReading reading(kWide, 2);
-    reading.draw([&](const Vec2& pixel, int channel) {
-      const auto at =
-          static_cast<std::size_t>(static_cast<int>(pixel.y()) * kWide + static_cast<int>(pixel.x()));
-      return foods_[at] == channel ? apart / std::numbers::sqrt2 : 0.0;
-    });
+    reading.draw([](const Vec2&) { return 0.0; },
+                 [&](const Vec2& pixel, int channel) {
+                   const auto at = static_cast<std::size_t>(static_cast<int>(pixel.y()) * kWide +
+                                                            static_cast<int>(pixel.x()));
+                   return foods_[at] == channel ? apart / std::numbers::sqrt2 : 0.0;
+                 });
     return split_items(raster, reading.view(), kFood, params_, *memory_, 2, 100,
                        {owners_.data(), kWide, kWide});
   }

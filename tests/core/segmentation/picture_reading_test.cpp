@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <limits>
 #include <random>
+#include <span>
 #include <vector>
 
 #include "tests/core/network/running_network.hpp"
@@ -43,6 +45,24 @@ Vec2 middle_of(const PictureReading& reading, int x, int y, int side) {
           ((y + 0.5) * side - place.top) * reading.frame_height / place.height - 0.5};
 }
 
+// Differences of logits are halved where they are kept.
+void expect_margins(const PictureReading& reading, const NetworkRunner& runner, const Network& network) {
+  const TensorView logits = runner.output(NetworkRole::classes);
+  const auto names = std::span(network.classes).first(network.class_count);
+  const auto food = static_cast<int>(std::find(names.begin(), names.end(), "food") - names.begin());
+  const float step = runner.step(NetworkRole::classes);
+  for (int y = 0; y < logits.shape.height; ++y) {
+    for (int x = 0; x < logits.shape.width; ++x) {
+      int other = std::numeric_limits<int>::min();
+      for (int c = 0; c < logits.shape.channels; ++c)
+        other = c == food ? other : std::max(other, logits.at(x, y, c));
+      const auto margin = static_cast<float>(logits.at(x, y, food) - other);
+      ASSERT_NEAR(reading.margin_at(middle_of(reading, x, y, kNetworkWidth / logits.shape.width)),
+                  step * margin, 1.01F * step);
+    }
+  }
+}
+
 TEST(PictureReading, IsWhatTheNetworkGives) {
   for (const auto& [width, height] : {std::pair{160, 120}, {200, 100}, {90, 150}}) {
     SCOPED_TRACE(width);
@@ -54,6 +74,7 @@ TEST(PictureReading, IsWhatTheNetworkGives) {
     const PictureReading reading = read_picture(read.frame(), network, running.runner(), *storage);
     fill_input(read.frame(), running.runner().input());
     running.runner().run();
+    expect_margins(reading, running.runner(), network);
     const TensorView embedding = running.runner().output(NetworkRole::embedding);
     const int coarse = kNetworkWidth / embedding.shape.width;
     for (int y = 0; y < embedding.shape.height; ++y) {
@@ -83,6 +104,7 @@ TEST(PictureReading, IsLinearBetweenCellsAndEndsWithThem) {
     EXPECT_NEAR(between[c], 0.75F * reading.embedding_at(a)[c] + 0.25F * reading.embedding_at(b)[c], 1e-4F)
         << c;
   }
+  EXPECT_EQ(reading.margin_at({-50.0, -20.0}), reading.margin_at({0.0, 0.0}));
   EXPECT_EQ(reading.embedding_at({-50.0, -20.0}), reading.embedding_at({0.0, 0.0}));
   EXPECT_EQ(reading.embedding_at({500.0, 400.0}), reading.embedding_at({159.0, 119.0}));
 }

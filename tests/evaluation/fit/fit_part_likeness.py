@@ -13,9 +13,8 @@ import sys
 
 import numpy as np
 
-FOLDS = 10
-ROUNDS = 50
-RIDGE = 1e-4  # keeps the equations solvable where all borders are told apart
+from logistic import fit, tell_left_out
+
 SIGNS = ("embedding", "share")
 MOST_SHARE = 0.4  # PartLikenessParams::most_share
 LARGE_BLOCKS = 12  # ItemSplitParams::min_told_blocks
@@ -42,29 +41,15 @@ def weigh(captures, is_one):
     return weights
 
 
-def fit(captures, is_one, signs):
-    """Newton's method."""
-    weights = weigh(captures, is_one)
-    numbers = np.zeros(signs.shape[1])
-    for _ in range(ROUNDS):
-        chance = 1.0 / (1.0 + np.exp(-signs @ numbers))
-        slope = signs.T @ (weights * (chance - is_one)) + RIDGE * numbers
-        bend = (signs * (weights * chance * (1.0 - chance))[:, None]).T @ signs + RIDGE * np.eye(len(numbers))
-        numbers = numbers - np.linalg.solve(bend, slope)
-    return numbers
-
-
 def main():
     captures, is_one, blocks, signs = read_borders(sys.stdin)
-    names = np.array(sorted(set(captures)))
-    order = np.random.default_rng(1).permutation(len(names))
-    told = np.zeros(len(is_one))
-    for fold in range(FOLDS):
-        left_out = np.isin(captures, names[order[fold::FOLDS]])
-        if left_out.any() and not left_out.all():
-            told[left_out] = signs[left_out] @ fit(captures[~left_out], is_one[~left_out], signs[~left_out])
-    numbers = fit(captures, is_one, signs)
-    print(f"{len(names)} captures, {len(is_one)} borders")
+
+    def fit_lines(kept):
+        return fit(signs[kept], is_one[kept], weigh(captures[kept], is_one[kept]))
+
+    told = tell_left_out(captures, signs, fit_lines)
+    numbers = fit_lines(np.ones(len(captures), bool))
+    print(f"{len(set(captures))} captures, {len(is_one)} borders")
     print(", ".join(f"{name} {number:.2f}" for name, number in zip(("constant", *SIGNS), numbers)))
     for text, kind in (("within an item", 1), ("between two", 0)):
         own = (is_one == kind) & (blocks >= LARGE_BLOCKS)

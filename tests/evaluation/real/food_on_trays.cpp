@@ -81,7 +81,9 @@ class Finder {
     }
     Arena arena(block_.bytes());
     memory_.allocate(arena, configuration_);
-    for (const FoundDish& found : tray.dishes) mark_food(frame, view, found, tray.found);
+    NetworkRunner runner(food_network(), memory_.food.network);
+    const PictureReading reading = read_picture(frame, food_network(), runner, memory_.food.readings[0]);
+    for (const FoundDish& found : tray.dishes) mark_food(frame, reading, view, found, tray.found);
   }
 
   static std::vector<Vec2> outline(const DishSearchView& view, const DishPose& place, double share) {
@@ -115,7 +117,8 @@ class Finder {
     return configuration;
   }
 
-  void mark_food(const FrameView& frame, const DishSearchView& view, const FoundDish& dish, cv::Mat1b& food) {
+  void mark_food(const FrameView& frame, const PictureReading& reading, const DishSearchView& view,
+                 const FoundDish& dish, cv::Mat1b& food) {
     FoodOutlineWorkspace& workspace = memory_.food.outline;
     DishRaster raster;
     std::vector<Vec2> corners = outline(view, dish.place, 1.0);
@@ -130,7 +133,7 @@ class Finder {
     // One picture alone tells no height.
     const ImageView<HeightSample> relief{workspace.relief.data(), raster.width(), raster.height()};
     std::fill_n(relief.data, raster.width() * raster.height(), HeightSample{});
-    if (!outline_food(raster, relief, params().food, workspace, cells)) return;
+    if (!outline_food({raster, relief, reading}, params().food, workspace, cells).is_outlined) return;
     for (int y = 0; y < raster.height(); ++y) {
       for (int x = 0; x < raster.width(); ++x) {
         if (cells.at(x, y) != kFoodSeed) continue;

@@ -1,0 +1,44 @@
+#include "core/segmentation/food_evidence.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/segmentation/colour_sum.hpp"
+
+namespace traygauge {
+namespace {
+
+double colour_sign(const CellColour& colour, const GlazeColour& glaze, const FoodEvidenceParams& params) {
+  const double deviations =
+      std::hypot(colour.red - glaze.red, colour.green - glaze.green) / glaze.share_sigma;
+  const double beyond =
+      (deviations - params.neutral_deviations) / (params.full_deviations - params.neutral_deviations);
+  return std::clamp(beyond, params.least_colour, params.most_colour);
+}
+
+}  // namespace
+
+FoodSigns food_signs(const DishInView& dish, const GlazeColour& glaze, const FoodEvidenceParams& params,
+                     int x, int y, int side, CellColour& mean) {
+  FoodSigns signs;
+  ColourSum colours;
+  for (int j = y; j < y + side; ++j) {
+    for (int i = x; i < x + side; ++i) {
+      colours.add(dish.raster.colours.at(i, j));
+      const double told = lift_of(dish.relief.at(i, j), params.relief);
+      (told > 0.0 ? signs.lift : signs.against) += told;
+    }
+  }
+  const int count = side * side;
+  signs.lift /= count;
+  signs.against /= count;
+  mean = colours.mean(count);
+  signs.colour = colour_sign(mean, glaze, params);
+  const double middle = 0.5 * (side - 1);
+  const auto margin =
+      static_cast<double>(dish.reading.margin_at(dish.raster.pixel_of(x + middle, y + middle)));
+  signs.margin = std::clamp(margin, -params.most_margin, params.most_margin);
+  return signs;
+}
+
+}  // namespace traygauge
