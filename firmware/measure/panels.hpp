@@ -11,7 +11,11 @@ namespace traygauge {
 // Of a picture's proportions, unless these are so odd that nothing could be seen in it.
 cv::Size panel_size(const PictureSize& picture, int width_px);
 
-// The labelled part of a view as stored, tinted and outlined, every item with its number and volume.
+// The part of a view that has labels, with a margin, in the proportions of the picture; all of it where none
+// has.
+cv::Rect labelled_part(const LoadedView& view);
+
+// The labelled part as stored, tinted and outlined, every item with its number and volume.
 cv::Mat draw_view(const LoadedView& view, const Measurement& measurement, cv::Size size);
 
 // Disparity of the rectified pair.

@@ -30,18 +30,10 @@ cv::Mat to_bgr(const Picture& picture) {
   return bgr;
 }
 
-// Everything that has a label, with a margin, in the proportions of the picture.
-cv::Rect labelled_part(const cv::Mat& labels) {
-  const cv::Rect picture({0, 0}, labels.size());
-  const cv::Rect box = cv::boundingRect(labels);
-  if (box.empty()) return picture;
-  const double share = std::max(static_cast<double>(box.width) / picture.width,
-                                static_cast<double>(box.height) / picture.height);
-  const double scale = std::min(1.0, share * kMargin);
-  const cv::Size size(static_cast<int>(scale * picture.width), static_cast<int>(scale * picture.height));
-  const cv::Point middle = (box.tl() + box.br()) / 2;
-  return {std::clamp(middle.x - size.width / 2, 0, picture.width - size.width),
-          std::clamp(middle.y - size.height / 2, 0, picture.height - size.height), size.width, size.height};
+// OpenCV has no view of constant pixels; they are only read.
+cv::Mat stored_labels(const LoadedView& view) {
+  auto* pixels = const_cast<std::uint8_t*>(view.labels.pixels.data());
+  return {view.labels.size.height, view.labels.size.width, CV_8UC1, pixels};
 }
 
 void tint_labels(cv::Mat& panel, const cv::Mat& labels) {
@@ -97,12 +89,24 @@ cv::Size panel_size(const PictureSize& picture, int width_px) {
           static_cast<int>(std::lround(std::clamp(height_px, kFlattest * width_px, kTallest * width_px)))};
 }
 
+cv::Rect labelled_part(const LoadedView& view) {
+  const PictureSize whole = view.picture.size;
+  const cv::Rect box = view.labels.pixels.empty() ? cv::Rect() : cv::boundingRect(stored_labels(view));
+  if (box.empty()) return {0, 0, whole.width, whole.height};
+  const double share =
+      std::max(static_cast<double>(box.width) / whole.width, static_cast<double>(box.height) / whole.height);
+  const double scale = std::min(1.0, share * kMargin);
+  const cv::Size size(static_cast<int>(scale * whole.width), static_cast<int>(scale * whole.height));
+  const cv::Point middle = (box.tl() + box.br()) / 2;
+  return {std::clamp(middle.x - size.width / 2, 0, whole.width - size.width),
+          std::clamp(middle.y - size.height / 2, 0, whole.height - size.height), size.width, size.height};
+}
+
 cv::Mat draw_view(const LoadedView& view, const Measurement& measurement, cv::Size size) {
   const cv::Mat picture = to_bgr(view.picture);
   if (view.labels.pixels.empty()) return fit(picture, size, cv::INTER_AREA, kUnknownColour);
-  auto* pixels = const_cast<std::uint8_t*>(view.labels.pixels.data());
-  const cv::Mat stored(view.labels.size.height, view.labels.size.width, CV_8UC1, pixels);
-  const cv::Rect part = labelled_part(stored);
+  const cv::Mat stored = stored_labels(view);
+  const cv::Rect part = labelled_part(view);
   cv::Mat panel = fit(picture(part), size, cv::INTER_AREA, kUnknownColour);
   const cv::Mat labels = fit(stored(part), size, cv::INTER_NEAREST, kBackgroundLabel);
   tint_labels(panel, labels);
