@@ -9,8 +9,9 @@ namespace traygauge {
 namespace {
 
 double colour_sign(const CellColour& colour, const GlazeColour& glaze, const FoodEvidenceParams& params) {
-  const double deviations =
-      std::hypot(colour.red - glaze.red, colour.green - glaze.green) / glaze.share_sigma;
+  const int red = colour.red - glaze.red;
+  const int green = colour.green - glaze.green;
+  const double deviations = std::sqrt(red * red + green * green) / glaze.share_sigma;
   const double beyond =
       (deviations - params.neutral_deviations) / (params.full_deviations - params.neutral_deviations);
   return std::clamp(beyond, params.least_colour, params.most_colour);
