@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/segmentation/colour_sum.hpp"
-
 namespace traygauge {
 namespace {
 
@@ -20,12 +18,10 @@ double colour_sign(const CellColour& colour, const GlazeColour& glaze, const Foo
 }  // namespace
 
 FoodSigns food_signs(const DishInView& dish, const GlazeColour& glaze, const FoodEvidenceParams& params,
-                     int x, int y, int side, CellColour& mean) {
+                     int x, int y, int side, const CellColour& mean) {
   FoodSigns signs;
-  ColourSum colours;
   for (int j = y; j < y + side; ++j) {
     for (int i = x; i < x + side; ++i) {
-      colours.add(dish.raster.colours.at(i, j));
       const double told = lift_of(dish.relief.at(i, j), params.relief);
       (told > 0.0 ? signs.lift : signs.against) += told;
     }
@@ -33,7 +29,6 @@ FoodSigns food_signs(const DishInView& dish, const GlazeColour& glaze, const Foo
   const int count = side * side;
   signs.lift /= count;
   signs.against /= count;
-  mean = colours.mean(count);
   signs.colour = colour_sign(mean, glaze, params);
   const double middle = 0.5 * (side - 1);
   const auto margin =

@@ -65,8 +65,8 @@ struct DishInView {
   FoodObserver* observer = nullptr;
 };
 
-// Of the square of side x side cells of the raster whose first is (x, y). `mean` becomes its colour.
+// Of the square of side x side cells of the raster whose first is (x, y), and whose mean colour is `mean`.
 FoodSigns food_signs(const DishInView& dish, const GlazeColour& glaze, const FoodEvidenceParams& params,
-                     int x, int y, int side, CellColour& mean);
+                     int x, int y, int side, const CellColour& mean);
 
 }  // namespace traygauge

@@ -1,8 +1,6 @@
 #include "core/segmentation/food_outline.hpp"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 
 #include "core/segmentation/components.hpp"
 #include "core/segmentation/neighbours.hpp"
@@ -37,8 +35,7 @@ void for_each_square(ImageView<std::uint8_t> cells, int radius, FoodOutlineWorks
 // Food where at least `least_fraction` of the square about a cell is.
 void threshold_fraction(ImageView<std::uint8_t> cells, int radius, double least_fraction,
                         FoodOutlineWorkspace& workspace) {
-  const int side = 2 * radius + 1;
-  const int least = static_cast<int>(std::ceil(least_fraction * side * side));
+  const int least = least_of_square(radius, least_fraction);
   for_each_square(cells, radius, workspace,
                   [&](std::uint8_t& cell, int food) { cell = food >= least ? kFoodSeed : kGlazeSeed; });
 }
@@ -58,10 +55,7 @@ OutlinedFood outline_food(const DishInView& dish, const FoodOutlineParams& param
   const DishRaster& raster = dish.raster;
   GlazeColour glaze;
   if (!measure_glaze(raster, params.glaze, glaze)) return {};
-  const double cells_per_mm = 1.0 / raster.cell_mm;
-  const auto radius_of = [&](double radius_mm) {
-    return std::clamp(static_cast<int>(std::lround(radius_mm * cells_per_mm)), 1, kMaxSquareRadius);
-  };
+  const auto radius_of = [&](double radius_mm) { return square_radius(radius_mm, raster.cell_mm); };
   segment_food(dish, glaze, params.field, workspace.field, cells);
   OutlinedFood outlined{true};
   outlined.is_told_by_height =
@@ -74,9 +68,9 @@ OutlinedFood outline_food(const DishInView& dish, const FoodOutlineParams& param
   const int opening = radius_of(params.opening_mm);
   threshold_fraction(cells, opening, 1.0, workspace);
   threshold_fraction(cells, opening, 0.5 / ((2.0 * opening + 1.0) * (2.0 * opening + 1.0)), workspace);
-  const double per_mm2 = cells_per_mm * cells_per_mm;
-  drop_small(cells, kFoodSeed, kGlazeSeed, params.min_item_mm2 * per_mm2, workspace.queue);
-  drop_small(cells, kGlazeSeed, kFoodSeed, params.min_item_mm2 * per_mm2, workspace.queue);
+  const double min_cells = params.min_item_mm2 / (raster.cell_mm * raster.cell_mm);
+  drop_small(cells, kFoodSeed, kGlazeSeed, min_cells, workspace.queue);
+  drop_small(cells, kGlazeSeed, kFoodSeed, min_cells, workspace.queue);
   return outlined;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -9,6 +10,17 @@
 namespace traygauge {
 
 inline constexpr int kMaxSquareRadius = 7;  // a row of the square then fits into a byte many times over
+
+// Of the square that reaches about `radius_mm` from its middle, in cells.
+inline int square_radius(double radius_mm, double cell_mm) {
+  return std::clamp(static_cast<int>(std::lround(radius_mm / cell_mm)), 1, kMaxSquareRadius);
+}
+
+// The fewest of its cells that are `least_fraction` of a square or more.
+inline int least_of_square(int radius, double least_fraction) {
+  const int side = 2 * radius + 1;
+  return static_cast<int>(std::ceil(least_fraction * side * side));
+}
 
 // Calls take(x, y, sum) row by row with the sum of value(x, y) over 2 radius + 1 cells each way; cells beyond
 // the border are like the nearest. O(cells): running sums along the rows, of which those of 2 radius + 1 rows

@@ -1,8 +1,5 @@
 #include "core/segmentation/standing_food.hpp"
 
-#include <algorithm>
-#include <cmath>
-
 #include "core/segmentation/components.hpp"
 #include "core/segmentation/geodesic.hpp"
 #include "core/segmentation/square_sums.hpp"
@@ -17,10 +14,8 @@ constexpr std::uint8_t kMiddle = kVisited + 2;  // of a square that stands; no l
 bool add_standing_food(const DishRaster& raster, ImageView<const HeightSample> relief,
                        const HeightWeightParams& weights, const StandingFoodParams& params, double min_mm2,
                        const StandingFoodWorkspace& workspace, ImageView<std::uint8_t> cells) {
-  const int radius =
-      std::clamp(static_cast<int>(std::lround(params.radius_mm / raster.cell_mm)), 1, kMaxSquareRadius);
-  const int side = 2 * radius + 1;
-  const int least = static_cast<int>(std::ceil(params.least_share * side * side));
+  const int radius = square_radius(params.radius_mm, raster.cell_mm);
+  const int least = least_of_square(radius, params.least_share);
   const auto stands = [&](int x, int y) {
     return cells.at(x, y) == kGlazeSeed && raster.zones.at(x, y) != DishZone::edge &&
            lift_of(relief.at(x, y), weights) > params.least_lift;

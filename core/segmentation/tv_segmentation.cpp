@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/base/lanes.hpp"
+#include "core/segmentation/colour_sum.hpp"
 #include "core/segmentation/geodesic.hpp"
 
 namespace traygauge {
@@ -67,16 +68,26 @@ class FoodField {
   void weigh(int x, int y) {
     const int fold = params_.fold;
     const std::size_t at = field_.at(x, y);
-    const FoodSigns signs =
-        food_signs(dish_, glaze_, params_.evidence, x * fold, y * fold, fold, workspace_.colours[at]);
+    workspace_.colours[at] = mean_colour(x, y);
     workspace_.evidence[at] = kOutside;
     if (!is_on_dish(x, y)) return;
+    const FoodSigns signs =
+        food_signs(dish_, glaze_, params_.evidence, x * fold, y * fold, fold, workspace_.colours[at]);
     const double log_odds = signs.log_odds(params_.evidence);
     workspace_.evidence[at] = static_cast<float>(log_odds);
     if (dish_.observer == nullptr) return;
     const double middle = 0.5 * (fold - 1);
     dish_.observer->on_place(dish_.raster.pixel_of(x * fold + middle, y * fold + middle),
                              fold * dish_.raster.step_px, signs, log_odds);
+  }
+
+  CellColour mean_colour(int x, int y) const {
+    const int fold = params_.fold;
+    ColourSum colours;
+    for (int j = y * fold; j < (y + 1) * fold; ++j) {
+      for (int i = x * fold; i < (x + 1) * fold; ++i) colours.add(dish_.raster.colours.at(i, j));
+    }
+    return colours.mean(fold * fold);
   }
 
   // All of a cell lies within the dish's edge.
