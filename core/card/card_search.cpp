@@ -70,7 +70,7 @@ class CardSearch {
   Status run(double scale) {
     closer_count_ = 0;
     ComparedCorners& compared = workspace_.whole;
-    const ImageView<const std::uint8_t> picture = reduce_into(gray_, scale, compared.picture_storage);
+    const ImageView<const std::uint8_t> picture = resize_into(gray_, scale, compared.picture_storage);
     const Excerpt excerpt{Vec2::Zero(), shrink_of(gray_, picture)};
     find_compared_corners(picture, params_, workspace_.corner_search, compared);
     const std::span<Corner> all = compared.corners.items();
@@ -185,7 +185,7 @@ class CardSearch {
   }
 
   double closer_scale(const CardSearchMatch& seed, double scale) const {
-    return std::min(1.0, scale * params_.close_px_per_mm / seed.px_per_mm);
+    return std::min(params_.max_enlargement, scale * params_.close_px_per_mm / seed.px_per_mm);
   }
 
   bool can_look_closer(const CardSearchMatch& seed, double scale) const {
@@ -219,7 +219,7 @@ class CardSearch {
     const double closer = workspace_.fit(width, height, std::min(closer_scale(seed, scale), fits));
     ComparedCorners& compared = workspace_.close;
     const ImageView<const std::uint8_t> part{gray_.row(top) + left, width, height, gray_.stride};
-    const ImageView<const std::uint8_t> picture = reduce_into(part, closer, compared.picture_storage);
+    const ImageView<const std::uint8_t> picture = resize_into(part, closer, compared.picture_storage);
     find_compared_corners(picture, params_, workspace_.corner_search, compared);
     match_corners(compared.corners.items(), print_, params_, compared);
     const Excerpt close{Vec2(left, top), shrink_of(part, picture)};
@@ -251,7 +251,7 @@ Result<std::array<Vec2, 4>> search_card(ImageView<const std::uint8_t> gray, cons
   double searched = 0.0;
   for (const int pixels : params.search_px) {
     const double by_area = std::sqrt(pixels / (static_cast<double>(gray.width) * gray.height));
-    const double scale = workspace.fit(gray.width, gray.height, std::min(1.0, by_area));
+    const double scale = workspace.fit(gray.width, gray.height, std::min(params.max_enlargement, by_area));
     if (scale == searched) break;
     searched = scale;
     if (search.run(scale).ok()) return search.corners();

@@ -30,8 +30,10 @@ inline constexpr std::size_t kCardSearchScales = 6;  // a factor of 4 in steps o
 // egg of m06, which turns over after most changes: +2 points.
 struct CardSearchParams {
   // Of the picture searched, one after the other until the card is found: 1600 × 1200 at half size, where
-  // most cards have 80 px and more, and at 0.68.
+  // most cards have 80 px and more, and at 0.68. Smaller pictures are enlarged: the corners' patches cover
+  // less of the print then, and less of what lies about it.
   std::array<int, 2> search_px{480'000, 900'000};
+  double max_enlargement = 2.0;  // of a side; 3 also finds cards in poses that are wrong (labels.md)
   // Of the print as it is learned, px/mm in the picture searched; descriptors bear 15% more or less.
   std::array<double, kCardSearchScales> scales_px_per_mm{0.6, 0.8, 1.05, 1.4, 1.85, 2.45};
   int max_pattern_corners = 160;  // at each scale
@@ -131,7 +133,8 @@ struct CardSearchWorkspace {
     whole.allocate(arena, pixels, params.max_corners);
     close.allocate(arena, params.close_px, params.max_corners);
     const double scale =
-        std::min(1.0, std::sqrt(pixels / (static_cast<double>(max_frame_width) * max_frame_height)));
+        std::min(params.max_enlargement,
+                 std::sqrt(pixels / (static_cast<double>(max_frame_width) * max_frame_height)));
     max_width = static_cast<int>(scale * max_frame_width) + 1;
     max_height = static_cast<int>(scale * max_frame_height) + 1;
     corner_search.allocate(arena, max_width, max_height, params.corners);

@@ -70,13 +70,15 @@ const PrintCorner* find_like(const BinaryDescriptor& descriptor, const PrintCorn
 
 }  // namespace
 
-ImageView<std::uint8_t> reduce_into(ImageView<const std::uint8_t> source, double scale,
+ImageView<std::uint8_t> resize_into(ImageView<const std::uint8_t> source, double scale,
                                     std::span<std::uint8_t> storage) {
   const int width = static_cast<int>(source.width * scale);
   const int height = static_cast<int>(source.height * scale);
   const ImageView<std::uint8_t> target{storage.data(), width, height};
   if (2 * width == source.width && 2 * height == source.height) {
     halve(source, target);
+  } else if (scale > 1.0) {
+    enlarge_linear(source, target);
   } else {
     reduce_area(source, target);
   }
@@ -116,7 +118,7 @@ Status learn_print_corners(const CardPattern& pattern, const CardSearchParams& p
     const double reduction = workspace.fit(finest.width, finest.height,
                                            std::min(1.0, scale / pattern.levels[0].px_per_axis_mm[0]));
     ComparedCorners& learned = workspace.whole;
-    const ImageView<std::uint8_t> picture = reduce_into(finest, reduction, learned.picture_storage);
+    const ImageView<std::uint8_t> picture = resize_into(finest, reduction, learned.picture_storage);
     if (std::min(picture.width, picture.height) <= 2 * kBinaryPatchRadius) continue;
     const double px_per_mm = picture.width / pattern.size.width_mm;
     int room = params.max_pattern_corners;

@@ -10,8 +10,8 @@
 
 namespace traygauge {
 
-// Shrinks `source` into `storage`.
-ImageView<std::uint8_t> reduce_into(ImageView<const std::uint8_t> source, double scale,
+// Shrinks or enlarges `source` into `storage`.
+ImageView<std::uint8_t> resize_into(ImageView<const std::uint8_t> source, double scale,
                                     std::span<std::uint8_t> storage);
 
 // Of a picture that lies in the storage of `compared`; clears the matches.

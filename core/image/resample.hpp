@@ -19,6 +19,10 @@ void convert_to_gray(const FrameView& frame, ImageView<std::uint8_t> gray);
 // Shrinks by averaging the covered area exactly (any factor ≥ 1 in each direction), as OpenCV's INTER_AREA.
 void reduce_area(ImageView<const std::uint8_t> source, ImageView<std::uint8_t> target);
 
+// Enlarges by bilinear interpolation (any factor ≥ 1 in each direction, targets up to 4096 pixels wide and
+// high), within 1 of OpenCV's INTER_LINEAR.
+void enlarge_linear(ImageView<const std::uint8_t> source, ImageView<std::uint8_t> target);
+
 // An undistorted, scaled cut-out of a frame.
 struct Roi {
   PinholeCamera camera;  // of the cut-out

@@ -11,6 +11,7 @@
 
 #include "core/card/card_hypotheses.hpp"
 #include "core/card/compared_corners.hpp"
+#include "core/image/resample.hpp"
 #include "tests/core/card/card_render.hpp"
 #include "tests/support/allocated.hpp"
 #include "tests/support/random_seed.hpp"
@@ -20,9 +21,25 @@ namespace {
 
 const CardModelSize kSoughtCard{};
 
+// Of pictures in which a pixel stands for `factor` x `factor`.
+LensModel shrunken(LensModel lens, int factor) {
+  lens.width /= factor;
+  lens.height /= factor;
+  PinholeCamera& camera = lens.pinhole;
+  camera.fx_px /= factor;
+  camera.fy_px /= factor;
+  camera.cx_px = scale_coordinate(camera.cx_px, 1.0 / factor);
+  camera.cy_px = scale_coordinate(camera.cy_px, 1.0 / factor);
+  return lens;
+}
+
 struct CardSeeker {
+  explicit CardSeeker(int shrink = 1)
+      : lens(shrunken(render_lens(), shrink)), space(lens.width, lens.height, CardSearchParams{}) {}
+
+  LensModel lens;
   CardSearchParams params;
-  test::Allocated<CardSearchWorkspace> space{kRenderWidth, kRenderHeight, CardSearchParams{}};
+  test::Allocated<CardSearchWorkspace> space;
   test::Allocated<CardPattern> pattern{CardPatternParams{}};
   test::Allocated<PrintCorners> print{CardSearchParams{}};
 
@@ -31,7 +48,7 @@ struct CardSeeker {
     return learn_print_corners(*pattern, params, *space, *print);
   }
   Result<std::array<Vec2, 4>> search(const cv::Mat1b& gray) {
-    return search_card(test::view_of(gray), render_lens(), kSoughtCard, *print, params, {}, *space);
+    return search_card(test::view_of(gray), lens, kSoughtCard, *print, params, {}, *space);
   }
 };
 
@@ -61,6 +78,39 @@ TEST(CardSearch, FindsThePrintWhereverItLies) {
   EXPECT_GE(found, kRounds - 1);
 }
 
+// A card of 50 to 80 pixels on a patterned table: most patches about its corners show some of the table.
+TEST(CardSearch, FindsThePrintInSmallPictures) {
+  std::mt19937 random(test::random_seed());
+  std::uniform_real_distribution<double> unit(0.0, 1.0);
+  constexpr int kShrink = 3;
+  const cv::Mat1b print = random_print(23);
+  CardSeeker seeker(kShrink);
+  ASSERT_TRUE(seeker.learn(print).ok());
+  int found = 0;
+  constexpr int kRounds = 12;
+  for (int round = 0; round < kRounds; ++round) {
+    const Pose truth =
+        look_at_card(kSoughtCard, 500.0 + 200.0 * unit(random), 25.0 * unit(random), 360.0 * unit(random),
+                     360.0 * unit(random), Vec2(500.0 + 600.0 * unit(random), 400.0 + 400.0 * unit(random)));
+    const CardRender render = render_card(truth, kSoughtCard, print);
+    cv::Mat1b large =
+        test::textured_picture(kRenderWidth, kRenderHeight, 100U + static_cast<unsigned>(round));
+    render.gray.copyTo(large, render.labels);
+    cv::Mat1b gray;
+    cv::resize(large, gray, {seeker.lens.width, seeker.lens.height}, 0.0, 0.0, cv::INTER_AREA);
+    add_noise(gray, 2.0, 200U + static_cast<unsigned>(round));
+    const Result<std::array<Vec2, 4>> corners = seeker.search(gray);
+    if (!corners.ok()) continue;
+    ++found;
+    const std::array<Vec2, 4> places = print_corners_mm(kSoughtCard);
+    for (std::size_t i = 0; i < 4; ++i) {
+      const Vec2 seen = (truth * print_point_mm(places[i], kSoughtCard.thickness_mm)).hnormalized();
+      EXPECT_LT(((*corners)[i] - seen).norm() * seeker.lens.pinhole.fx_px, 8.0) << i;  // to begin with
+    }
+  }
+  EXPECT_GE(found, kRounds - 1);
+}
+
 TEST(CardSearch, FindsNoneAmongOtherThings) {
   CardSeeker seeker;
   ASSERT_TRUE(seeker.learn(random_print(21)).ok());
@@ -76,18 +126,19 @@ TEST(CardSearch, LearnsNothingFromABlankPrint) {
   EXPECT_EQ(seeker.learn(cv::Mat1b(540, 856, std::uint8_t{200})).code(), StatusCode::invalid_configuration);
 }
 
-TEST(CardSearch, PicturesAreReducedAsOpenCvDoes) {
+TEST(CardSearch, PicturesAreResizedAsOpenCvDoes) {
   const cv::Mat1b picture = test::textured_picture(640, 480, 9);
-  std::vector<std::uint8_t> storage(640 * 480);
-  for (const double scale : {0.5, 0.4, 0.75, 1.0}) {
-    const ImageView<std::uint8_t> reduced = reduce_into(test::view_of(picture), scale, storage);
-    ASSERT_EQ(reduced.width, static_cast<int>(640 * scale));
-    ASSERT_EQ(reduced.height, static_cast<int>(480 * scale));
+  std::vector<std::uint8_t> storage(1280 * 960);
+  for (const double scale : {0.5, 0.4, 0.75, 1.0, 1.37, 2.0}) {
+    const ImageView<std::uint8_t> resized = resize_into(test::view_of(picture), scale, storage);
+    ASSERT_EQ(resized.width, static_cast<int>(640 * scale));
+    ASSERT_EQ(resized.height, static_cast<int>(480 * scale));
     cv::Mat1b truth;
-    cv::resize(picture, truth, {reduced.width, reduced.height}, 0.0, 0.0, cv::INTER_AREA);
+    cv::resize(picture, truth, {resized.width, resized.height}, 0.0, 0.0,
+               scale > 1.0 ? cv::INTER_LINEAR : cv::INTER_AREA);
     int most = 0;
-    for (int y = 0; y < reduced.height; ++y) {
-      for (int x = 0; x < reduced.width; ++x) most = std::max(most, std::abs(reduced.at(x, y) - truth(y, x)));
+    for (int y = 0; y < resized.height; ++y) {
+      for (int x = 0; x < resized.width; ++x) most = std::max(most, std::abs(resized.at(x, y) - truth(y, x)));
     }
     EXPECT_LE(most, 1) << scale;
   }

@@ -96,6 +96,25 @@ TEST(ReduceArea, KeepsAUniformPicture) {
   }
 }
 
+class EnlargeLinear : public ::testing::TestWithParam<std::array<int, 4>> {};
+
+TEST_P(EnlargeLinear, IsWithinOneOfOpenCv) {
+  const auto [width, height, target_width, target_height] = GetParam();
+  cv::RNG rng(static_cast<std::uint64_t>(width));
+  const cv::Mat source = random_picture(width, height, CV_8U, rng);
+  cv::Mat target(target_height, target_width, CV_8U);
+  enlarge_linear(view_of(source), view_of(target));
+  cv::Mat expected;
+  cv::resize(source, expected, target.size(), 0, 0, cv::INTER_LINEAR);
+  EXPECT_LE(cv::norm(target, expected, cv::NORM_INF), 1.0);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Sizes, EnlargeLinear,
+    ::testing::Values(std::array<int, 4>{160, 120, 160, 120}, std::array<int, 4>{160, 120, 320, 240},
+                      std::array<int, 4>{800, 600, 1095, 821}, std::array<int, 4>{333, 241, 401, 481},
+                      std::array<int, 4>{1, 1, 7, 5}, std::array<int, 4>{2500, 17, 4096, 4096}));
+
 LensModel lens_of(const cv::Mat& frame) {
   LensModel lens;
   lens.width = frame.cols;
