@@ -38,6 +38,7 @@ struct RenderOptions {
   int pairs = 0;  // of each scene; 0: all
   bool is_reduced = false;
   bool is_quick = false;
+  bool is_bare = false;
   std::string config;  // of a plan's dish
   CaptureExtras extras;
 };
@@ -69,6 +70,9 @@ std::vector<SceneDescription> find_scenes(const RenderOptions& options) {
     std::erase_if(scenes, [&](const SceneDescription& scene) { return scene.name != options.only; });
     if (scenes.empty())
       throw UsageError("--only " + options.only + ": " + options.what + " has no scene of that name");
+  }
+  if (options.is_bare) {
+    for (SceneDescription& scene : scenes) scene.foods.clear();
   }
   if (options.pairs > 0) {
     for (SceneDescription& scene : scenes) keep_first_pairs(scene, static_cast<std::size_t>(options.pairs));
@@ -143,6 +147,7 @@ void add_render(Program& program, RenderOptions& options) {
                                                    "a few scenes of the set, in small pictures");
   command.add_flag("--quick", options.is_quick, "all scenes of the set in pictures of 320 x 240, to train on")
       .excludes(reduced);
+  command.add_flag("--bare", options.is_bare, "the same dishes and views without food, to train on");
   command.add_option("--only", options.only, "the one scene of this name");
   command.add_option("--pairs", options.pairs, "of each scene, the first N; 0: all").range(0, 1000);
   command.add_flag("--kinds", options.extras.has_kinds,

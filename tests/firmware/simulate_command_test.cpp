@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <opencv2/core.hpp>
+#include <opencv2/imgcodecs.hpp>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -64,16 +66,45 @@ TEST(SimulateCommand, TellsWhatIsWrong) {
   }
 }
 
+void replace_first(std::string& text, const std::string& from, const std::string& to) {
+  text.replace(text.find(from), from.size(), to);
+}
+
+// The example in pictures of a tenth of its size.
+std::string small_scene() {
+  std::string scene = read_text(example());
+  replace_first(scene, "width = 1600", "width = 160");
+  replace_first(scene, "height = 1200", "height = 120");
+  replace_first(scene, "fx = 1400.0", "fx = 140.0");
+  replace_first(scene, "../dishes/dinner.toml", TRAYGAUGE_SOURCE_DIR "/config/dishes/dinner.toml");
+  return scene;
+}
+
+TEST(SimulateCommand, BareDishesShowTheDishWhereFoodWas) {
+  const TemporaryFolder folder;
+  write_text(folder.path() / "scene.toml", small_scene());
+  std::vector<std::string> command = {"render", (folder.path() / "scene.toml").string(), "--kinds", "--out",
+                                      (folder.path() / "served").string()};
+  ASSERT_EQ(simulate(command).status, 0);
+  command.back() = (folder.path() / "bare").string();
+  command.emplace_back("--bare");
+  ASSERT_EQ(simulate(command).status, 0);
+  for (const char* view : {"kinds_0.png", "kinds_1.png"}) {
+    const cv::Mat1b served = cv::imread(folder.path() / "served/example" / view, cv::IMREAD_GRAYSCALE);
+    const cv::Mat1b bare = cv::imread(folder.path() / "bare/example" / view, cv::IMREAD_GRAYSCALE);
+    ASSERT_EQ(served.size(), cv::Size(160, 120));
+    ASSERT_EQ(bare.size(), served.size());
+    const cv::Mat food = served == 2;
+    EXPECT_GT(cv::countNonZero(food), 100);
+    EXPECT_EQ(cv::countNonZero(bare == 2), 0);
+    EXPECT_EQ(cv::countNonZero(((bare == 3) | (bare == 4)) & food), cv::countNonZero(food));
+    EXPECT_EQ(cv::countNonZero((bare != served) & ~food), 0);
+  }
+}
+
 TEST(SimulateCommand, KeepsCapturesThatAreComplete) {
   const TemporaryFolder folder;
-  std::string scene = read_text(example());
-  const auto replace = [&](const std::string& from, const std::string& to) {
-    scene.replace(scene.find(from), from.size(), to);
-  };
-  replace("width = 1600", "width = 160");
-  replace("height = 1200", "height = 120");
-  replace("fx = 1400.0", "fx = 140.0");
-  replace("../dishes/dinner.toml", TRAYGAUGE_SOURCE_DIR "/config/dishes/dinner.toml");
+  std::string scene = small_scene();
   write_text(folder.path() / "scene.toml", scene);
   const std::vector<std::string> command = {"render", (folder.path() / "scene.toml").string(), "--out",
                                             folder.path().string()};
@@ -84,7 +115,7 @@ TEST(SimulateCommand, KeepsCapturesThatAreComplete) {
   const Result second = simulate(command);
   EXPECT_NE(second.out.find("1 were complete already"), std::string::npos) << second.out;
   // Another scene of that name is not taken for it.
-  replace("seed = 12", "seed = 13");
+  replace_first(scene, "seed = 12", "seed = 13");
   write_text(folder.path() / "scene.toml", scene);
   const Result changed = simulate(command);
   EXPECT_NE(changed.out.find("1 captures rendered"), std::string::npos) << changed.out;
