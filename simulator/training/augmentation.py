@@ -8,9 +8,10 @@ import torch
 import torch.nn.functional as F
 
 from captures import ANYTHING
+from emptying import EMPTIED, take_food
 from fitting import FILLING_GREY, fit_picture
 from pasting import PASTED, PASTED_LABEL, paste_food
-from repainting import enlarge, repaint_sample
+from repainting import enlarge, repaint_item, repaint_sample
 
 # Ranges in which trays and cameras differ; those of the experiment that carried over to real trays.
 SCALE = (0.75, 1.25)
@@ -78,12 +79,21 @@ def change_colours(rng, picture):
     return torch.floor(picture.clamp(0.0, 1.0) * 255.0 + 0.5) / 255.0, tuple(order)
 
 
-def draw_sample(rng, sample, width, height):
-    """Picture, what its pixels may be, and their items, all of width x height."""
-    grid = draw_geometry(rng, sample, width, height)
+def pixels_at(sample, grid):
+    """Picture, what its pixels may be, and their items."""
     picture = sample_at(sample.picture, grid, "bilinear") / 255.0
     allowed = sample_at(sample.allowed, grid, "nearest")[0].long()
     return picture, allowed, sample_at(sample.items, grid, "nearest")[0].long()
+
+
+def draw_sample(rng, sample, width, height):
+    """Picture, what its pixels may be, and their items, all of width x height."""
+    grid = draw_geometry(rng, sample, width, height)
+    pixels = pixels_at(sample, grid)
+    if sample.bare is None or rng.random() >= EMPTIED:
+        return pixels
+    bare_picture, bare_allowed, _ = pixels_at(sample.bare, grid)
+    return take_food(rng, *pixels, bare_picture, bare_allowed)
 
 
 def of_cells(pixels):
@@ -103,10 +113,11 @@ def bar_sides(rng, picture, allowed, items):
     return picture, allowed.masked_fill(outside, ANYTHING), items.masked_fill(outside, 0)
 
 
-def draw_batch(samples, count, width, height, seed, step):
-    rng = np.random.default_rng([seed, step])
+def draw_batch(samples, plan, step):
+    rng = np.random.default_rng([plan.seed, step])
+    width, height = plan.width, plan.height
     pictures, allowed, items, foods = [], [], [], []
-    for index in rng.integers(0, len(samples), count):
+    for index in rng.integers(0, len(samples), plan.batch):
         sample = samples[index]
         picture, kinds, labels = draw_sample(rng, sample, width, height)
         names = dict(sample.foods)
@@ -116,6 +127,10 @@ def draw_batch(samples, count, width, height, seed, step):
             picture, kinds, labels, taken = paste_food(rng, picture, kinds, labels, lent, lent_labels)
             if taken in donor.foods:
                 names[PASTED_LABEL] = donor.foods[taken]
+        if plan.repainted_food > 0.0 and rng.random() < plan.repainted_food:
+            picture, label = repaint_item(rng, picture, kinds, labels)
+            if label:
+                names[label] = f"{names.get(label, '')} repainted"
         picture = repaint_sample(rng, picture, kinds)
         picture, order = change_colours(rng, picture)
         if rng.random() < BARRED:

@@ -3,6 +3,7 @@
 import json
 import os
 from dataclasses import dataclass
+from typing import Optional
 
 import numpy as np
 from PIL import Image
@@ -24,6 +25,7 @@ class Sample:
     allowed: np.ndarray  # H x W bytes
     items: np.ndarray  # H x W bytes: labels of items, 0 elsewhere
     foods: dict  # name of each item's food
+    bare: Optional["Sample"] = None  # the same view of the same scene without food
 
 
 def bits(*names):
@@ -94,3 +96,12 @@ def find_captures(root):
 
 def read_captures(roots):
     return [sample for root in roots for folder in find_captures(root) for sample in read_capture(folder)]
+
+
+def pair_with_bare(samples, bare_root):
+    """Gives each view of a set the same view from the folder of the set without food."""
+    bare = read_captures([bare_root])
+    if len(samples) != len(bare):
+        raise ValueError(f"{bare_root}: expected {len(samples)} views, as there are with food, found {len(bare)}")
+    for sample, own in zip(samples, bare):
+        sample.bare = own

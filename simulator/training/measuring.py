@@ -7,6 +7,7 @@ import torch
 from PIL import Image
 
 from augmentation import whole_picture
+from captures import bits
 from fitting import fit_picture
 from layers import BORDER, CLASS_NAMES, CLASSES, EMBEDDING, FOOD
 from losses import border_cells, coarse_items
@@ -34,6 +35,7 @@ class Tally:
         self.both, self.either, self.true = np.zeros(count), np.zeros(count), np.zeros(count)
         self.borders = np.zeros(3)  # right, found, true
         self.cells = np.zeros(2)  # of items in pictures of several: nearest to their own item's middle, all
+        self.bare = np.zeros(2)  # of dishes without food: taken for food, all
 
     def add(self, outputs, batch):
         allowed = batch.allowed[0].numpy()
@@ -48,6 +50,10 @@ class Tally:
         likely = (outputs[BORDER][:, :, 0] > 0) & (batch.items[0].numpy() > 0)
         self.borders += (likely & border).sum(), likely.sum(), border.sum()
         self.add_embedding(outputs[EMBEDDING], batch)
+
+    def add_bare(self, outputs, batch):
+        dish = np.isin(batch.allowed[0].numpy(), [bits("glaze"), bits("rim")])
+        self.bare += (outputs[CLASSES].argmax(2)[dish] == FOOD).sum(), dish.sum()
 
     def add_embedding(self, embedding, batch):
         items = coarse_items(batch.items, embedding.shape[:2])[0].numpy()
@@ -67,15 +73,22 @@ class Tally:
         made["border precision"] = ratio(self.borders[0], self.borders[1])
         made["border recall"] = ratio(self.borders[0], self.borders[2])
         made["embedding: cells nearest to their own item"] = ratio(*self.cells)
+        made["bare dishes: cells taken for food"] = ratio(*self.bare)
         return made
+
+
+def bytes_of(batch):
+    return (batch.picture[0] * 255.0 + 0.5).floor().to(torch.uint8).permute(1, 2, 0).numpy()
 
 
 def measure(run, samples, width, height):
     tally = Tally()
     for sample in samples:
         batch = whole_picture(sample, width, height)
-        picture = (batch.picture[0] * 255.0 + 0.5).floor().to(torch.uint8).permute(1, 2, 0).numpy()
-        tally.add(run(picture), batch)
+        tally.add(run(bytes_of(batch)), batch)
+        if sample.bare is not None:
+            batch = whole_picture(sample.bare, width, height)
+            tally.add_bare(run(bytes_of(batch)), batch)
     return tally.figures()
 
 

@@ -12,9 +12,13 @@ class RenderedSet:
     name: str
     seed: int
     pairs: int = 0
+    bare: bool = False  # without food as well
 
     def folder(self):
         return f"{self.name}-{self.seed}"
+
+    def bare_folder(self):
+        return f"{self.folder()}-bare"
 
 
 @dataclass(frozen=True)
@@ -33,6 +37,7 @@ class Plan:
     train: tuple  # RenderedSet
     held_out: tuple
     faults: tuple = ()
+    repainted_food: float = 0.0  # share of the pictures on which one food gets another colour
     digest: str = field(default="", compare=False)
 
 
@@ -41,7 +46,7 @@ class PlanError(Exception):
 
 
 def read_sets(entries):
-    return tuple(RenderedSet(str(entry["set"]), int(seed), int(entry.get("pairs", 0)))
+    return tuple(RenderedSet(str(entry["set"]), int(seed), int(entry.get("pairs", 0)), bool(entry.get("bare", False)))
                  for entry in entries for seed in entry["seeds"])
 
 
@@ -50,7 +55,7 @@ def read_plan(path):
         with open(path, "rb") as stream:
             content = stream.read()
         values = tomllib.loads(content.decode("utf-8"))
-        sections = [values[name] for name in ("network", "schedule")]
+        sections = [values["network"], values["schedule"], values.get("augmentation", {})]
         known = {name: value for section in sections for name, value in section.items()}
         plan = Plan(
             **{name: tuple(value) if isinstance(value, list) else value for name, value in known.items()},

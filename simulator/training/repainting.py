@@ -14,6 +14,7 @@ REPAINTED = 0.4  # for each of these
 SHADED = 0.35
 SMEARED = 0.3
 WITH_THINGS = 0.5
+LIKE_GLAZE = 0.5  # of the items that are repainted
 MOST_THINGS = 4
 MOST_SMEARS = 5
 
@@ -85,6 +86,28 @@ def repaint(rng, picture, mask):
         share = (0.5 + 0.5 * pattern(rng, picture.shape[1:])).clamp(0.0, 1.0)
         painted = painted * (1.0 - share) + share * shading * random_colour(rng)[:, None, None]
     return torch.where(mask, painted.clamp(0.0, 1.0), picture)
+
+
+def glaze_coloured(rng, picture, mask, glaze):
+    """The lighter of the food's colours become the glaze's; its grain and shade stay."""
+    wanted = picture[:, glaze].mean(1) * torch.from_numpy(rng.uniform(0.85, 1.15, 3)).float()
+    usual = picture[:, mask].quantile(0.7, dim=1).clamp_min(0.05)
+    share = rng.uniform(0.6, 1.0)
+    painted = picture * (1.0 - share + share * wanted / usual)[:, None, None]
+    return torch.where(mask, painted.clamp(0.0, 1.0), picture)
+
+
+def repaint_item(rng, picture, allowed, items):
+    """Gives one food its glaze's colour, so that shape and grain alone tell it, or any colour; returns the picture and
+    the item's label, or 0."""
+    labels = [int(label) for label in torch.unique(items) if label]
+    glaze = kind_mask(allowed, ("glaze",))
+    if not labels or not glaze.any():
+        return picture, 0
+    label = labels[int(rng.integers(0, len(labels)))]
+    mask = items == label
+    like_glaze = rng.random() < LIKE_GLAZE
+    return glaze_coloured(rng, picture, mask, glaze) if like_glaze else repaint(rng, picture, mask), label
 
 
 def shade(rng, picture):

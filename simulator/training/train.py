@@ -17,8 +17,9 @@ import sys
 import torch
 
 from augmentation import draw_batch
-from captures import read_captures
+from captures import pair_with_bare, read_captures
 from checkpoint import load_checkpoint, save_checkpoint
+from drawing import BatchesAhead
 from integers import run_integers, to_integers
 from layers import CLASS_NAMES, food_layers
 from losses import total_loss
@@ -57,20 +58,30 @@ def render_missing(plan, arguments):
     for rendered in plan.train + plan.held_out:
         if arguments.renderer is None:
             raise PlanError(f"{arguments.plan}: renders {rendered.name}; name the program with --renderer")
-        out = os.path.join(arguments.work, "captures", rendered.folder())
         command = [arguments.renderer, "render", rendered.name, "--reduced", "--kinds", "--seed", str(rendered.seed)]
-        command += ["--out", out, "--pairs", str(rendered.pairs), "--jobs", str(arguments.jobs)]
-        subprocess.run(command, check=True, stdout=subprocess.DEVNULL)
+        command += ["--pairs", str(rendered.pairs), "--jobs", str(arguments.jobs), "--out"]
+        captures = os.path.join(arguments.work, "captures")
+        subprocess.run(command + [os.path.join(captures, rendered.folder())], check=True, stdout=subprocess.DEVNULL)
+        if rendered.bare:
+            out = os.path.join(captures, rendered.bare_folder())
+            subprocess.run(command + [out, "--bare"], check=True, stdout=subprocess.DEVNULL)
 
 
 def read_samples(plan, arguments):
     """Those to train on, and those to measure on."""
+    captures = os.path.join(arguments.work, "captures")
 
-    def folders(sets, further):
-        return [os.path.join(arguments.work, "captures", rendered.folder()) for rendered in sets] + further
+    def samples_of(sets, further):
+        samples = []
+        for rendered in sets:
+            own = read_captures([os.path.join(captures, rendered.folder())])
+            if rendered.bare:
+                pair_with_bare(own, os.path.join(captures, rendered.bare_folder()))
+            samples += own
+        return samples + read_captures(further)
 
-    train = read_captures(folders(plan.train, arguments.captures))
-    held_out = read_captures(folders(plan.held_out, arguments.held_out))
+    train = samples_of(plan.train, arguments.captures)
+    held_out = samples_of(plan.held_out, arguments.held_out)
     for samples, what in ((train, "train"), (held_out, "measure")):
         if not samples:
             raise PlanError(f"{arguments.plan}: expected captures with labels to {what} on, found none")
@@ -81,8 +92,10 @@ def digest_of(plan, samples):
     """Of all that a run depends on."""
     content = hashlib.sha256(plan.digest.encode())
     for sample in samples:
-        for part in (sample.picture, sample.allowed, sample.items):
-            content.update(part.tobytes())
+        for view in (sample, sample.bare):
+            if view is not None:
+                for part in (view.picture, view.allowed, view.items):
+                    content.update(part.tobytes())
         content.update(repr(sorted(sample.foods.items())).encode())
     return content.hexdigest()
 
@@ -146,10 +159,9 @@ class Run:
         self.begin_phase()
 
     def draw(self, step):
-        plan = self.plan
-        return draw_batch(self.samples, plan.batch, plan.width, plan.height, plan.seed, step)
+        return draw_batch(self.samples, self.plan, step)
 
-    def advance(self):
+    def advance(self, batch):
         plan = self.plan
         if self.step == plan.steps and self.rounded is None:
             self.round_off()
@@ -160,7 +172,6 @@ class Run:
         for group in self.optimiser.param_groups:
             group["lr"] = rate
         self.network().train()
-        batch = self.draw(self.step)
         loss = total_loss(self.network()(channels_side_by_side(batch.picture)), batch)
         self.optimiser.zero_grad()
         loss.backward()
@@ -174,11 +185,12 @@ class Run:
         total = self.plan.steps + self.plan.rounded_steps
         end = min(total, self.stop_after) if self.stop_after else total
         progress = Progress("training", total)
-        while self.step < end:
-            loss = self.advance()
-            progress.show(self.step, f"loss {loss:.3f}")
-            if self.step % SAVE_STEPS == 0:
-                self.save()
+        with BatchesAhead(self.samples, self.plan, self.step, end) as batches:
+            while self.step < end:
+                loss = self.advance(batches.take())
+                progress.show(self.step, f"loss {loss:.3f}")
+                if self.step % SAVE_STEPS == 0:
+                    self.save()
         self.save()
         return self.step == total
 

@@ -14,6 +14,7 @@ import subprocess
 import sys
 import tempfile
 import unittest
+from dataclasses import replace
 
 try:
     import numpy as np
@@ -34,7 +35,8 @@ DEMO = os.path.join(SOURCE, "simulator", "demo")
 sys.path.insert(0, TRAINING)
 
 from augmentation import draw_batch, draw_sample, whole_picture  # noqa: E402
-from captures import ANYTHING, Sample, read_captures  # noqa: E402
+from captures import ANYTHING, Sample, bits, pair_with_bare, read_captures  # noqa: E402
+from emptying import SHADE_PX, take_food, widened  # noqa: E402
 from fitting import fit_picture  # noqa: E402
 from integers import IntegerLayer, fixed_point, run_integers, to_integers  # noqa: E402
 from layers import CLASSES, CLASS_NAMES, FOOD, food_layers, shared_scales, tensor_channels  # noqa: E402
@@ -42,7 +44,7 @@ from losses import BORDER_REACH, border_cells, embedding_loss  # noqa: E402
 from measuring import agreement, float_outputs  # noqa: E402
 from model import FloatNetwork, RoundedNetwork  # noqa: E402
 from pasting import LEAST_PX, PASTED_LABEL, paste_food  # noqa: E402
-from repainting import kind_mask, lay_things, repaint, smear  # noqa: E402
+from repainting import kind_mask, lay_things, repaint, repaint_item, smear  # noqa: E402
 from tgn_file import crc32c  # noqa: E402
 
 from plan import read_plan  # noqa: E402
@@ -184,7 +186,7 @@ class Integers(unittest.TestCase):
         cls.layers = food_layers((6, 8, 10), (8, 6), 8)
         floats = FloatNetwork(cls.layers)
         cls.samples = read_captures([DEMO])
-        batches = [draw_batch(cls.samples, 4, 64, 48, 1, step).picture for step in range(4)]
+        batches = [draw_batch(cls.samples, replace(TOY, width=64, height=48), step).picture for step in range(4)]
         for batch in batches:
             floats(batch)  # batch norms learn what comes
         cls.rounded = RoundedNetwork(cls.layers, floats.eval().folded())
@@ -248,7 +250,7 @@ class Parts(unittest.TestCase):
 
     def test_embedding_pulls_one_food_and_pushes_others(self):
         samples = read_captures([os.path.join(DEMO, "mash_and_meatballs")])
-        batch = draw_batch(samples, 1, 320, 240, 1, 0)
+        batch = draw_batch(samples, replace(TOY, batch=1, width=320, height=240), 0)
         present = sorted(set(batch.items.flatten().tolist()) - {0})
         self.assertEqual(len(present), 2)
         apart = torch.zeros(1, 2, 60, 80)
@@ -275,6 +277,63 @@ class Parts(unittest.TestCase):
             self.assertTrue(torch.equal(made[:, ~may_change], picture[:, ~may_change]), name)
             self.assertTrue(0.0 <= float(made.min()) and float(made.max()) <= 1.0, name)
         self.assertFalse(torch.equal(painted["tray"][0], picture))
+
+    def test_an_item_in_another_colour_stays_where_it_is(self):
+        rng = np.random.default_rng(SEED)
+        repainted = 0
+        for index in range(20):
+            sample = read_captures([DEMO])[index % 2]
+            picture, allowed, items = draw_sample(rng, sample, 160, 120)
+            allowed = torch.where(allowed == bits("glaze", "rim"), torch.full_like(allowed, bits("glaze")), allowed)
+            made, label = repaint_item(rng, picture, allowed, items)
+            changed = (made != picture).any(0)
+            self.assertEqual(bool(changed.any()), label != 0)
+            self.assertFalse(bool((changed & ((items != label) | (items == 0))).any()))
+            self.assertTrue(0.0 <= float(made.min()) and float(made.max()) <= 1.0)
+            repainted += int(label != 0)
+        self.assertGreater(repainted, 0)
+
+    def test_what_is_eaten_shows_the_dish_below(self):
+        rng = np.random.default_rng(SEED)
+        items = torch.zeros(60, 80, dtype=torch.long)
+        items[10:30, 10:30], items[30:50, 40:70] = 2, 3
+        glaze = torch.full_like(items, bits("glaze"))
+        allowed = torch.where(items > 0, bits("food"), glaze)
+        picture = torch.where(items > 0, 0.9, 0.4).expand(3, -1, -1)
+        darker = torch.full((3, 60, 80), 0.2)  # exposed otherwise
+        shares = []
+        for _ in range(60):
+            made, kinds, left = take_food(rng, picture, allowed, items, darker, glaze)
+            eaten = (items > 0) & (left == 0)
+            self.assertTrue(torch.equal(left[~eaten], items[~eaten]))
+            self.assertTrue(torch.equal(kinds, torch.where(left > 0, bits("food"), glaze)))
+            self.assertLess(float((made - torch.where(left > 0, 0.9, 0.4)).abs().max()), 1e-5)
+            shares.append(float(eaten.sum() / (items > 0).sum()))
+        self.assertIn(0.0, shares)
+        self.assertIn(1.0, shares)
+        self.assertTrue(any(0.0 < share < 1.0 for share in shares))
+
+    def test_taken_food_changes_nothing_far_from_it(self):
+        rng = np.random.default_rng(SEED)
+        sample = read_captures([DEMO])[0]
+        picture, allowed, items = draw_sample(rng, sample, 160, 120)
+        made, _, left = take_food(rng, picture, allowed, items, torch.rand(picture.shape), allowed)
+        far = ~widened((items > 0) & (left == 0), 2 * SHADE_PX)
+        self.assertTrue(torch.equal(made[:, far], picture[:, far]))
+        self.assertTrue(torch.equal(made[:, left > 0], picture[:, left > 0]))
+
+    def test_views_meet_those_without_food(self):
+        one = os.path.join(DEMO, "fish_and_potatoes")
+        samples = read_captures([one])
+        pair_with_bare(samples, one)
+        self.assertTrue(all(sample.bare.name == sample.name for sample in samples))
+        rng = np.random.default_rng(SEED)
+        for sample in samples:
+            left = [int((draw_sample(rng, sample, 160, 120)[2] > 0).sum()) for _ in range(60)]
+            self.assertIn(0, left)
+            self.assertTrue(any(left))
+        with self.assertRaisesRegex(ValueError, f"expected {len(samples)} views, as there are with food, found"):
+            pair_with_bare(samples, DEMO)
 
     def test_pasted_food_hides_no_dish(self):
         samples = read_captures([DEMO])
@@ -310,10 +369,10 @@ class Parts(unittest.TestCase):
 
     def test_batches_depend_on_seed_and_step_alone(self):
         samples = read_captures([DEMO])
-        first, again = (draw_batch(samples, 2, 64, 48, 5, 9) for _ in range(2))
+        first, again = (draw_batch(samples, TOY, 9) for _ in range(2))
         self.assertTrue(torch.equal(first.picture, again.picture) and torch.equal(first.items, again.items))
-        self.assertFalse(torch.equal(first.picture, draw_batch(samples, 2, 64, 48, 5, 10).picture))
-        self.assertEqual(first.picture.shape, (2, 3, 48, 64))
+        self.assertFalse(torch.equal(first.picture, draw_batch(samples, TOY, 10).picture))
+        self.assertEqual(first.picture.shape, (TOY.batch, 3, TOY.height, TOY.width))
         self.assertLess(int(first.allowed.max()), 1 << len(CLASS_NAMES))
 
 
