@@ -32,7 +32,7 @@ class LinearAxis {
   }
 
  private:
-  static constexpr int kFineBits = 24;  // steps add up to less than a share, over 4096 pixels
+  static constexpr int kFineBits = 24;  // over 4096 pixels the step's rounding adds up to less than a share
   int last_;
   std::int64_t step_;
   std::int64_t start_;

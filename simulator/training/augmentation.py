@@ -127,6 +127,7 @@ def draw_batch(samples, plan, step):
             picture, kinds, labels, taken = paste_food(rng, picture, kinds, labels, lent, lent_labels)
             if taken in donor.foods:
                 names[PASTED_LABEL] = donor.foods[taken]
+        # A plan without it draws nothing here, so that its pictures do not change.
         if plan.repainted_food > 0.0 and rng.random() < plan.repainted_food:
             picture, label = repaint_item(rng, picture, kinds, labels)
             if label:

@@ -154,12 +154,10 @@ class Run:
     def round_off(self):
         """From floats to 8 bits: batch norms go into the weights, and tensors get their steps."""
         self.rounded = channels_side_by_side(RoundedNetwork(self.layers, self.floats.folded()))
-        batches = [self.draw(self.plan.steps + self.plan.rounded_steps + i).picture for i in range(8)]
+        end = self.plan.steps + self.plan.rounded_steps
+        batches = [draw_batch(self.samples, self.plan, end + i).picture for i in range(8)]
         self.rounded.calibrate(batches)
         self.begin_phase()
-
-    def draw(self, step):
-        return draw_batch(self.samples, self.plan, step)
 
     def advance(self, batch):
         plan = self.plan

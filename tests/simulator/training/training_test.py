@@ -280,10 +280,10 @@ class Parts(unittest.TestCase):
 
     def test_an_item_in_another_colour_stays_where_it_is(self):
         rng = np.random.default_rng(SEED)
+        samples = read_captures([DEMO])[:2]
         repainted = 0
         for index in range(20):
-            sample = read_captures([DEMO])[index % 2]
-            picture, allowed, items = draw_sample(rng, sample, 160, 120)
+            picture, allowed, items = draw_sample(rng, samples[index % 2], 160, 120)
             allowed = torch.where(allowed == bits("glaze", "rim"), torch.full_like(allowed, bits("glaze")), allowed)
             made, label = repaint_item(rng, picture, allowed, items)
             changed = (made != picture).any(0)
