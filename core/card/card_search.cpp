@@ -250,8 +250,8 @@ Result<std::array<Vec2, 4>> search_card(ImageView<const std::uint8_t> gray, cons
   CardSearch search(gray, lens, size, print, params, card, workspace);
   double searched = 0.0;
   for (const int pixels : params.search_px) {
-    const double by_area = std::sqrt(pixels / (static_cast<double>(gray.width) * gray.height));
-    const double scale = workspace.fit(gray.width, gray.height, std::min(params.max_enlargement, by_area));
+    const double wanted = params.scale_to(pixels, gray.width, gray.height);
+    const double scale = workspace.fit(gray.width, gray.height, wanted);
     if (scale == searched) break;
     searched = scale;
     if (search.run(scale).ok()) return search.corners();

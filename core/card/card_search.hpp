@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -58,6 +59,11 @@ struct CardSearchParams {
   // has few that resemble one place alone.
   double close_px_per_mm = 2.0;  // about, of the print in that picture: as fine as it is learned
   int close_px = 250'000;        // of that picture, at most
+
+  // By which a side is multiplied so that the picture has `pixels`.
+  double scale_to(int pixels, int width, int height) const {
+    return std::min(max_enlargement, std::sqrt(pixels / (static_cast<double>(width) * height)));
+  }
 };
 
 // A corner of the picture and the print's that looks like it.
@@ -132,9 +138,7 @@ struct CardSearchWorkspace {
     const int pixels = std::max(params.search_px[0], params.search_px[1]);
     whole.allocate(arena, pixels, params.max_corners);
     close.allocate(arena, params.close_px, params.max_corners);
-    const double scale =
-        std::min(params.max_enlargement,
-                 std::sqrt(pixels / (static_cast<double>(max_frame_width) * max_frame_height)));
+    const double scale = params.scale_to(pixels, max_frame_width, max_frame_height);
     max_width = static_cast<int>(scale * max_frame_width) + 1;
     max_height = static_cast<int>(scale * max_frame_height) + 1;
     corner_search.allocate(arena, max_width, max_height, params.corners);
