@@ -1,5 +1,6 @@
 #include "simulator/scenes/capture_documents.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -113,10 +114,12 @@ Json compose_capture(const SceneDescription& scene) {
                   {"width_mm", scene.card.width_mm},
                   {"height_mm", scene.card.height_mm},
                   {"thickness_mm", scene.card.thickness_mm}};
-  if (scene.dishes.size() == 1) {
-    json["dish"] = compose_dish(scene.dishes.front().dish);
+  const auto is_dish = [](const LaidDish& laid) { return !laid.is_ground; };
+  if (std::ranges::count_if(scene.dishes, is_dish) == 1) {
+    json["dish"] = compose_dish(std::ranges::find_if(scene.dishes, is_dish)->dish);
   } else {
     for (const LaidDish& dish : scene.dishes) {
+      if (dish.is_ground) continue;
       Json entry = {{"label", dish.dish.label}};
       entry.update(compose_dish(dish.dish));
       json["dishes"].push_back(entry);
@@ -139,7 +142,9 @@ Json compose_truth(const LaidScene& laid, const std::vector<std::vector<std::siz
   json["items"] = Json::array();
   for (const FoodTruth& food : laid.foods()) json["items"].push_back(compose_food(food, laid));
   for (const Photograph& view : scene.views) json["poses"].push_back(compose_pose(camera_from_world(view)));
-  for (const LaidDish& dish : scene.dishes) json["dishes"].push_back(compose_place(dish));
+  for (const LaidDish& dish : scene.dishes) {
+    if (!dish.is_ground) json["dishes"].push_back(compose_place(dish));
+  }
   add_angles(json, laid);
   json["world"] = scene.tray ? "mm; origin on the tray's floor, z up; the table 3 mm below"
                              : "mm; origin on the table, z up";

@@ -86,7 +86,7 @@ void LaidScene::add_dishes(int threads) {
                          const Eigen::Vector3f& point_mm) { return kind_of_dish(shell, inverse, point_mm); };
     object.is_clear = dish.glaze.finish == GlazeFinish::clear;
     transform(object.mesh, moved(pose, 0.0, 0.0, kClearanceMm));
-    scene_.objects.push_back(std::move(object));
+    if (!dish.is_ground) scene_.objects.push_back(std::move(object));
     for (ServedFood& food :
          serve_foods(description_, static_cast<int>(i), shells_[i], kFirstItemLabel, threads)) {
       transform(food.object.mesh, moved(Eigen::Isometry3d::Identity(), 0.0, 0.0, kClearanceMm));

@@ -25,6 +25,7 @@ struct LaidDish {
   double rotation_deg = 0.0;
   Glaze glaze;
   std::uint64_t seed = 1;
+  bool is_ground = false;  // no dish: where food lies on the tray; nothing is drawn or described
 };
 
 // A mesh of a scanned food, from a file.

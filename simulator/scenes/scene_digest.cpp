@@ -74,8 +74,10 @@ class Digest {
     if (pattern != GlazePattern::none || finish != GlazeFinish::glazed) add(pattern, finish);
   }
   void write(const LaidDish& laid) {
-    const auto& [dish, centre_mm, rotation_deg, glaze, seed] = laid;
+    const auto& [dish, centre_mm, rotation_deg, glaze, seed, is_ground] = laid;
     add(dish, centre_mm, rotation_deg, glaze, seed);
+    // Captures whose foods all lie on dishes keep the digest that they have.
+    if (is_ground) add(is_ground);
   }
   void write(const ScannedFood& scan) {
     const auto& [file, scale_mm, turn_deg] = scan;

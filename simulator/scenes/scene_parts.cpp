@@ -131,6 +131,16 @@ LaidDish draw_dish(Draws& draws, DishStyle style, double scale, int label) {
   return laid;
 }
 
+LaidDish ground_under_food(double width_mm, double height_mm, int label) {
+  LaidDish ground;
+  ground.dish.label = label;
+  ground.dish.outer_size_mm = {width_mm, width_mm};
+  ground.dish.rim_height_mm = height_mm;
+  ground.dish.bottom_height_mm = height_mm;
+  ground.is_ground = true;
+  return ground;
+}
+
 void draw_foods(SceneDescription& scene, Draws& draws, int dish, DishStyle style, double scale,
                 std::span<const FoodKind* const> kinds) {
   const std::vector<Slot> places = slots(style, kinds.size());

@@ -19,6 +19,9 @@ void scale_dish(DishDescription& dish, double scale);
 // All lengths of the usual dish of this style times `scale`, glazed.
 LaidDish draw_dish(Draws& draws, DishStyle style, double scale, int label);
 
+// Level ground for one food, so wide and so high; `label` is what the truth calls it.
+LaidDish ground_under_food(double width_mm, double height_mm, int label);
+
 // Lays out foods of these kinds on the flat of a dish, side by side; label order is theirs.
 void draw_foods(SceneDescription& scene, Draws& draws, int dish, DishStyle style, double scale,
                 std::span<const FoodKind* const> kinds);

@@ -5,9 +5,11 @@
 #include <stdexcept>
 #include <string>
 
+#include "simulator/scenes/beside_set.hpp"
 #include "simulator/scenes/draws.hpp"
 #include "simulator/scenes/scene_menu.hpp"
 #include "simulator/scenes/scene_parts.hpp"
+#include "simulator/scenes/scene_series.hpp"
 #include "simulator/scenes/scene_views.hpp"
 #include "simulator/scenes/training_set.hpp"
 #include "simulator/scenes/tray_layout.hpp"
@@ -21,6 +23,7 @@ constexpr auto kSets = std::to_array<SceneSet>({
     {"plates-18", "6 meals on a dinner plate, a soup plate and an oval plate each: Plates-18"},
     {"meals-14", "14 meals with foods and tables that are in no other set: Meals-14"},
     {"trays-8", "8 trays with several dishes and cutlery"},
+    {"beside-8", "8 trays with a plate, and food beside it on the tray or on a napkin"},
     {"moved-4", "4 trays, each moved under a still camera"},
     {"slips-10", "10 meals and trays whose card, dish or food slips by 0.5 to 15 mm between two pictures"},
     {"cards-8", "8 meals whose card leans by 0.5 to 4 degrees, or is bent up by 1 to 8 mm at one edge"},
@@ -28,33 +31,6 @@ constexpr auto kSets = std::to_array<SceneSet>({
      "24 meals, small dishes and trays, four views each, to train on: pale foods, colours, hands, cups"},
 });
 
-constexpr double kPhoneFocalPx = 1400.0;  // 60 degrees across: the phones of the paper
-constexpr double kWideFocalPx = 1225.0;   // 66 degrees: a whole tray from 60 cm
-
-std::string numbered(const char* letter, std::size_t number) {
-  return std::string(letter) + (number < 10 ? "0" : "") + std::to_string(number);
-}
-
-SceneDescription empty_scene(const std::string& name, Draws& draws) {
-  SceneDescription scene;
-  scene.name = name;
-  scene.seed = draws.seed();
-  return scene;
-}
-
-void draw_table(SceneDescription& scene, Draws& draws, std::span<const SurfaceKind> kinds) {
-  scene.table = {draws.pick(kinds), draws.between(0.0, 180.0), draws.seed()};
-}
-
-// Light, and what the camera makes of it, once the views are known.
-void finish(SceneDescription& scene, Draws& draws) {
-  draw_lamps(scene, draws);
-  draw_exposures(scene, draws);
-  draws.shuffle(std::span<LaidFood>(scene.foods));  // labels tell nothing
-}
-
-constexpr std::array kTables = {SurfaceKind::wood, SurfaceKind::laminate, SurfaceKind::cloth,
-                                SurfaceKind::plastic};
 constexpr std::array kOtherTables = {SurfaceKind::granite, SurfaceKind::checked_cloth, SurfaceKind::cork,
                                      SurfaceKind::steel};
 constexpr std::array kPlates = {DishStyle::dinner, DishStyle::soup, DishStyle::oval};
@@ -69,23 +45,6 @@ SceneDescription lay_meal(const std::string& name, Draws draws, DishStyle style,
   draw_table(scene, draws, tables);
   draw_card(scene, draws);
   return scene;
-}
-
-// One scene after the other, each with draws of its own: lay(i, name, draws) gives it with its views.
-template <class Lay>
-std::vector<SceneDescription> make_each(std::size_t count, const char* letter, const std::string& set,
-                                        std::uint64_t seed, Lay lay) {
-  std::vector<SceneDescription> scenes;
-  for (std::size_t i = 0; i < count; ++i) {
-    const std::string name = numbered(letter, i + 1);
-    std::string stream = set;
-    stream.append(" ").append(name);
-    Draws draws(seed, stream);
-    SceneDescription scene = lay(i, name, draws);
-    finish(scene, draws);
-    scenes.push_back(std::move(scene));
-  }
-  return scenes;
 }
 
 std::vector<SceneDescription> make_meals(std::uint64_t seed) {
@@ -159,9 +118,7 @@ SceneDescription lay_tray(const std::string& name, Draws draws, bool has_dessert
                           std::span<const FoodKind* const> meal, Menu& soups, Menu& desserts) {
   SceneDescription scene = empty_scene(name, draws);
   draw_camera(scene, draws, kWideFocalPx);
-  constexpr std::array kTops = {SurfaceKind::plastic, SurfaceKind::wood, SurfaceKind::laminate};
-  scene.tray = Tray{{530.0, 380.0}, draws.pick(std::span<const SurfaceKind>(kTops)), draws.seed()};
-  draw_table(scene, draws, kTables);
+  draw_tray(scene, draws);
   const DishStyle plate = draws.chance(0.5) ? DishStyle::oval : DishStyle::dinner;
   const bool is_deep_plate = draws.chance(0.4);
   const double plate_scale = plate == DishStyle::oval ? 0.92 : 0.95;
@@ -179,7 +136,6 @@ SceneDescription lay_tray(const std::string& name, Draws draws, bool has_dessert
   return scene;
 }
 
-constexpr ViewLimits kTrayViews{500.0, 660.0, 26.0, 8.0, 25.0};
 // Turning a tray shows it from another side only to a camera that looks at a slant.
 constexpr ViewLimits kMovedViews{500.0, 720.0, 42.0, 8.0, 28.0};
 
@@ -301,6 +257,9 @@ std::vector<SceneDescription> make_scenes(std::string_view set, std::uint64_t se
     reduced_count = 2;
   } else if (set == "trays-8") {
     scenes = make_trays(seed, "trays-8", "t", 8, false);
+  } else if (set == "beside-8") {
+    scenes = make_beside(seed);
+    reduced_count = 2;
   } else if (set == "moved-4") {
     scenes = make_trays(seed, "moved-4", "v", 4, true);
   } else if (set == "slips-10") {

@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "simulator/scenes/scene_poses.hpp"
+#include "simulator/scenes/tableware.hpp"
 
 namespace traygauge {
 namespace {
@@ -82,7 +83,6 @@ void lay_cutlery(SceneDescription& scene, const std::vector<Footprint>& taken, D
       Setting{38.0, false, {UtensilKind::fork, UtensilKind::knife}},
       Setting{22.0, false, {UtensilKind::spoon}}};
   constexpr double kHalfLengthMm = 106.0;
-  constexpr double kNapkinMm = 1.2;
   constexpr std::array<std::uint32_t, 4> kPapers = {0xD8D4CC, 0x6A8A4A, 0x9A3428, 0x3C5A8A};
   for (const Setting& setting : settings) {
     Footprint place{{}, 0.0, kHalfLengthMm, setting.half_width_mm, false};

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <nlohmann/json.hpp>
 #include <set>
 #include <stdexcept>
 #include <string>
@@ -13,6 +14,7 @@
 #include <utility>
 #include <vector>
 
+#include "simulator/scenes/capture_documents.hpp"
 #include "simulator/scenes/dish_shell.hpp"
 #include "simulator/scenes/food_kinds.hpp"
 #include "simulator/scenes/laid_scene.hpp"
@@ -116,8 +118,28 @@ TEST(SceneSets, OtherMealsShareNoFoodAndNoTableWithTheRest) {
   }
 }
 
+TEST(SceneSets, TraysWithFoodBesideThePlateAreFoundForEverySeed) {
+  for (std::uint64_t seed = 1; seed <= 30; ++seed)
+    EXPECT_EQ(make_scenes("beside-8", seed, SetSize::full).size(), 8U) << seed;
+}
+
+TEST(SceneSets, FoodBesideThePlateLiesOnTheTray) {
+  for (const SceneDescription& scene : make_scenes("beside-8", kSeed, SetSize::full)) {
+    const auto pieces = std::ranges::count_if(scene.dishes, &LaidDish::is_ground);
+    EXPECT_EQ(static_cast<std::size_t>(pieces) + 1, scene.dishes.size()) << scene.name;
+    EXPECT_FALSE(scene.dishes.front().is_ground) << scene.name;
+    for (std::size_t i = 1; i < scene.dishes.size(); ++i) {
+      const auto of_piece = [&](const LaidFood& food) { return food.dish == static_cast<int>(i); };
+      EXPECT_EQ(std::ranges::count_if(scene.foods, of_piece), 1) << scene.name;
+      EXPECT_TRUE(is_tray_place(static_cast<std::uint8_t>(scene.dishes[i].dish.label))) << scene.name;
+    }
+    // Nothing describes the ground.
+    EXPECT_TRUE(compose_capture(scene).contains("dish")) << scene.name;
+  }
+}
+
 TEST(SceneSets, TraysHoldTheirDishesApart) {
-  for (const char* name : {"trays-8", "moved-4"}) {
+  for (const char* name : {"trays-8", "moved-4", "beside-8"}) {
     for (const SceneDescription& scene : make_scenes(name, kSeed, SetSize::full)) {
       EXPECT_GE(scene.dishes.size(), 2U);
       for (std::size_t i = 0; i < scene.dishes.size(); ++i) {
