@@ -37,6 +37,8 @@ namespace traygauge {
        "out.") \
   CODE(no_food_label, "No food item is labelled in both views; outline at least one item.") \
   CODE(too_many_dishes, "More than eight dishes are labelled; measure the tray in parts.") \
+  CODE(too_many_places, \
+       "Food lies at more than five places beside the dishes; measure the tray in parts.") \
   CODE(dish_cut_off, "The dish is cut off by the edge of the picture; move it into the middle.") \
   CODE(too_blurred, "The picture is blurred; focus the camera and hold it still.") \
   CODE(card_hidden, \
@@ -104,6 +106,7 @@ namespace traygauge {
        "Too few pixels could be matched densely; check focus, light and reflections.") \
   CODE(item_too_small, "The item covers too few pixels to be measured.") \
   CODE(item_hidden, "The item is not visible in both pictures.") \
+  CODE(item_cut_off, "The item is cut off by the edge of the picture; move it into the middle.") \
   CODE(item_moved, \
        "The item moved on its dish between the pictures; keep the tray still until both are taken.") \
   CODE(item_below_dish, \

@@ -89,4 +89,15 @@ DishOfItem find_dishes_of_items(std::span<const ImageView<const std::uint8_t>> v
   return Assignment(borders, params).run();
 }
 
+bool lies_apart(std::uint8_t item, const DishMembershipParams& params, const LabelBorders& borders) {
+  std::uint32_t all_px = 0;
+  std::uint32_t dishes_px = 0;
+  for (std::size_t other = 0; other < kByteValues; ++other) {
+    const std::uint32_t border_px = borders.border_px(item, other);
+    all_px += border_px;
+    if (is_dish(static_cast<std::uint8_t>(other))) dishes_px += border_px;
+  }
+  return dishes_px <= params.max_passing_border_fraction * all_px;
+}
+
 }  // namespace traygauge

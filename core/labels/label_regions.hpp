@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 
 #include "core/base/status.hpp"
@@ -18,12 +19,19 @@ inline constexpr std::uint8_t kLastItemLabel = 199;
 inline constexpr std::uint8_t kFirstFurtherDishLabel = 201;
 inline constexpr std::uint8_t kLastFurtherDishLabel = 249;
 inline constexpr std::uint8_t kCardLabel = 255;
+// Places of the tray on which items lie beside the dishes; label pictures show them as background.
+inline constexpr std::uint8_t kFirstTrayPlace = 250;
+inline constexpr std::uint8_t kLastTrayPlace = 254;
+inline constexpr std::size_t kMaxTrayPlaces = kLastTrayPlace - kFirstTrayPlace + 1;
 
 constexpr bool is_item(std::uint8_t label) {
   return label >= kFirstItemLabel && label <= kLastItemLabel;
 }
 constexpr bool is_dish(std::uint8_t label) {
   return label == kDishLabel || (label >= kFirstFurtherDishLabel && label <= kLastFurtherDishLabel);
+}
+constexpr bool is_tray_place(std::uint8_t label) {
+  return label >= kFirstTrayPlace && label <= kLastTrayPlace;
 }
 // The dish of a single-dish tray with everything on it.
 constexpr bool is_on_dish(std::uint8_t label) {

@@ -12,6 +12,7 @@
 #include "core/pipeline/lens_doubt.hpp"
 #include "core/pipeline/segmenter_params.hpp"
 #include "core/pipeline/tray_check_params.hpp"
+#include "core/pipeline/tray_food_params.hpp"
 #include "core/pipeline/tray_setup.hpp"
 #include "core/segmentation/food_evidence.hpp"
 #include "core/stereo/dense_stereo.hpp"
@@ -49,6 +50,8 @@ struct PipelineParams {
   std::size_t max_contour_sides = 8192;  // of one dish in one view, twice what a round one of 1600 px has
   std::size_t max_outline_points = max_contour_sides / DishOutlineParams{}.block_sides;
   std::size_t max_height_cells = 180'000;  // of a dish's height map: 360 × 360 mm at 0.85 mm
+  // Of all height maps of a tray: a plate of 260 mm, bowls of 190 and 110 mm and three places beside them.
+  std::size_t max_tray_cells = 260'000;
 };
 
 // The parameters of every stage, in the order in which they run.
@@ -73,6 +76,7 @@ struct Configuration : TraySetup {
   LevelLiquidParams liquid;
   HeightVolumeParams volume;
   OverhangParams overhang;
+  TrayFoodParams tray_food;
   FoodAgreementParams agreement;
   UncertaintyParams uncertainty;
   PipelineParams pipeline;

@@ -26,7 +26,8 @@ Check check_shift(const CheckedItem& item, const SceneGeometry& geometry, const 
 Check check_foot(const CheckedItem& item, const std::array<SurfaceGrid, 2>& grids, const InnerSurface& inner,
                  const TrayCheckParams& params) {
   Check check{CheckKind::item_foot_mm, item.label, 0.0, 0.0, params.foot_warning_mm, Verdict::passed};
-  const std::optional<double> height_mm = foot_height_mm(grids, inner, item.label, item.dish);
+  if (item.is_liquid) return check;
+  const std::optional<double> height_mm = foot_height_mm(grids, inner, item.label);
   if (!height_mm) return check;
   check.value = *height_mm;
   check.verdict = judge(std::min(*height_mm, 0.0), params.foot_warning_mm, params.max_sunken_mm);

@@ -14,10 +14,9 @@
 
 namespace traygauge {
 
-// Where an item lies, and what was seen of it.
 struct CheckedItem {
   std::uint8_t label = 0;
-  std::uint8_t dish = 0;
+  bool is_liquid = false;  // its edge is where its level meets the dish's wall
   double focal_px = 0.0;  // of the second view
 };
 

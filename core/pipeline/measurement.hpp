@@ -7,6 +7,7 @@
 #include <span>
 
 #include "core/base/status.hpp"
+#include "core/dish/dish_model.hpp"
 #include "core/geometry/camera.hpp"
 #include "core/geometry/geometry.hpp"
 #include "core/geometry/table_frame.hpp"
@@ -34,7 +35,8 @@ enum class Stage : std::uint8_t {
 inline constexpr std::size_t kStageCount = static_cast<std::size_t>(Stage::volume) + 1;
 const char* name(Stage stage);
 
-// One food item. Numbers hold only when status is ok; `dish` is the label of the dish that it lies on.
+// One food item. Numbers hold only when status is ok; `dish` is the label of the dish that it lies on, or of
+// a place of the tray.
 struct ItemResult {
   std::uint8_t label = 0;
   std::uint8_t dish = 1;
@@ -82,7 +84,9 @@ struct MeasurementReport {
   double label_agreement = 0.0;  // share of the food whose label the other view confirms
 };
 
-// What was measured on one dish, in the table frame.
+inline constexpr std::size_t kMaxMeasuredSurfaces = kMaxPlacedDishes + kMaxTrayPlaces;
+
+// What was measured on one dish or place of the tray, in the table frame.
 struct MeasuredSurface {
   std::uint8_t dish = 1;  // its label
   HeightMap heights;
@@ -94,8 +98,8 @@ struct MeasurementViews {
   int reference_view = 0;  // 0 or 1: the view whose camera the planes are given in
   Plane dish_bottom;       // mm
   Plane table;
-  TableCameras camera_from_table;             // frames as in table_frame.hpp
-  std::span<const MeasuredSurface> surfaces;  // one a dish
+  TableCameras camera_from_table;  // frames as in table_frame.hpp
+  std::span<const MeasuredSurface> surfaces;
 };
 
 struct Measurement {

@@ -22,6 +22,18 @@ bool is_seen(const ViewPair& views, std::uint8_t label) {
   return views[0]->regions().pixels[label] > 0 || views[1]->regions().pixels[label] > 0;
 }
 
+// In either picture the middle of the item's box lies in the ellipse that fills the dish's.
+bool is_amid(const ViewPair& views, std::uint8_t item, std::uint8_t dish) {
+  return std::ranges::any_of(views, [&](const TrayView* view) {
+    const PixelBox& inner = view->regions().boxes[item];
+    const PixelBox& outer = view->regions().boxes[dish];
+    if (inner.empty() || outer.empty()) return false;
+    const Vec2 twice_off(inner.left + inner.right - outer.left - outer.right,
+                         inner.top + inner.bottom - outer.top - outer.bottom);
+    return twice_off.cwiseQuotient(Vec2(outer.width(), outer.height())).squaredNorm() <= 1.0;
+  });
+}
+
 // In the frame of the dishes.
 std::array<CardPrior, 2> card_priors(const ViewPair& views, const OwnMotion& motion) {
   std::array<CardPrior, 2> cards;
@@ -77,15 +89,22 @@ Status list_dishes(const ViewPair& views, const Configuration& configuration,
   }
   if (geometry.dish_count == 0) return StatusCode::no_dish_label;
   const std::array<ImageView<const std::uint8_t>, 2> labels = {views[0]->labels, views[1]->labels};
-  const DishOfItem owners = geometry.dish_count > 1
-                                ? find_dishes_of_items(labels, configuration.membership, workspace.borders)
-                                : DishOfItem{};
+  const DishOfItem owners = find_dishes_of_items(labels, configuration.membership, workspace.borders);
+  const std::span<DishOnTray> dishes = std::span(geometry.dishes).first(geometry.dish_count);
   for (int value = kFirstItemLabel; value <= kLastItemLabel; ++value) {
     const auto label = static_cast<std::uint8_t>(value);
     if (!is_seen(views, label)) continue;
-    for (std::size_t d = 0; d < geometry.dish_count; ++d) {
-      DishOnTray& dish = geometry.dishes[d];
-      if (dish.label == owners[label] || geometry.dish_count == 1) dish.labels.add(label);
+    const auto around = std::ranges::find_if(
+        dishes, [&](const DishOnTray& dish) { return is_amid(views, label, dish.label); });
+    const bool is_amid_one = around != dishes.end();
+    if (!is_amid_one && lies_apart(label, configuration.membership, workspace.borders)) {
+      geometry.beside_dishes.add(label);
+      continue;
+    }
+    const std::uint8_t owner =
+        owners[label] == kBackgroundLabel && is_amid_one ? around->label : owners[label];
+    for (DishOnTray& dish : dishes) {
+      if (dish.label == owner || geometry.dish_count == 1) dish.labels.add(label);
     }
   }
   return StatusCode::ok;

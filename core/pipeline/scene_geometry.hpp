@@ -27,7 +27,8 @@ struct DishOnTray {
 struct SceneGeometry {
   std::array<DishOnTray, kMaxPlacedDishes> dishes;
   std::size_t dish_count = 0;
-  OwnMotion own_motion;  // from the first picture to the second; then the cameras are those in its frame
+  LabelSet beside_dishes;  // items that lie on none of them
+  OwnMotion own_motion;    // from the first picture to the second; then the cameras are those in its frame
   BundleResult bundle;
   AgreedHeight table;  // over where the card puts it, around the card
   std::span<const PointTrack> tracks;
@@ -57,8 +58,8 @@ struct SceneGeometryWorkspace {
   }
 };
 
-// Lists the dishes that either view shows, with what lies on them. no_dish_label without any; dish_unknown
-// when one of them has no description.
+// Lists the dishes that either view shows, with what lies on them, and what lies beside. no_dish_label
+// without any; dish_unknown when one of them has no description.
 Status list_dishes(const ViewPair& views, const Configuration& configuration,
                    SceneGeometryWorkspace& workspace, SceneGeometry& geometry);
 

@@ -13,8 +13,9 @@ void warn_about_labels(const Segmentation& segmentation, WarningSet& warnings) {
   for (const SegmentedDish& dish : segmentation.sought()) {
     warnings.raise_if(!dish.status.ok(), Warning::dish_not_found, dish.label);
     warnings.raise_if(dish.is_bare, Warning::dish_empty, dish.label);
-    warnings.raise_if(dish.has_doubtful_items(), Warning::items_doubtful, dish.label);
   }
+  for (const SegmentedDish& dish : segmentation.drawn())
+    warnings.raise_if(dish.has_doubtful_items(), Warning::items_doubtful, dish.label);
   warnings.raise_if(segmentation.misses_hint, Warning::items_doubtful);
   warnings.raise_if(segmentation.is_card_doubtful, Warning::card_partly_hidden);
 }

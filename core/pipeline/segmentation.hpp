@@ -35,8 +35,9 @@ struct Segmentation {
   Status status;
   std::array<CardAlignment, 2> cards;
   bool is_card_doubtful = false;  // in one of the views: part of its print is covered, or out of its place
-  std::array<SegmentedDish, kMaxPlacedDishes> dishes;
+  std::array<SegmentedDish, kMaxPlacedDishes> dishes;  // and behind them places of the tray with food
   std::size_t dish_count = 0;
+  std::size_t place_count = 0;
   int items = 0;             // labels from kFirstItemLabel on
   bool misses_hint = false;  // a number of items was asked for, and there are more or fewer
   double card_ms = 0.0;
@@ -45,13 +46,18 @@ struct Segmentation {
   double food_ms = 0.0;
 
   std::span<const SegmentedDish> sought() const { return std::span(dishes).first(dish_count); }
+  std::span<const SegmentedDish> places() const { return std::span(dishes).subspan(dish_count, place_count); }
+  std::span<const SegmentedDish> drawn() const { return std::span(dishes).first(dish_count + place_count); }
+  std::span<SegmentedDish> drawn() { return std::span(dishes).first(dish_count + place_count); }
   bool has_all_dishes() const {
     return std::ranges::all_of(sought(), [](const SegmentedDish& dish) { return dish.status.ok(); });
   }
-  // Every dish that was asked for was found, and neither view shows food on any of them.
-  bool is_bare() const { return dish_count > 0 && std::ranges::all_of(sought(), &SegmentedDish::is_bare); }
+  // Every dish that was asked for was found, and neither view shows food on any of them, or beside.
+  bool is_bare() const {
+    return dish_count > 0 && items == 0 && std::ranges::all_of(sought(), &SegmentedDish::is_bare);
+  }
   bool has_doubtful_items() const {
-    return misses_hint || std::ranges::any_of(sought(), &SegmentedDish::has_doubtful_items);
+    return misses_hint || std::ranges::any_of(drawn(), &SegmentedDish::has_doubtful_items);
   }
   double total_ms() const { return card_ms + dish_ms + food_ms; }
 };

@@ -70,6 +70,8 @@ void Segmenter::segment() {
     clock.enter(Stage::volume);
     draw_dishes();
     read_pictures();
+    find_tray_places();
+    draw_dishes();
     look_at_dishes();
     draw_items(params_.food);
     if (params_.items > 0) {
@@ -77,6 +79,7 @@ void Segmenter::segment() {
       for (SegmentedDish& dish : result_.dishes) dish.is_split_doubtful = false;
       result_.misses_hint = result_.items != params_.items;
     }
+    clear_tray_places();
     const bool is_empty_tray = result_.is_bare() && params_.items == 0;
     if (result_.items == 0 && !is_empty_tray) result_.status = StatusCode::no_food_label;
     // An empty white dish on a grey table has no colours either.
@@ -122,6 +125,7 @@ Status Segmenter::find_card(const SegmentedView& view, const LensModel& lens, st
 Status Segmenter::find_dishes() {
   std::array<FoundDish, kMaxPlacedDishes> taken;
   result_.dish_count = 0;
+  result_.place_count = 0;
   std::size_t taken_count = 0;
   std::size_t found_count = 0;
   std::span<const DishModel> rest = configuration_.dishes;
@@ -154,6 +158,7 @@ Status Segmenter::find_dishes() {
 }
 
 void Segmenter::draw_dishes() const {
+  draw_tray_places();
   for (std::size_t d = 0; d < result_.dish_count; ++d) {
     const SegmentedDish& dish = result_.dishes[d];
     if (!dish.status.ok()) continue;
@@ -179,7 +184,7 @@ void Segmenter::read_pictures() {
 void Segmenter::look_at_dishes() {
   const std::array<LabelRegions, 2> regions = {measure_regions(views_[0].labels),
                                                measure_regions(views_[1].labels)};
-  for (std::size_t d = 0; d < result_.dish_count; ++d) {
+  for (std::size_t d = 0; d < result_.drawn().size(); ++d) {
     const SegmentedDish& dish = result_.dishes[d];
     DishInViews& scene = scenes_[d];
     scene = {};
@@ -201,7 +206,7 @@ void Segmenter::look_at_dishes() {
 }
 
 void Segmenter::draw_food(const FoodOutlineParams& params) {
-  for (std::size_t d = 0; d < result_.dish_count; ++d) {
+  for (std::size_t d = 0; d < result_.drawn().size(); ++d) {
     SegmentedDish& dish = result_.dishes[d];
     dish.items = 0;
     dish.is_split_doubtful = false;
@@ -255,6 +260,7 @@ bool Segmenter::outline_view(SegmentedDish& dish, const DishInViews& scene, std:
   mark_zone(raster, outline, DishZone::flange);
   outline = ring(std::max(well_mm, 2.0 * params_.flange_begin_mm));
   mark_zone(raster, outline, DishZone::inside);
+  if (is_tray_place(dish.label)) leave_out_others(dish, v, raster);
   cells = {memory_.food.cells.data(), raster.width(), raster.height()};
   const ImageView<HeightSample> relief{memory_.food.outline.relief.data(), raster.width(), raster.height()};
   lay_height_evidence(scene.relief, v, scene.stored[v], raster, relief);
@@ -262,6 +268,7 @@ bool Segmenter::outline_view(SegmentedDish& dish, const DishInViews& scene, std:
   const OutlinedFood outlined = outline_food({raster, relief, readings_[v], configuration_.food_observer},
                                              params_.food, memory_.food.outline, cells);
   dish.is_told_by_height |= outlined.is_told_by_height;
+  if (is_tray_place(dish.label)) keep_seen_food(raster, v, cells);
   return outlined.is_outlined;
 }
 

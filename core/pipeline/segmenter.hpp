@@ -6,12 +6,15 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 
+#include "core/base/bounded_list.hpp"
 #include "core/base/status.hpp"
 #include "core/base/units.hpp"
 #include "core/pipeline/configuration.hpp"
 #include "core/pipeline/segmentation.hpp"
 #include "core/pipeline/segmenter_memory.hpp"
+#include "core/pipeline/table_rectangle.hpp"
 
 namespace traygauge {
 
@@ -57,6 +60,12 @@ class Segmenter {
   void follow_own_motion();
   void draw_dishes() const;
   void read_pictures();
+  BoundedList<TableRectangle> see_food_beside(std::size_t v, std::span<TableRectangle> storage);
+  void find_tray_places();
+  void draw_tray_places() const;
+  void leave_out_others(const SegmentedDish& place, std::size_t v, DishRaster& raster) const;
+  void keep_seen_food(const DishRaster& raster, std::size_t v, ImageView<std::uint8_t> cells) const;
+  void clear_tray_places() const;
   void look_at_dishes();
   void draw_items(const FoodOutlineParams& params);
   void meet_hint();

@@ -65,7 +65,7 @@ bool Segmenter::join_most_alike() {
   std::size_t joined = 0;
   SegmentedDish* on = nullptr;
   auto end = static_cast<std::size_t>(kFirstItemLabel);
-  for (SegmentedDish& dish : std::span(result_.dishes).first(result_.dish_count)) {
+  for (SegmentedDish& dish : result_.drawn()) {
     const std::size_t begin = end;
     end += static_cast<std::size_t>(dish.items);
     for (std::size_t a = begin; a < end; ++a) {

@@ -11,12 +11,22 @@
 
 namespace traygauge {
 
+// Of food beside the dishes, as the network sees it.
+struct TrayPlaceParams {
+  double min_area_mm2 = 600.0;    // of the box around it, on the table: a roll's has 5,000, a crumb's 100
+  double most_height_mm = 60.0;   // of what is laid on a tray
+  double max_barred_share = 0.3;  // of its border, along dishes and card; more hangs over a dish's edge
+  double min_shared = 0.5;        // of the smaller of two views' places for one piece
+  double around_mm = 20.0;        // of the ground that is looked at with it
+};
+
 struct SegmenterParams {
   PictureColourParams colour;
   CardSearchParams card;
   DishSearchParams dish;
   HeightEvidenceParams relief;
   FoodOutlineParams food;
+  TrayPlaceParams tray;
   // Items on the tray, as a menu says; 0: not known.
   int items = 0;
   // Where more items are known than were found, borders count that differ less than food.split asks for, in

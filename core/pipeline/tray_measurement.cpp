@@ -4,9 +4,11 @@
 #include <cmath>
 
 #include "core/pipeline/bare_checks.hpp"
+#include "core/pipeline/dish_measurement.hpp"
 #include "core/pipeline/dish_observation.hpp"
 #include "core/pipeline/standing_object.hpp"
 #include "core/pipeline/tray_checks.hpp"
+#include "core/pipeline/tray_food.hpp"
 #include "core/quality/view_input.hpp"
 
 namespace traygauge {
@@ -169,22 +171,23 @@ void measure_tray(TrayMemory& memory, const Configuration& configuration, const 
   const CheckedTray checked = in_order(memory, found);
   const ViewPair& views = checked.views;
   SceneGeometry& geometry = memory.scene.front();
-  DishMeasurementWorkspace dish = memory.dish;
+  SurfaceMeasurementWorkspace workspace = memory.dish;
   clock.enter(Stage::stereo);
   warn_about_unknown_objects(checked, geometry, configuration, measurement);
   suppress_speculars(views, configuration.specular);
-  for (std::size_t d = 0; d < geometry.dish_count; ++d) {
-    measure_dish(views, geometry, d, configuration, dish, observer, clock, measurement);
-  }
+  const TrayAtWork tray{views, geometry, configuration, workspace, observer, clock, measurement};
+  for (std::size_t d = 0; d < geometry.dish_count; ++d) measure_dish(tray, d);
+  measure_tray_food(tray);
   check_table(geometry.table, configuration.checks, measurement.checks, measurement.warnings);
   if (measurement.report.dish_index >= 0) {
     const auto index = static_cast<std::size_t>(measurement.report.dish_index);
     measurement.views.dish_bottom =
         measurement.views.table.raised(configuration.dishes[index].bottom_height_mm);
   }
-  measurement.status = dish.items.empty() ? geometry.bundle.dishes[0].status : summarise(dish.items.items());
-  measurement.items = dish.items.items();
-  measurement.views.surfaces = dish.surfaces.items();
+  measurement.status =
+      workspace.items.empty() ? geometry.bundle.dishes[0].status : summarise(workspace.items.items());
+  measurement.items = workspace.items.items();
+  measurement.views.surfaces = workspace.surfaces.items();
 }
 
 }  // namespace traygauge

@@ -7,9 +7,9 @@
 #include <span>
 
 #include "core/pipeline/configuration.hpp"
-#include "core/pipeline/dish_measurement.hpp"
 #include "core/pipeline/scene_geometry.hpp"
 #include "core/pipeline/segmenter_memory.hpp"
+#include "core/pipeline/surface_measurement.hpp"
 #include "core/pipeline/tray_view.hpp"
 
 namespace traygauge {
@@ -21,7 +21,7 @@ struct TrayMemory {
   std::array<TrayView, 2> views;
   std::array<ImageView<std::uint8_t>, 2>
       found_labels;  // memory for the largest frame; none: labels are given
-  DishMeasurementWorkspace dish;
+  SurfaceMeasurementWorkspace dish;
   std::span<SceneGeometry> scene;  // one
   TrayViewWorkspace preparation;
   SegmenterMemory segmentation;

@@ -64,6 +64,9 @@ namespace traygauge {
        "off; traygauge enrol-dish measures the profile.") \
   CODE(unknown_object, \
        "Something that no description names stands beside the dishes; what may be in it is not measured.") \
+  CODE(item_beside_dishes, \
+       "An item lies on none of the dishes. It was measured over the tray; a plate or bowl under it " \
+       "counts as food.") \
   CODE(item_moved, \
        "An item seems to have moved a little on its dish between the pictures; its volume may be off.") \
   CODE(lens_dirty, \

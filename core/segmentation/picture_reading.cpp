@@ -89,6 +89,15 @@ float PictureReading::margin_at(const Vec2& pixel) const {
   return margin_step * CellReader(*this, pixel, margins, 1).value(0);
 }
 
+Vec2 PictureReading::pixel_of(double x, double y) const {
+  const auto along = [](double cell, int frame, int begin, int covered, int network, int cells) {
+    const double in_network = (cell + 0.5) * network / cells;
+    return (in_network - begin) * frame / covered - 0.5;
+  };
+  return {along(x, frame_width, place.left, place.width, network_width, margins.width),
+          along(y, frame_height, place.top, place.height, network_height, margins.height)};
+}
+
 Embedding PictureReading::embedding_at(const Vec2& pixel) const {
   const CellReader reader(*this, pixel, embedding, embedding_size);
   Embedding values{};

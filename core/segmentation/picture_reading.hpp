@@ -34,6 +34,8 @@ struct PictureReading {
   // Linear between cells; of the nearest where the pixel lies beyond.
   float margin_at(const Vec2& pixel) const;
   Embedding embedding_at(const Vec2& pixel) const;
+  // The middle of a cell of `margins` in the frame.
+  Vec2 pixel_of(double x, double y) const;
 };
 
 // Whether a network is one for food: a class `food` and another, and an embedding of at most kMaxEmbedding

@@ -11,9 +11,10 @@
 
 namespace traygauge {
 
-// The lower quartile over samples of `item`, matched from both views, within three samples of `dish`'s; the
-// lower one of both views, in mm over the dish's inner surface. Nothing where fewer than 30 samples tell it.
+// The lower quartile over samples of `item`, matched from both views, within three samples of kDishLabel;
+// the lower one of both views, in mm over the dish's inner surface. Nothing where fewer than 30 samples tell
+// it.
 std::optional<double> foot_height_mm(const std::array<SurfaceGrid, 2>& views, const InnerSurface& inner,
-                                     std::uint8_t item, std::uint8_t dish);
+                                     std::uint8_t item);
 
 }  // namespace traygauge

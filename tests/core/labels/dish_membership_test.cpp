@@ -202,5 +202,18 @@ TEST(DishMembership, IsTheTrueOneInEveryCapture) {
   EXPECT_GT(trays, 0) << "no tray with several dishes";
 }
 
+// A round item, whose picture a dish to its left covers or is covered by, so far.
+TEST(DishMembership, WhatADishHidesALittleOfLiesApart) {
+  for (const int covered : {0, 4, 10, 30, 40, 60}) {
+    cv::Mat labels = cv::Mat::zeros(200, 300, CV_8U);
+    cv::circle(labels, {180, 100}, 40, cv::Scalar(2), cv::FILLED);
+    labels(cv::Rect(20, 20, 120 + covered, 160)).setTo(1);
+    test::Allocated<LabelBorders> borders;
+    const std::vector<ImageView<const std::uint8_t>> views{view_of(labels)};
+    find_dishes_of_items(views, {}, *borders);
+    EXPECT_EQ(lies_apart(2, {}, *borders), covered <= 10) << covered;
+  }
+}
+
 }  // namespace
 }  // namespace traygauge

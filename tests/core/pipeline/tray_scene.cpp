@@ -10,7 +10,6 @@ namespace traygauge {
 namespace {
 
 constexpr double kFocal_px = 1000.0;
-constexpr double kDishRadius_mm = 80.0;
 constexpr double kSolidHeight_mm = 25.0;
 
 SyntheticCamera camera_at(double tilt_deg, double distance_mm) {
@@ -93,7 +92,8 @@ TrayScene::TrayScene(const TrayOptions& options) : pattern(options.pattern_seed)
   solid.shape = SolidShape::height_field;
   solid.radius_mm = options.solid_radius_mm;
   solid.height_mm = kSolidHeight_mm;
-  solid.dish_radius_mm = kDishRadius_mm;
+  solid.centre_mm = options.solid_centre_mm;
+  solid.dish_radius_mm = kTrayDishRadius_mm;
   solid.texture_mm = 12.0;
   solid.texture_seed = options.texture_seed;
   for (std::size_t i = 0; i < 2; ++i) {
@@ -101,7 +101,7 @@ TrayScene::TrayScene(const TrayOptions& options) : pattern(options.pattern_seed)
     views[i] = render(solid, cameras[i], 1);  // the texture is six pixels and more long
     if (options.with_card) lay_card(pattern, cameras[i], views[i]);
   }
-  dish[0].outer_size_mm = {2.0 * kDishRadius_mm, 2.0 * kDishRadius_mm};
+  dish[0].outer_size_mm = {2.0 * kTrayDishRadius_mm, 2.0 * kTrayDishRadius_mm};
 }
 
 TraySetup TrayScene::setup() const {

@@ -14,6 +14,7 @@ namespace traygauge {
 
 inline constexpr int kTrayWidthPx = 960;
 inline constexpr int kTrayHeightPx = 720;
+inline constexpr double kTrayDishRadius_mm = 80.0;
 // Of the card's top left corner, beside the dish.
 inline constexpr double kCardLeft_mm = -182.0;
 inline constexpr double kCardTop_mm = 27.0;
@@ -25,6 +26,7 @@ struct TrayOptions {
   std::uint32_t pattern_seed = 1;
   bool with_card = true;
   double solid_radius_mm = 40.0;
+  Vec2 solid_centre_mm = Vec2::Zero();  // beyond kTrayDishRadius_mm it lies beside the dish
 };
 
 struct TrayPattern {

@@ -31,7 +31,7 @@ class FootHeights : public ::testing::Test {
     return grids;
   }
   std::optional<double> foot(const std::array<test::TrueGrid, 2>& grids) const {
-    return foot_height_mm({grids[0].view(), grids[1].view()}, dish_, kFootItem, 1);
+    return foot_height_mm({grids[0].view(), grids[1].view()}, dish_, kFootItem);
   }
 
   InnerSurface dish_ = test::dinner_plate();

@@ -1,0 +1,130 @@
+#include "core/pipeline/tray_food.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include "core/pipeline/dish_observation.hpp"
+#include "core/pipeline/table_rectangle.hpp"
+#include "core/stereo/surface_agreement.hpp"
+
+namespace traygauge {
+namespace {
+
+struct TrayPlaces {
+  std::array<TableRectangle, kMaxItems> places;
+  std::size_t count = 0;
+  std::array<std::uint8_t, kByteValues> of_item{};  // the index of its place, plus 1; 0: none
+
+  LabelSet labels_at(std::size_t index) const {
+    LabelSet labels;
+    for (std::size_t label = 0; label < of_item.size(); ++label) {
+      if (of_item[label] == index + 1) labels.add(static_cast<std::uint8_t>(label));
+    }
+    return labels;
+  }
+  // The last one takes the other's number.
+  void join(std::size_t index, std::size_t other) {
+    places[index].include(places[other]);
+    places[other] = places[--count];
+    for (std::uint8_t& place : of_item) {
+      if (place == other + 1)
+        place = static_cast<std::uint8_t>(index + 1);
+      else if (place == count + 1)
+        place = static_cast<std::uint8_t>(other + 1);
+    }
+  }
+};
+
+// What an item may cover of the table, by the boxes around it in both pictures.
+bool find_place(const TrayAtWork& tray, std::uint8_t label, TableRectangle& place) {
+  for (std::size_t v = 0; v < 2; ++v) {
+    const TrayView& view = *tray.views[v];
+    const PixelBox& box = view.regions().boxes[label];
+    const Pose& camera = tray.geometry.bundle.camera_from_table[v];
+    if (!box.empty() && !include_box(view.lens, camera, box, 0.0, place)) return false;
+  }
+  return !place.empty();
+}
+
+// Items that are near each other share a place, so that each is seen behind the other.
+void join_near_places(double distance_mm, TrayPlaces& all) {
+  for (std::size_t i = 0; i < all.count; ++i) {
+    for (std::size_t j = i + 1; j < all.count;) {
+      if (!all.places[i].grown(distance_mm).shared_with(all.places[j]).empty()) {
+        all.join(i, j);
+        j = i + 1;  // what was apart from this one may be near now
+      } else {
+        ++j;
+      }
+    }
+  }
+}
+
+// Over where the card puts the table.
+AgreedHeight find_ground(const TrayAtWork& tray, const TableRectangle& place, const TrayFoodParams& params) {
+  const TableCameras& cameras = tray.geometry.bundle.camera_from_table;
+  const SurfaceView first = surface_view(*tray.views[0], cameras[0]);
+  const SurfaceView second = surface_view(*tray.views[1], cameras[1]);
+  SurfaceAgreement ground(first, second, kBackgroundLabel,
+                          {place.middle_mm().x(), place.middle_mm().y(), 0.0},
+                          tray.configuration.checks.bare.agreement);
+  const TableRectangle searched = place.grown(params.around_mm);
+  for (double y = searched.least_mm.y(); y <= searched.most_mm.y(); y += params.step_mm) {
+    for (double x = searched.least_mm.x(); x <= searched.most_mm.x(); x += params.step_mm)
+      ground.add({x, y, 0.0});
+  }
+  return ground.solve();
+}
+
+Status measure_place(const TrayAtWork& tray, const TableRectangle& place, const LabelSet& labels,
+                     std::uint8_t name) {
+  const TrayFoodParams& params = tray.configuration.tray_food;
+  for (const TrayView* view : tray.views) {
+    if (is_cut_off(*view, labels)) return StatusCode::item_cut_off;
+  }
+  const AgreedHeight ground = find_ground(tray, place, params);
+  const Vec2 size_mm = place.grown(params.map_margin_mm).size_mm();
+  DishModel level;
+  level.outer_size_mm = {size_mm.x(), size_mm.y()};
+  level.bottom_height_mm = ground.is_known ? ground.offset_mm : 0.0;
+  level.rim_height_mm = level.bottom_height_mm;
+  FoodSurface surface{name, labels, {}, ground.is_known ? ground.sigma_mm : params.unknown_ground_sigma_mm};
+  surface.inner.place.centre_mm = place.middle_mm();
+  const Status status = surface.inner.profile.set(level);
+  if (!status.ok()) return status;
+  LabelTable kept = labels_on_dish(labels);
+  kept[kBackgroundLabel] = kDishLabel;
+  const Result<MatchedSurface> matched = match_on_surface(
+      tray, surface, diffuse_views(tray.views, tray.geometry.bundle.camera_from_table, labels), kept);
+  return matched.ok() ? measure_on_surface(tray, surface, *matched) : matched.status();
+}
+
+}  // namespace
+
+void measure_tray_food(const TrayAtWork& tray) {
+  TrayPlaces all;
+  for (int value = kFirstItemLabel; value <= kLastItemLabel; ++value) {
+    const auto label = static_cast<std::uint8_t>(value);
+    if (!tray.geometry.beside_dishes.contains(label)) continue;
+    tray.measurement.warnings.raise(Warning::item_beside_dishes, label);
+    TableRectangle& place = all.places[all.count];
+    place = {};
+    if (find_place(tray, label, place)) {
+      all.of_item[label] = static_cast<std::uint8_t>(++all.count);
+    } else {
+      LabelSet only;
+      only.add(label);
+      refuse_items(tray, only, kFirstTrayPlace, StatusCode::labels_inconsistent);
+    }
+  }
+  join_near_places(tray.configuration.tray_food.around_mm, all);
+  for (std::size_t i = 0; i < all.count; ++i) {
+    const auto name = static_cast<std::uint8_t>(kFirstTrayPlace + std::min(i, kMaxTrayPlaces - 1));
+    const LabelSet labels = all.labels_at(i);
+    const Status status =
+        i < kMaxTrayPlaces ? measure_place(tray, all.places[i], labels, name) : StatusCode::too_many_places;
+    if (!status.ok()) refuse_items(tray, labels, name, status);
+  }
+}
+
+}  // namespace traygauge
