@@ -267,8 +267,10 @@ bool Segmenter::outline_view(SegmentedDish& dish, const DishInViews& scene, std:
   if (configuration_.food_observer != nullptr) configuration_.food_observer->on_view(v);
   const OutlinedFood outlined = outline_food({raster, relief, readings_[v], configuration_.food_observer},
                                              params_.food, memory_.food.outline, cells);
-  dish.is_told_by_height |= outlined.is_told_by_height;
-  if (is_tray_place(dish.label)) keep_seen_food(raster, v, cells);
+  if (is_tray_place(dish.label))
+    keep_seen_food(raster, v, cells);
+  else
+    dish.is_told_by_height |= outlined.is_told_by_height;
   return outlined.is_outlined;
 }
 

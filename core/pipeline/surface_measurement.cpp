@@ -54,6 +54,13 @@ void for_each_item(const ViewPair& views, const LabelSet& labels, Action&& actio
   }
 }
 
+// On the tray nothing but the pictures says where food ends, and next to what is smooth they do not: a napkin
+// in the colour of food passes for it.
+bool has_open_outline(const TrayAtWork& tray, const FoodSurface& surface, std::uint8_t label) {
+  return is_tray_place(surface.dish) && tray.views[0]->are_outlines_found &&
+         tray.measurement.warnings.holds(Warning::little_texture, label);
+}
+
 // What one surface yields on the way to its volumes.
 struct ItemsAtWork {
   const FoodSurface& surface;
@@ -75,6 +82,8 @@ ItemResult measure_item(const TrayAtWork& tray, const ItemsAtWork& work, std::ui
   item.label = label;
   item.dish = surface.dish;
   item.status = judge_item(tray.views, label, volume, configuration);
+  if (item.status == StatusCode::ok && has_open_outline(tray, surface, label))
+    item.status = StatusCode::item_textureless;
   item.volume_ml = volume.volume_ml;
   item.column_volume_ml = volume.column_volume_ml;
   item.area_mm2 = volume.area_mm2;
