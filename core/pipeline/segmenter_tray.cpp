@@ -80,9 +80,11 @@ BoundedList<TableRectangle> Segmenter::see_food_beside(std::size_t v, std::span<
     const auto component = components.repaint(cell, kVisited);
     if (barred_share(component, cells) <= params.max_barred_share) {
       const PixelBox box = box_of(component, reading, cells.width);
+      const bool is_whole =
+          box.left > 0 && box.top > 0 && box.right < reading.frame_width && box.bottom < reading.frame_height;
       TableRectangle place;
       const bool is_on_table =
-          include_box(camera.lens, camera.camera_from_table, box, 0.0, place) &&
+          is_whole && include_box(camera.lens, camera.camera_from_table, box, 0.0, place) &&
           place.area_mm2() >= params.min_area_mm2 &&
           include_box(camera.lens, camera.camera_from_table, box, params.most_height_mm, place);
       if (is_on_table) seen.push_back(place);
@@ -92,9 +94,10 @@ BoundedList<TableRectangle> Segmenter::see_food_beside(std::size_t v, std::span<
   return seen;
 }
 
-// Behind the dishes, as many as there is room for.
+// Behind the dishes, as many as there is room for. Where a dish was not found, food may be that dish's.
 void Segmenter::find_tray_places() {
   result_.place_count = 0;
+  if (!result_.has_all_dishes()) return;
   std::array<std::array<TableRectangle, kMostSeen>, 2> storage;
   const BoundedList<TableRectangle> first = see_food_beside(0, storage[0]);
   const BoundedList<TableRectangle> second = see_food_beside(1, storage[1]);

@@ -89,13 +89,14 @@ double standing_height_mm(const LevelPatch& patch, const Vec2& place_mm, const S
 }  // namespace
 
 StandingObject find_standing_object(const ViewPair& views, const SceneGeometry& geometry,
-                                    const CardModelSize& card, const StandingObjectParams& params) {
+                                    const CardModelSize& card, const StandingObjectParams& params,
+                                    std::uint8_t label) {
   const TableCameras& cameras = geometry.bundle.camera_from_table;
   const SurfaceView first = surface_view(*views[0], cameras[0]);
   const SurfaceView second = surface_view(*views[1], cameras[1]);
   const Area area = area_around(geometry, card, params.around_mm);
   const Vec2 middle_mm = 0.5 * (area.least_mm + area.most_mm);
-  const LevelPatch patch(first, second, kBackgroundLabel, {middle_mm.x(), middle_mm.y(), 0.0}, params.patch);
+  const LevelPatch patch(first, second, label, {middle_mm.x(), middle_mm.y(), 0.0}, params.patch);
   std::array<Vec3, kMostPatches> storage;
   BoundedList<Vec3> standing{std::span<Vec3>(storage)};
   const auto steps_along = [&](int axis) {

@@ -115,6 +115,8 @@ ItemResult measure_item(const TrayAtWork& tray, const ItemsAtWork& work, std::ui
   measurement.warnings.raise_if(
       is_measured && item.sigma_ml > configuration.pipeline.max_sigma_fraction * item.volume_ml,
       Warning::item_uncertain, label);
+  measurement.warnings.raise_if(item.status == StatusCode::ok && is_tray_place(surface.dish),
+                                Warning::item_beside_dishes, label);
   return item;
 }
 

@@ -4,6 +4,7 @@
 #include <array>
 
 #include "core/pipeline/dish_observation.hpp"
+#include "core/pipeline/standing_object.hpp"
 #include "core/pipeline/table_rectangle.hpp"
 #include "core/stereo/surface_agreement.hpp"
 
@@ -99,6 +100,14 @@ Status measure_place(const TrayAtWork& tray, const TableRectangle& place, const 
   return matched.ok() ? measure_on_surface(tray, surface, *matched) : matched.status();
 }
 
+// What was found may lie in a dish that nobody described: a soup is as level as this, and as high.
+bool may_fill_a_bowl(const TrayAtWork& tray, std::uint8_t label) {
+  return tray.views[0]->are_outlines_found &&
+         find_standing_object(tray.views, tray.geometry, tray.configuration.card.size(),
+                              tray.configuration.checks.standing, label)
+             .is_seen;
+}
+
 }  // namespace
 
 void measure_tray_food(const TrayAtWork& tray) {
@@ -106,14 +115,16 @@ void measure_tray_food(const TrayAtWork& tray) {
   for (int value = kFirstItemLabel; value <= kLastItemLabel; ++value) {
     const auto label = static_cast<std::uint8_t>(value);
     if (!tray.geometry.beside_dishes.contains(label)) continue;
-    tray.measurement.warnings.raise(Warning::item_beside_dishes, label);
     TableRectangle& place = all.places[all.count];
     place = {};
-    if (find_place(tray, label, place)) {
+    LabelSet only;
+    only.add(label);
+    if (may_fill_a_bowl(tray, label)) {
+      tray.measurement.warnings.raise(Warning::unknown_object);
+      refuse_items(tray, only, kFirstTrayPlace, StatusCode::dish_unknown);
+    } else if (find_place(tray, label, place)) {
       all.of_item[label] = static_cast<std::uint8_t>(++all.count);
     } else {
-      LabelSet only;
-      only.add(label);
       refuse_items(tray, only, kFirstTrayPlace, StatusCode::labels_inconsistent);
     }
   }

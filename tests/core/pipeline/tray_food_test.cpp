@@ -13,9 +13,9 @@ namespace {
 
 constexpr std::uint8_t kSolidLabel = 2;
 
-TrayScene scene_with_solid_at(const Vec2& centre_mm) {
+TrayScene scene_with_solid_at(const Vec2& centre_mm, double radius_mm = 30.0) {
   TrayOptions options;
-  options.solid_radius_mm = 30.0;
+  options.solid_radius_mm = radius_mm;
   options.solid_centre_mm = centre_mm;
   return TrayScene(options);
 }
@@ -43,6 +43,15 @@ TEST(TrayFood, IsMeasuredOverTheTray) {
 
 TEST(TrayFood, OnTheDishIsNone) {
   const TrayScene scene = scene_with_solid_at(Vec2(20.0, 10.0));
+  const Measurement& measurement = measure(scene);
+  ASSERT_EQ(measurement.items.size(), 1U);
+  EXPECT_EQ(measurement.items.front().dish, kDishLabel);
+  EXPECT_FALSE(measurement.warnings.holds(Warning::item_beside_dishes));
+}
+
+// Like a pizza that leaves a crescent of its plate, and most of whose border is along the tray.
+TEST(TrayFood, ThatCoversADishLiesOnIt) {
+  const TrayScene scene = scene_with_solid_at(Vec2(40.0, 0.0), 85.0);
   const Measurement& measurement = measure(scene);
   ASSERT_EQ(measurement.items.size(), 1U);
   EXPECT_EQ(measurement.items.front().dish, kDishLabel);
