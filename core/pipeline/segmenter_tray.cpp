@@ -52,7 +52,9 @@ double barred_share(std::span<const std::int32_t> component, ImageView<const std
 PixelBox box_of(std::span<const std::int32_t> component, const PictureReading& reading, int width) {
   PixelBox box;
   for (const std::int32_t cell : component) {
-    const auto at = [&](double half) { return reading.pixel_of(cell % width + half, cell / width + half); };
+    const int column = cell % width;
+    const int row = cell / width;
+    const auto at = [&](double half) { return reading.pixel_of(column + half, row + half); };
     const Vec2 first = at(-0.5);
     const Vec2 last = at(0.5);
     box = united(box, {static_cast<int>(first.x()), static_cast<int>(first.y()),
@@ -174,7 +176,9 @@ void Segmenter::keep_seen_food(const DishRaster& raster, std::size_t v, ImageVie
     if (cells.data[cell] != kFoodSeed) continue;
     const auto component = components.repaint(cell, kVisited);
     const auto seen = std::ranges::count_if(component, [&](std::int32_t of_it) {
-      return readings_[v].margin_at(raster.pixel_of(of_it % cells.width, of_it / cells.width)) > 0.0F;
+      const int column = of_it % cells.width;
+      const int row = of_it / cells.width;
+      return readings_[v].margin_at(raster.pixel_of(column, row)) > 0.0F;
     });
     if (2 * static_cast<std::size_t>(seen) >= component.size()) continue;
     for (const std::int32_t of_it : component) cells.data[of_it] = kGlazeSeed;

@@ -70,9 +70,12 @@ AgreedHeight find_ground(const TrayAtWork& tray, const TableRectangle& place, co
                           {place.middle_mm().x(), place.middle_mm().y(), 0.0},
                           tray.configuration.checks.bare.agreement);
   const TableRectangle searched = place.grown(params.around_mm);
-  for (double y = searched.least_mm.y(); y <= searched.most_mm.y(); y += params.step_mm) {
-    for (double x = searched.least_mm.x(); x <= searched.most_mm.x(); x += params.step_mm)
-      ground.add({x, y, 0.0});
+  const Vec2 steps = searched.size_mm() / params.step_mm;
+  for (int row = 0; row <= static_cast<int>(steps.y()); ++row) {
+    for (int column = 0; column <= static_cast<int>(steps.x()); ++column) {
+      const Vec2 at_mm = searched.least_mm + params.step_mm * Vec2(column, row);
+      ground.add({at_mm.x(), at_mm.y(), 0.0});
+    }
   }
   return ground.solve();
 }
