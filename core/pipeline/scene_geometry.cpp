@@ -22,17 +22,20 @@ bool is_seen(const ViewPair& views, std::uint8_t label) {
   return views[0]->regions().pixels[label] > 0 || views[1]->regions().pixels[label] > 0;
 }
 
-// In either picture the middle of the item's box lies in the ellipse that fills the dish's, or the middle of
-// the dish's box in the item's: a pizza leaves a crescent of its plate.
+// In either picture the middle of the item's box lies in the ellipse that fills the dish's; or the item hides
+// most of the dish: a pizza leaves a crescent of its plate.
 bool is_amid(const ViewPair& views, std::uint8_t item, std::uint8_t dish) {
   return std::ranges::any_of(views, [&](const TrayView* view) {
     const PixelBox& inner = view->regions().boxes[item];
     const PixelBox& outer = view->regions().boxes[dish];
     if (inner.empty() || outer.empty()) return false;
+    const Vec2 inner_size(inner.width(), inner.height());
+    const Vec2 outer_size(outer.width(), outer.height());
     const Vec2 twice_off(inner.left + inner.right - outer.left - outer.right,
                          inner.top + inner.bottom - outer.top - outer.bottom);
-    return twice_off.cwiseQuotient(Vec2(outer.width(), outer.height())).squaredNorm() <= 1.0 ||
-           twice_off.cwiseQuotient(Vec2(inner.width(), inner.height())).cwiseAbs().maxCoeff() <= 1.0;
+    const bool do_meet = (twice_off.cwiseAbs() - inner_size - outer_size).maxCoeff() <= 0.0;
+    return twice_off.cwiseQuotient(outer_size).squaredNorm() <= 1.0 ||
+           (do_meet && inner_size.prod() > outer_size.prod());
   });
 }
 
