@@ -17,7 +17,7 @@ namespace traygauge {
 struct CheckedItem {
   std::uint8_t label = 0;
   bool is_liquid = false;  // its edge is where its level meets the dish's wall
-  double focal_px = 0.0;  // of the second view
+  double focal_px = 0.0;   // of the second view
 };
 
 // Adds the checks of one item and raises its warning; item_moved where it cannot be measured, else ok.
