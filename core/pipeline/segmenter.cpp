@@ -71,7 +71,7 @@ void Segmenter::segment() {
     draw_dishes();
     read_pictures();
     find_tray_places();
-    draw_dishes();
+    if (result_.place_count > 0) draw_dishes();
     look_at_dishes();
     draw_items(params_.food);
     if (params_.items > 0) {

@@ -66,14 +66,14 @@ AgreedHeight find_ground(const TrayAtWork& tray, const TableRectangle& place, co
   const TableCameras& cameras = tray.geometry.bundle.camera_from_table;
   const SurfaceView first = surface_view(*tray.views[0], cameras[0]);
   const SurfaceView second = surface_view(*tray.views[1], cameras[1]);
+  const BareCheckParams& bare = tray.configuration.checks.bare;
   SurfaceAgreement ground(first, second, kBackgroundLabel,
-                          {place.middle_mm().x(), place.middle_mm().y(), 0.0},
-                          tray.configuration.checks.bare.agreement);
+                          {place.middle_mm().x(), place.middle_mm().y(), 0.0}, bare.agreement);
   const TableRectangle searched = place.grown(params.around_mm);
-  const Vec2 steps = searched.size_mm() / params.step_mm;
+  const Vec2 steps = searched.size_mm() / bare.table_step_mm;
   for (int row = 0; row <= static_cast<int>(steps.y()); ++row) {
     for (int column = 0; column <= static_cast<int>(steps.x()); ++column) {
-      const Vec2 at_mm = searched.least_mm + params.step_mm * Vec2(column, row);
+      const Vec2 at_mm = searched.least_mm + bare.table_step_mm * Vec2(column, row);
       ground.add({at_mm.x(), at_mm.y(), 0.0});
     }
   }

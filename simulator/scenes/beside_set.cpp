@@ -37,9 +37,8 @@ void lay_piece(SceneDescription& scene, Draws& draws, int ground, std::string_vi
 }
 
 void lay_napkin(SceneDescription& scene, Draws& draws, const LaidDish& ground) {
-  constexpr std::array<std::uint32_t, 4> kPapers = {0xD8D4CC, 0x6A8A4A, 0x9A3428, 0x3C5A8A};
   scene.utensils.push_back({UtensilKind::napkin, ground.centre_mm, draws.between(0.0, 90.0), 0.0,
-                            draws.pick(std::span<const std::uint32_t>(kPapers))});
+                            draws.pick(std::span<const std::uint32_t>(kNapkinPapers))});
 }
 
 }  // namespace

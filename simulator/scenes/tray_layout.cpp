@@ -83,13 +83,12 @@ void lay_cutlery(SceneDescription& scene, const std::vector<Footprint>& taken, D
       Setting{38.0, false, {UtensilKind::fork, UtensilKind::knife}},
       Setting{22.0, false, {UtensilKind::spoon}}};
   constexpr double kHalfLengthMm = 106.0;
-  constexpr std::array<std::uint32_t, 4> kPapers = {0xD8D4CC, 0x6A8A4A, 0x9A3428, 0x3C5A8A};
   for (const Setting& setting : settings) {
     Footprint place{{}, 0.0, kHalfLengthMm, setting.half_width_mm, false};
     if (!find_place(place, *scene.tray, taken, 180.0, draws)) continue;
     if (setting.has_napkin) {
       scene.utensils.push_back({UtensilKind::napkin, place.centre_mm, place.rotation_deg, 0.0,
-                                draws.pick(std::span<const std::uint32_t>(kPapers))});
+                                draws.pick(std::span<const std::uint32_t>(kNapkinPapers))});
     }
     const Eigen::Rotation2Dd turn(radians(place.rotation_deg));
     const auto count = static_cast<double>(setting.pieces.size());
