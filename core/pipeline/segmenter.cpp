@@ -265,12 +265,12 @@ bool Segmenter::outline_view(SegmentedDish& dish, const DishInViews& scene, std:
   const ImageView<HeightSample> relief{memory_.food.outline.relief.data(), raster.width(), raster.height()};
   lay_height_evidence(scene.relief, v, scene.stored[v], raster, relief);
   if (configuration_.food_observer != nullptr) configuration_.food_observer->on_view(v);
-  const OutlinedFood outlined = outline_food({raster, relief, readings_[v], configuration_.food_observer},
-                                             params_.food, memory_.food.outline, cells);
-  if (is_tray_place(dish.label))
-    keep_seen_food(raster, v, cells);
-  else
-    dish.is_told_by_height |= outlined.is_told_by_height;
+  const bool is_dish = !is_tray_place(dish.label);
+  const OutlinedFood outlined =
+      outline_food({raster, relief, readings_[v], configuration_.food_observer, is_dish}, params_.food,
+                   memory_.food.outline, cells);
+  if (!is_dish) keep_seen_food(raster, v, cells);
+  dish.is_told_by_height |= outlined.is_told_by_height;
   return outlined.is_outlined;
 }
 

@@ -40,4 +40,20 @@ bool drop_small(ImageView<std::uint8_t> cells, std::uint8_t from, std::uint8_t t
   return is_any_left;
 }
 
+void spread_through(ImageView<std::uint8_t> cells, std::uint8_t from, std::uint8_t through,
+                    std::span<std::int32_t> queue) {
+  const int count = cells.width * cells.height;
+  std::size_t size = 0;
+  for (int cell = 0; cell < count; ++cell) {
+    if (cells.data[cell] == from) queue[size++] = cell;
+  }
+  for (std::size_t i = 0; i < size; ++i) {
+    for_each_neighbour(queue[i], cells.width, count, [&](int cell) {
+      if (cells.data[cell] != through) return;
+      cells.data[cell] = from;
+      queue[size++] = cell;
+    });
+  }
+}
+
 }  // namespace traygauge

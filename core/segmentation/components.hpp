@@ -29,4 +29,8 @@ class Components {
 bool drop_small(ImageView<std::uint8_t> cells, std::uint8_t from, std::uint8_t to, double min_cells,
                 std::span<std::int32_t> queue);
 
+// Cells of `through` become `from` where a path over `through` leads to `from`.
+void spread_through(ImageView<std::uint8_t> cells, std::uint8_t from, std::uint8_t through,
+                    std::span<std::int32_t> queue);
+
 }  // namespace traygauge

@@ -48,6 +48,23 @@ void free_band(ImageView<std::uint8_t> cells, int radius, FoodOutlineWorkspace& 
   });
 }
 
+// What the network denies in a part it denies in whole: about kStandingFood the other signs decide. Makes it
+// and what it reaches over their food kFoodSeed.
+void complete_standing_food(const DishInView& dish, const GlazeColour& glaze, const FoodOutlineParams& params,
+                            FoodOutlineWorkspace& workspace, ImageView<std::uint8_t> cells) {
+  constexpr std::uint8_t kDenied = kStandingFood + 1;
+  const ImageView<std::uint8_t> without_network{workspace.sums.data(), cells.width, cells.height};
+  segment_food({dish.raster, dish.relief, dish.reading}, glaze, params.field.evidence.denied, params.field,
+               workspace.field, without_network);
+  const int count = cells.width * cells.height;
+  for (int cell = 0; cell < count; ++cell) {
+    if (cells.data[cell] == kGlazeSeed && without_network.data[cell] == kFoodSeed) cells.data[cell] = kDenied;
+  }
+  spread_through(cells, kStandingFood, kDenied, workspace.queue);
+  std::replace(cells.data, cells.data + count, kStandingFood, kFoodSeed);
+  std::replace(cells.data, cells.data + count, kDenied, kGlazeSeed);
+}
+
 }  // namespace
 
 OutlinedFood outline_food(const DishInView& dish, const FoodOutlineParams& params,
@@ -56,11 +73,13 @@ OutlinedFood outline_food(const DishInView& dish, const FoodOutlineParams& param
   GlazeColour glaze;
   if (!measure_glaze(raster, params.glaze, glaze)) return {};
   const auto radius_of = [&](double radius_mm) { return square_radius(radius_mm, raster.cell_mm); };
-  segment_food(dish, glaze, params.field, workspace.field, cells);
+  segment_food(dish, glaze, params.field.evidence.usual, params.field, workspace.field, cells);
   OutlinedFood outlined{true};
   outlined.is_told_by_height =
+      dish.holds_only_food &&
       add_standing_food(raster, dish.relief, params.field.evidence.relief, params.standing,
                         params.min_item_mm2, {workspace.sums, workspace.column_sums, workspace.queue}, cells);
+  if (outlined.is_told_by_height) complete_standing_food(dish, glaze, params, workspace, cells);
   free_band(cells, radius_of(params.band_mm), workspace);
   spread_owners(raster.colours, workspace.geodesic, cells);
   threshold_fraction(cells, radius_of(params.smoothing_mm), 0.5, workspace);

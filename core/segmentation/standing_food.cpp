@@ -1,13 +1,12 @@
 #include "core/segmentation/standing_food.hpp"
 
-#include "core/segmentation/components.hpp"
 #include "core/segmentation/geodesic.hpp"
 #include "core/segmentation/square_sums.hpp"
 
 namespace traygauge {
 namespace {
 
-constexpr std::uint8_t kMiddle = kVisited + 2;  // of a square that stands; no label
+constexpr std::uint8_t kMiddle = kStandingFood + 1;  // of a square that stands
 
 }  // namespace
 
@@ -30,7 +29,7 @@ bool add_standing_food(const DishRaster& raster, ImageView<const HeightSample> r
       cells.width, cells.height, radius, workspace.row_sums, workspace.column_sums,
       [&](int x, int y) { return cells.at(x, y) == kMiddle; },
       [&](int x, int y, int middles) {
-        if (middles > 0 && cells.at(x, y) != kBarred) cells.at(x, y) = kFoodSeed;
+        if (middles > 0 && cells.at(x, y) != kBarred) cells.at(x, y) = kStandingFood;
       });
   return true;
 }

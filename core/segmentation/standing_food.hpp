@@ -6,6 +6,7 @@
 #include <span>
 
 #include "core/image_view/image_view.hpp"
+#include "core/segmentation/components.hpp"
 #include "core/segmentation/dish_raster.hpp"
 #include "core/segmentation/height_sample.hpp"
 
@@ -25,8 +26,10 @@ struct StandingFoodWorkspace {
   std::span<std::int32_t> queue;        // for every cell
 };
 
-// Makes kFoodSeed of kGlazeSeed on squares that stand above the dish, where the middles of such squares cover
-// at least `min_mm2` in one piece. Returns whether there are any.
+inline constexpr std::uint8_t kStandingFood = kVisited + 2;  // no label of a dish or item
+
+// Makes kStandingFood of kGlazeSeed on squares that stand above the dish, where the middles of such squares
+// cover at least `min_mm2` in one piece. Returns whether there are any.
 bool add_standing_food(const DishRaster& raster, ImageView<const HeightSample> relief,
                        const HeightWeightParams& weights, const StandingFoodParams& params, double min_mm2,
                        const StandingFoodWorkspace& workspace, ImageView<std::uint8_t> cells);

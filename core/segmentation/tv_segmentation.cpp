@@ -23,10 +23,11 @@ struct Field {
 
 class FoodField {
  public:
-  FoodField(const DishInView& dish, const GlazeColour& glaze, const TvSegmentationParams& params,
-            TvSegmentationWorkspace& workspace)
+  FoodField(const DishInView& dish, const GlazeColour& glaze, const FoodWeights& weights,
+            const TvSegmentationParams& params, TvSegmentationWorkspace& workspace)
       : dish_(dish),
         glaze_(glaze),
+        weights_(weights),
         params_(params),
         workspace_(workspace),
         field_{dish.raster.width() / params.fold, dish.raster.height() / params.fold} {}
@@ -73,7 +74,7 @@ class FoodField {
     if (!is_on_dish(x, y)) return;
     const FoodSigns signs =
         food_signs(dish_, glaze_, params_.evidence, x * fold, y * fold, fold, workspace_.colours[at]);
-    const double log_odds = signs.log_odds(params_.evidence);
+    const double log_odds = signs.log_odds(weights_);
     workspace_.evidence[at] = static_cast<float>(log_odds);
     if (dish_.observer == nullptr) return;
     const double middle = 0.5 * (fold - 1);
@@ -173,6 +174,7 @@ class FoodField {
 
   const DishInView& dish_;
   const GlazeColour& glaze_;
+  const FoodWeights& weights_;
   const TvSegmentationParams& params_;
   TvSegmentationWorkspace& workspace_;
   Field field_;
@@ -180,9 +182,10 @@ class FoodField {
 
 }  // namespace
 
-void segment_food(const DishInView& dish, const GlazeColour& glaze, const TvSegmentationParams& params,
-                  TvSegmentationWorkspace& workspace, ImageView<std::uint8_t> cells) {
-  FoodField field(dish, glaze, params, workspace);
+void segment_food(const DishInView& dish, const GlazeColour& glaze, const FoodWeights& weights,
+                  const TvSegmentationParams& params, TvSegmentationWorkspace& workspace,
+                  ImageView<std::uint8_t> cells) {
+  FoodField field(dish, glaze, weights, params, workspace);
   field.weigh();
   field.solve();
   field.write(cells);

@@ -44,7 +44,8 @@ struct TvSegmentationWorkspace {
 };
 
 // `cells`, of the raster's size: kFoodSeed or kGlazeSeed within the dish, kBarred outside.
-void segment_food(const DishInView& dish, const GlazeColour& glaze, const TvSegmentationParams& params,
-                  TvSegmentationWorkspace& workspace, ImageView<std::uint8_t> cells);
+void segment_food(const DishInView& dish, const GlazeColour& glaze, const FoodWeights& weights,
+                  const TvSegmentationParams& params, TvSegmentationWorkspace& workspace,
+                  ImageView<std::uint8_t> cells);
 
 }  // namespace traygauge

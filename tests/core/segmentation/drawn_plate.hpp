@@ -32,9 +32,10 @@ struct Disc {
   int grain = 0;            // grey values, from pixel to pixel
   // Of pieces that are mixed with those of `bgr`; the same where there are none.
   std::optional<std::array<int, 3>> other_bgr{};
-  bool is_agreed = true;  // by both views, upon its height
-  int food = 0;           // discs of one food have one embedding
-  double margin = 0.0;    // of the network, which knows nothing of the rest of the plate
+  bool is_agreed = true;   // by both views, upon its height
+  int food = 0;            // discs of one food have one embedding
+  double margin = 0.0;     // of the network, which knows nothing of the rest of the plate
+  double lift_bits = 5.0;  // of a census window, by which it matches better upon its height than on the glaze
 };
 
 inline Disc of_food(int food, Disc disc) {
@@ -157,9 +158,11 @@ class Plate {
         const Vec2 pixel = raster.pixel_of(x, y);
         double height_mm = 0.0;
         bool is_agreed = true;
+        double lift_bits = 0.0;
         for (const Disc& disc : food_) {
           const double part = distance(pixel.x(), pixel.y(), disc) / disc.radius;
           if (part < 1.0) is_agreed = disc.is_agreed;
+          if (part < 1.0) lift_bits = disc.lift_bits;
           if (part < 1.0) height_mm = std::max(height_mm, disc.height_mm * std::min(1.0, 6.0 * (1.0 - part)));
         }
         HeightSample& sample = relief_[static_cast<std::size_t>(y * raster.width() + x)];
@@ -167,7 +170,7 @@ class Plate {
         sample.is_confirmed = is_agreed;
         sample.height = static_cast<std::int8_t>(std::lround(height_mm / kHeightUnitMm));
         sample.food_cost = doubled(9.0);
-        sample.glaze_cost = height_mm > 0.0 ? doubled(14.0) : sample.food_cost;
+        sample.glaze_cost = height_mm > 0.0 ? doubled(9.0 + lift_bits) : sample.food_cost;
       }
     }
   }

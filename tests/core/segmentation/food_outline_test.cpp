@@ -80,6 +80,23 @@ TEST(FoodOutline, FoodOfTheGlazesColourIsToldByItsHeight) {
   EXPECT_FALSE(blind.is_told_by_height());
 }
 
+// The white of a fried egg: of little grain, so that its height is seen well in places only.
+TEST(FoodOutline, FoodThatTheNetworkDeniesIsFoundInWhole) {
+  Disc smooth = with_margin(-3.9, {300, 300, 90, kWhite, 20.0});
+  smooth.lift_bits = 2.0;
+  Disc grainy = with_margin(-3.9, {320, 300, 40, kWhite, 20.0});
+  grainy.lift_bits = 9.0;
+  std::vector<std::uint8_t> labels;
+  DishRaster raster;
+  Plate egg({smooth, grainy});
+  EXPECT_EQ(egg.outline(labels, raster), 1);
+  EXPECT_GT(egg.right_fraction(labels, raster), 0.98);
+  EXPECT_TRUE(egg.is_told_by_height());
+  // Without a place that surely stands the network is believed.
+  Plate glaze({smooth});
+  EXPECT_EQ(glaze.outline(labels, raster), 0);
+}
+
 // Yoghurt in a white bowl, or the foot of a heap of white rice: neither colour nor height tells it.
 TEST(FoodOutline, LowFoodOfTheGlazesColourIsToldByTheNetwork) {
   std::vector<std::uint8_t> labels;
@@ -183,15 +200,15 @@ TEST(FoodField, OutlineCostDecidesHowFarCellsAgree) {
     params.fold = 1;
     params.sweeps = 400;
     // No cell has a margin or a colour that speaks.
-    params.evidence.constant =
-        -params.evidence.least_colour * params.evidence.colour_weight - 0.5 * params.evidence.lift_weight;
+    FoodWeights weights = params.evidence.usual;
+    weights.constant = -params.evidence.least_colour * weights.colour - 0.5 * weights.lift;
     const test::DrawnReading reading(kWide, 8);
     const PictureReading read = reading.view();
     const GlazeColour glaze{170, 170, 4.0};
     test::Allocated<TvSegmentationWorkspace> memory{kWide * kWide};
     std::vector<std::uint8_t> cells(colours.size());
     const auto count_food = [&] {
-      segment_food({raster, {relief.data(), kWide, kWide}, read}, glaze, params, *memory,
+      segment_food({raster, {relief.data(), kWide, kWide}, read}, glaze, weights, params, *memory,
                    {cells.data(), kWide, kWide});
       return static_cast<int>(std::count(cells.begin(), cells.end(), kFoodSeed));
     };

@@ -61,10 +61,10 @@ TEST(StandingFood, IsAddedUpToItsBorder) {
   dish.stand(20, 30, 40, 30);
   EXPECT_TRUE(dish.add());
   // A square that reaches over the border by a cell still stands by nine tenths.
-  EXPECT_GE(dish.count(kFoodSeed), 40 * 30);
-  EXPECT_LE(dish.count(kFoodSeed), 42 * 32);
-  EXPECT_EQ(dish.count(kFoodSeed) + dish.count(kGlazeSeed), kSideCells * kSideCells);
-  EXPECT_EQ(dish.cell(40, 45), kFoodSeed);
+  EXPECT_GE(dish.count(kStandingFood), 40 * 30);
+  EXPECT_LE(dish.count(kStandingFood), 42 * 32);
+  EXPECT_EQ(dish.count(kStandingFood) + dish.count(kGlazeSeed), kSideCells * kSideCells);
+  EXPECT_EQ(dish.cell(40, 45), kStandingFood);
   EXPECT_EQ(dish.cell(63, 45), kGlazeSeed);
 }
 
