@@ -17,6 +17,7 @@ void warn_about_labels(const Segmentation& segmentation, WarningSet& warnings) {
   for (const SegmentedDish& dish : segmentation.drawn())
     warnings.raise_if(dish.has_doubtful_items(), Warning::items_doubtful, dish.label);
   warnings.raise_if(segmentation.misses_hint, Warning::items_doubtful);
+  warnings.raise_if(segmentation.leaves_food, Warning::unknown_object);
   warnings.raise_if(segmentation.is_card_doubtful, Warning::card_partly_hidden);
 }
 

@@ -39,6 +39,7 @@ struct Segmentation {
   std::size_t dish_count = 0;
   std::size_t place_count = 0;
   int items = 0;             // labels from kFirstItemLabel on
+  bool leaves_food = false;  // more places with food beside the dishes than there is room for
   bool misses_hint = false;  // a number of items was asked for, and there are more or fewer
   double card_ms = 0.0;
   OwnMotion own_motion;  // of all dishes, from the first picture to the second

@@ -99,12 +99,14 @@ BoundedList<TableRectangle> Segmenter::see_food_beside(std::size_t v, std::span<
 // Behind the dishes, as many as there is room for. Where a dish was not found, food may be that dish's.
 void Segmenter::find_tray_places() {
   result_.place_count = 0;
+  result_.leaves_food = false;
   if (!result_.has_all_dishes()) return;
   std::array<std::array<TableRectangle, kMostSeen>, 2> storage;
   const BoundedList<TableRectangle> first = see_food_beside(0, storage[0]);
   const BoundedList<TableRectangle> second = see_food_beside(1, storage[1]);
-  std::array<TableRectangle, kMaxTrayPlaces> places;
-  std::size_t count = 0;
+  std::array<TableRectangle, kMostSeen> places;
+  std::array<std::size_t, kMostSeen> joined;
+  std::size_t seen = 0;
   for (const TableRectangle& one : first.items()) {
     TableRectangle place;
     for (const TableRectangle& other : second.items()) {
@@ -112,22 +114,15 @@ void Segmenter::find_tray_places() {
       if (shared.area_mm2() >= params_.tray.min_shared * std::min(one.area_mm2(), other.area_mm2()))
         place.include(shared);
     }
-    if (place.empty()) continue;
-    // What lies near another piece is looked at with it.
-    for (std::size_t i = 0; i < count;) {
-      if (places[i].grown(params_.tray.around_mm).shared_with(place).empty()) {
-        ++i;
-        continue;
-      }
-      place.include(places[i]);
-      places[i] = places[--count];
-      i = 0;
-    }
-    if (count < places.size()) places[count++] = place;
+    if (!place.empty()) places[seen++] = place;
   }
+  // What lies near another piece is looked at with it.
+  const std::size_t count =
+      join_near(std::span(places).first(seen), params_.tray.around_mm, std::span(joined).first(seen));
   for (const TableRectangle& place : std::span(places).first(count)) {
     const std::size_t index = result_.dish_count + result_.place_count;
-    if (index == result_.dishes.size()) return;
+    result_.leaves_food = index == result_.dishes.size() || result_.place_count == kMaxTrayPlaces;
+    if (result_.leaves_food) return;
     SegmentedDish& ground = result_.dishes[index];
     ground = {};
     ground.label = static_cast<std::uint8_t>(kFirstTrayPlace + result_.place_count++);

@@ -1,7 +1,9 @@
 // A rectangle of the table, along its axes: where something may stand.
 #pragma once
 
+#include <cstddef>
 #include <limits>
+#include <span>
 
 #include "core/geometry/camera.hpp"
 #include "core/geometry/geometry.hpp"
@@ -33,5 +35,9 @@ struct TableRectangle {
 // Includes what a box of a picture shows at this height over the table; false where it shows no such place.
 bool include_box(const LensModel& lens, const Pose& camera_from_table, const PixelBox& box, double height_mm,
                  TableRectangle& rectangle);
+
+// Joins places that are near each other, directly or over others that were joined to them. Those left stand
+// first, and are counted; `joined`, where there is one for each place, tells which of them holds it.
+std::size_t join_near(std::span<TableRectangle> places, double distance_mm, std::span<std::size_t> joined);
 
 }  // namespace traygauge

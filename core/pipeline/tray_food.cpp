@@ -11,31 +11,6 @@
 namespace traygauge {
 namespace {
 
-struct TrayPlaces {
-  std::array<TableRectangle, kMaxItems> places;
-  std::size_t count = 0;
-  std::array<std::uint8_t, kByteValues> of_item{};  // the index of its place, plus 1; 0: none
-
-  LabelSet labels_at(std::size_t index) const {
-    LabelSet labels;
-    for (std::size_t label = 0; label < of_item.size(); ++label) {
-      if (of_item[label] == index + 1) labels.add(static_cast<std::uint8_t>(label));
-    }
-    return labels;
-  }
-  // The last one takes the other's number.
-  void join(std::size_t index, std::size_t other) {
-    places[index].include(places[other]);
-    places[other] = places[--count];
-    for (std::uint8_t& place : of_item) {
-      if (place == other + 1)
-        place = static_cast<std::uint8_t>(index + 1);
-      else if (place == count + 1)
-        place = static_cast<std::uint8_t>(other + 1);
-    }
-  }
-};
-
 // What an item may cover of the table, by the boxes around it in both pictures.
 bool find_place(const TrayAtWork& tray, std::uint8_t label, TableRectangle& place) {
   for (std::size_t v = 0; v < 2; ++v) {
@@ -45,20 +20,6 @@ bool find_place(const TrayAtWork& tray, std::uint8_t label, TableRectangle& plac
     if (!box.empty() && !include_box(view.lens, camera, box, 0.0, place)) return false;
   }
   return !place.empty();
-}
-
-// Items that are near each other share a place, so that each is seen behind the other.
-void join_near_places(double distance_mm, TrayPlaces& all) {
-  for (std::size_t i = 0; i < all.count; ++i) {
-    for (std::size_t j = i + 1; j < all.count;) {
-      if (!all.places[i].grown(distance_mm).shared_with(all.places[j]).empty()) {
-        all.join(i, j);
-        j = i + 1;  // what was apart from this one may be near now
-      } else {
-        ++j;
-      }
-    }
-  }
 }
 
 // Over where the card puts the table.
@@ -114,30 +75,37 @@ bool may_fill_a_bowl(const TrayAtWork& tray, std::uint8_t label) {
 }  // namespace
 
 void measure_tray_food(const TrayAtWork& tray) {
-  TrayPlaces all;
+  std::array<TableRectangle, kMaxItems> places;
+  std::array<std::uint8_t, kMaxItems> labels;
+  std::size_t items = 0;
   for (int value = kFirstItemLabel; value <= kLastItemLabel; ++value) {
     const auto label = static_cast<std::uint8_t>(value);
     if (!tray.geometry.beside_dishes.contains(label)) continue;
-    TableRectangle& place = all.places[all.count];
-    place = {};
+    places[items] = {};
     LabelSet only;
     only.add(label);
     if (may_fill_a_bowl(tray, label)) {
       tray.measurement.warnings.raise(Warning::unknown_object);
       refuse_items(tray, only, kFirstTrayPlace, StatusCode::dish_unknown);
-    } else if (find_place(tray, label, place)) {
-      all.of_item[label] = static_cast<std::uint8_t>(++all.count);
+    } else if (find_place(tray, label, places[items])) {
+      labels[items++] = label;
     } else {
       refuse_items(tray, only, kFirstTrayPlace, StatusCode::labels_inconsistent);
     }
   }
-  join_near_places(tray.configuration.tray_food.around_mm, all);
-  for (std::size_t i = 0; i < all.count; ++i) {
-    const auto name = static_cast<std::uint8_t>(kFirstTrayPlace + std::min(i, kMaxTrayPlaces - 1));
-    const LabelSet labels = all.labels_at(i);
+  // Items that are near each other share a place, so that each is seen behind the other.
+  std::array<std::size_t, kMaxItems> place_of;
+  const std::size_t count = join_near(std::span(places).first(items), tray.configuration.tray_food.around_mm,
+                                      std::span(place_of).first(items));
+  for (std::size_t place = 0; place < count; ++place) {
+    LabelSet own;
+    for (std::size_t i = 0; i < items; ++i) {
+      if (place_of[i] == place) own.add(labels[i]);
+    }
+    const auto name = static_cast<std::uint8_t>(kFirstTrayPlace + std::min(place, kMaxTrayPlaces - 1));
     const Status status =
-        i < kMaxTrayPlaces ? measure_place(tray, all.places[i], labels, name) : StatusCode::too_many_places;
-    if (!status.ok()) refuse_items(tray, labels, name, status);
+        place < kMaxTrayPlaces ? measure_place(tray, places[place], own, name) : StatusCode::too_many_places;
+    if (!status.ok()) refuse_items(tray, own, name, status);
   }
 }
 

@@ -42,6 +42,12 @@ TEST(Segmentation, WarnsOfEachDoubtAndNothingElse) {
   warn_about_labels(missing, hint);
   EXPECT_TRUE(hint.holds(Warning::items_doubtful));
   EXPECT_TRUE(missing.has_doubtful_items());
+
+  Segmentation full;
+  full.leaves_food = true;
+  WarningSet rest;
+  warn_about_labels(full, rest);
+  EXPECT_TRUE(rest.holds(Warning::unknown_object));
 }
 
 TEST(Segmentation, FoodToldByHeightAloneIsDoubtful) {
