@@ -2,6 +2,7 @@
 
 #include <mosquitto.h>
 
+#include <cerrno>
 #include <system_error>
 
 #include "simulator/capture/input_error.hpp"
@@ -47,6 +48,12 @@ std::string with_detail(const BrokerProblem& problem) {
   return problem.detail.empty() ? std::string(".") : " (" + printable(problem.detail) + ").";
 }
 
+// Whoever writes before reading that the other end is closed is told by EPIPE.
+bool is_closed_by_broker(const BrokerProblem& problem) {
+  return problem.result == MOSQ_ERR_CONN_LOST ||
+         (problem.result == MOSQ_ERR_ERRNO && problem.system_error == EPIPE);
+}
+
 }  // namespace
 
 std::string describe(const BrokerProblem& problem, const BrokerConfig& config, const std::string& client_id) {
@@ -59,6 +66,12 @@ std::string describe(const BrokerProblem& problem, const BrokerConfig& config, c
   if (is_alert(problem.detail))
     return broker + " refuses this client's certificate" + with_detail(problem) + " Correct " + config.table +
            ".certificate.";
+  if (is_closed_by_broker(problem))
+    return broker + (problem.was_connected
+                         ? " closed the connection. Where it does so again and again, another client may be "
+                           "called " +
+                               client_id + ", too."
+                         : " closed the connection without an answer.");
   switch (problem.result) {
     case MOSQ_ERR_ACL_DENIED:
       return broker +
@@ -74,13 +87,6 @@ std::string describe(const BrokerProblem& problem, const BrokerConfig& config, c
       return broker + " answered something that is not MQTT 3.1.1.";
     case MOSQ_ERR_KEEPALIVE:
       return broker + " has not answered for a while.";
-    case MOSQ_ERR_CONN_LOST:
-      return broker +
-             (problem.was_connected
-                  ? " closed the connection. Where it does so again and again, another client may be "
-                    "called " +
-                        client_id + ", too."
-                  : " closed the connection without an answer.");
     case MOSQ_ERR_ERRNO:
       if (problem.system_error != 0)
         return broker + (problem.was_connected ? " was lost (" : " takes no connection (") +
