@@ -99,13 +99,11 @@ BoundedList<TableRectangle> Segmenter::see_food_beside(std::size_t v, std::span<
 // Behind the dishes, as many as there is room for. Where a dish was not found, food may be that dish's.
 void Segmenter::find_tray_places() {
   result_.place_count = 0;
-  result_.leaves_food = false;
   if (!result_.has_all_dishes()) return;
   std::array<std::array<TableRectangle, kMostSeen>, 2> storage;
   const BoundedList<TableRectangle> first = see_food_beside(0, storage[0]);
   const BoundedList<TableRectangle> second = see_food_beside(1, storage[1]);
   std::array<TableRectangle, kMostSeen> places;
-  std::array<std::size_t, kMostSeen> joined;
   std::size_t seen = 0;
   for (const TableRectangle& one : first.items()) {
     TableRectangle place;
@@ -117,13 +115,11 @@ void Segmenter::find_tray_places() {
     if (!place.empty()) places[seen++] = place;
   }
   // What lies near another piece is looked at with it.
-  const std::size_t count =
-      join_near(std::span(places).first(seen), params_.tray.around_mm, std::span(joined).first(seen));
-  for (const TableRectangle& place : std::span(places).first(count)) {
-    const std::size_t index = result_.dish_count + result_.place_count;
-    result_.leaves_food = index == result_.dishes.size() || result_.place_count == kMaxTrayPlaces;
-    if (result_.leaves_food) return;
-    SegmentedDish& ground = result_.dishes[index];
+  const std::size_t count = join_near(std::span(places).first(seen), params_.tray.around_mm);
+  const std::size_t room = std::min(kMaxTrayPlaces, result_.dishes.size() - result_.dish_count);
+  result_.leaves_food = count > room;
+  for (const TableRectangle& place : std::span(places).first(std::min(count, room))) {
+    SegmentedDish& ground = result_.dishes[result_.dish_count + result_.place_count];
     ground = {};
     ground.label = static_cast<std::uint8_t>(kFirstTrayPlace + result_.place_count++);
     const Vec2 size_mm = std::numbers::sqrt2 * place.size_mm() + Vec2::Constant(2.0 * params_.tray.around_mm);

@@ -36,8 +36,9 @@ struct TableRectangle {
 bool include_box(const LensModel& lens, const Pose& camera_from_table, const PixelBox& box, double height_mm,
                  TableRectangle& rectangle);
 
-// Joins places that are near each other, directly or over others that were joined to them. Those left stand
-// first, and are counted; `joined`, where there is one for each place, tells which of them holds it.
-std::size_t join_near(std::span<TableRectangle> places, double distance_mm, std::span<std::size_t> joined);
+// Joins places that are near each other, until no two are. Returns how many are left; these stand first.
+// `joined`, if it is not empty, has a number for each place: which of those left holds it.
+std::size_t join_near(std::span<TableRectangle> places, double distance_mm,
+                      std::span<std::size_t> joined = {});
 
 }  // namespace traygauge

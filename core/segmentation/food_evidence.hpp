@@ -12,8 +12,7 @@
 
 namespace traygauge {
 
-// In the logarithm of the odds that a place is food. Logistic regressions of places on rendered dishes:
-// tests/evaluation/fit/fit_food_evidence.py.
+// What each sign adds to the logarithm of the odds that a place is food, and what there is without any.
 struct FoodWeights {
   double constant;
   double lift;
@@ -34,10 +33,23 @@ struct FoodEvidenceParams {
   // Up to which the network's margin counts, either way: a food unlike those that it learned it may take for
   // something else without a doubt.
   double most_margin = 4.0;
-  // Of the food the network misses 3 %.
-  FoodWeights usual{-1.62, 2.94, 1.17, 1.69, 0.81};
-  // About food that the network denies: of what has the glaze's colour half is food.
-  FoodWeights denied{0.07, 5.10, 2.02, 1.69, 0.0};
+  // A logistic regression of places on rendered dishes, of which the network misses 3 % of the food:
+  // tests/evaluation/fit/fit_food_evidence.py.
+  double constant = -1.62;
+  double lift_weight = 2.94;
+  double against_weight = 1.17;
+  double colour_weight = 1.69;
+  double margin_weight = 0.81;
+  // Near food that stands although the network denies it. The same script's regression of places that have
+  // the glaze's colour, half of which count as food.
+  double denied_constant = 0.07;
+  double denied_lift_weight = 5.10;
+  double denied_against_weight = 2.02;
+
+  FoodWeights usual() const { return {constant, lift_weight, against_weight, colour_weight, margin_weight}; }
+  FoodWeights where_denied() const {
+    return {denied_constant, denied_lift_weight, denied_against_weight, colour_weight, 0.0};
+  }
 };
 
 struct FoodSigns {

@@ -48,14 +48,14 @@ void free_band(ImageView<std::uint8_t> cells, int radius, FoodOutlineWorkspace& 
   });
 }
 
-// What the network denies in a part it denies in whole: about kStandingFood the other signs decide. Makes it
-// and what it reaches over their food kFoodSeed.
+// Where a network denies a part of a food it denies all of it. So around kStandingFood the other signs
+// decide: it becomes kFoodSeed, and so does what they call food and is connected to it.
 void complete_standing_food(const DishInView& dish, const GlazeColour& glaze, const FoodOutlineParams& params,
                             FoodOutlineWorkspace& workspace, ImageView<std::uint8_t> cells) {
   constexpr std::uint8_t kDenied = kStandingFood + 1;
   const ImageView<std::uint8_t> without_network{workspace.sums.data(), cells.width, cells.height};
-  segment_food({dish.raster, dish.relief, dish.reading}, glaze, params.field.evidence.denied, params.field,
-               workspace.field, without_network);
+  segment_food({dish.raster, dish.relief, dish.reading}, glaze, params.field.evidence.where_denied(),
+               params.field, workspace.field, without_network);
   const int count = cells.width * cells.height;
   for (int cell = 0; cell < count; ++cell) {
     if (cells.data[cell] == kGlazeSeed && without_network.data[cell] == kFoodSeed) cells.data[cell] = kDenied;
@@ -73,7 +73,7 @@ OutlinedFood outline_food(const DishInView& dish, const FoodOutlineParams& param
   GlazeColour glaze;
   if (!measure_glaze(raster, params.glaze, glaze)) return {};
   const auto radius_of = [&](double radius_mm) { return square_radius(radius_mm, raster.cell_mm); };
-  segment_food(dish, glaze, params.field.evidence.usual, params.field, workspace.field, cells);
+  segment_food(dish, glaze, params.field.evidence.usual(), params.field, workspace.field, cells);
   OutlinedFood outlined{true};
   outlined.is_told_by_height =
       dish.holds_only_food &&

@@ -48,7 +48,7 @@ std::string with_detail(const BrokerProblem& problem) {
   return problem.detail.empty() ? std::string(".") : " (" + printable(problem.detail) + ").";
 }
 
-// Whoever writes before reading that the other end is closed is told by EPIPE.
+// A client that writes before it has read that the other end is closed gets EPIPE.
 bool is_closed_by_broker(const BrokerProblem& problem) {
   return problem.result == MOSQ_ERR_CONN_LOST ||
          (problem.result == MOSQ_ERR_ERRNO && problem.system_error == EPIPE);

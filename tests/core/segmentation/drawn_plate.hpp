@@ -161,9 +161,10 @@ class Plate {
         double lift_bits = 0.0;
         for (const Disc& disc : food_) {
           const double part = distance(pixel.x(), pixel.y(), disc) / disc.radius;
-          if (part < 1.0) is_agreed = disc.is_agreed;
-          if (part < 1.0) lift_bits = disc.lift_bits;
-          if (part < 1.0) height_mm = std::max(height_mm, disc.height_mm * std::min(1.0, 6.0 * (1.0 - part)));
+          if (part >= 1.0) continue;
+          is_agreed = disc.is_agreed;
+          lift_bits = disc.lift_bits;
+          height_mm = std::max(height_mm, disc.height_mm * std::min(1.0, 6.0 * (1.0 - part)));
         }
         HeightSample& sample = relief_[static_cast<std::size_t>(y * raster.width() + x)];
         sample.is_known = true;

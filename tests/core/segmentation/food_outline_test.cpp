@@ -200,7 +200,7 @@ TEST(FoodField, OutlineCostDecidesHowFarCellsAgree) {
     params.fold = 1;
     params.sweeps = 400;
     // No cell has a margin or a colour that speaks.
-    FoodWeights weights = params.evidence.usual;
+    FoodWeights weights = params.evidence.usual();
     weights.constant = -params.evidence.least_colour * weights.colour - 0.5 * weights.lift;
     const test::DrawnReading reading(kWide, 8);
     const PictureReading read = reading.view();

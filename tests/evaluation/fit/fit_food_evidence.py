@@ -57,7 +57,7 @@ def fit_places(captures, is_food, signs, used):
 
 
 def fit_denied(is_food, signs, weights):
-    """The numbers of the constant, lift and against, and the colour's own part in it left in the constant."""
+    """Of the constant, lift and against, at places of one colour: what that adds is in the constant."""
     halves = [weights * (is_food == kind) / weights[is_food == kind].sum() for kind in (0, 1)]
     return fit(signs, is_food, 0.5 * (halves[0] + halves[1]))
 
@@ -80,7 +80,6 @@ def main():
     print(f"{len(set(captures))} captures, {len(is_food)} places")
     numbers = fit_places(captures, is_food, signs, list(range(1 + len(SIGNS))))
     print(", ".join(f"{name} {number:.2f}" for name, number in zip(("constant", *SIGNS), numbers)))
-    colour_weight = numbers[COLOUR]
     for left in (None, *range(len(SIGNS))):
         used = [0] + [1 + sign for sign in range(len(SIGNS)) if sign != left]
         told = tell_left_out(
@@ -88,7 +87,7 @@ def main():
         )
         wrong = float(weights @ ((told > 0) != is_food))
         print(f"left out, {'all signs' if left is None else 'without ' + SIGNS[left]}: {100.0 * wrong:.2f} % wrong")
-    print_denied(captures, is_food, signs, weights, colour_weight)
+    print_denied(captures, is_food, signs, weights, numbers[COLOUR])
 
 
 if __name__ == "__main__":
