@@ -16,8 +16,12 @@ constexpr double scale_coordinate(double x, double scale) {
 // Grey by the weights of ITU-R BT.601 in integers, as OpenCV's cvtColor. Equal sizes.
 void convert_to_gray(const FrameView& frame, ImageView<std::uint8_t> gray);
 
-// Shrinks by averaging the covered area exactly (any factor ≥ 1 in each direction), as OpenCV's INTER_AREA.
+// Averages the area that each pixel of the target covers exactly, rounded, halves upward: what OpenCV's
+// INTER_AREA does where it shrinks. Any factor, targets up to 65535 pixels high.
 void reduce_area(ImageView<const std::uint8_t> source, ImageView<std::uint8_t> target);
+
+// The same in colours: `rgb` has three bytes a pixel, red, green, blue. Grey frames fill all three.
+void reduce_colours(const FrameView& frame, ImageView<std::uint8_t> rgb);
 
 // Enlarges by bilinear interpolation (any factor ≥ 1 in each direction, targets up to 4096 pixels wide and
 // high), within 1 of OpenCV's INTER_LINEAR.

@@ -16,8 +16,7 @@ struct InputPlacement {
 inline constexpr std::uint8_t kFillingGray =
     128;  // the middle of a byte's range; training fills with the same
 
-// Averages the area that each pixel of `input` covers exactly, rounded, halves upward. `input` has three
-// bytes a pixel: red, green, blue. Grey frames fill all three. Frames have at most 8192 pixels a side.
+// `input` has three bytes a pixel: red, green, blue. See reduce_colours.
 InputPlacement fill_input(const FrameView& frame, ImageView<std::uint8_t> input);
 
 }  // namespace traygauge

@@ -10,6 +10,7 @@
 #include "core/base/random.hpp"
 #include "tests/support/opencv_camera.hpp"
 #include "tests/support/pictures.hpp"
+#include "tests/support/random_seed.hpp"
 
 namespace traygauge {
 namespace {
@@ -86,6 +87,41 @@ INSTANTIATE_TEST_SUITE_P(
                       std::array<int, 4>{2500, 40, 1975, 7},  // several blocks
                       std::array<int, 4>{2049, 31, 1025, 31}, std::array<int, 4>{17, 9, 1, 1},
                       std::array<int, 4>{1712, 50, 301, 9}));
+
+TEST(ReduceArea, EnlargesByTheSameDefinition) {
+  cv::RNG random(test::random_seed());
+  const cv::Mat source = random_picture(37, 23, CV_8U, random);
+  cv::Mat target(61, 80, CV_8U);
+  reduce_area(view_of(source), view_of(target));
+  for (int y = 0; y < target.rows; ++y) {
+    for (int x = 0; x < target.cols; ++x)
+      ASSERT_NEAR(target.at<std::uint8_t>(y, x), covered_mean(source, x, y, 37.0 / 80.0, 23.0 / 61.0),
+                  0.5 + 1e-9);
+  }
+}
+
+TEST(ReduceArea, SumsTheLargestPicturesWithoutOverflow) {
+  const cv::Mat source(8192, 8192, CV_8U, cv::Scalar(255));
+  cv::Mat target(1, 2, CV_8U);
+  reduce_area(view_of(source), view_of(target));
+  EXPECT_EQ(cv::norm(target, cv::Mat(1, 2, CV_8U, cv::Scalar(255)), cv::NORM_INF), 0.0);
+}
+
+TEST(ReduceColours, ReducesEachChannelByItself) {
+  cv::RNG random(test::random_seed());
+  const cv::Mat3b source = random_picture(600, 85, CV_8UC3, random);
+  std::array<cv::Mat1b, 3> channels;
+  cv::split(source, channels.data());
+  cv::Mat3b reduced(31, 77);
+  reduce_colours(frame_of(source), {reduced.data, 3 * reduced.cols, reduced.rows});
+  for (int c = 0; c < 3; ++c) {
+    cv::Mat1b expected(31, 77);
+    cv::Mat1b own;
+    reduce_area(view_of(channels[static_cast<std::size_t>(c)]), view_of(expected));
+    cv::extractChannel(reduced, own, 2 - c);
+    EXPECT_EQ(cv::norm(own, expected, cv::NORM_INF), 0.0) << c;
+  }
+}
 
 TEST(ReduceArea, KeepsAUniformPicture) {
   for (int value = 0; value < 256; value += 5) {
