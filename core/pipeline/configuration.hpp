@@ -50,8 +50,9 @@ struct PipelineParams {
   std::size_t max_contour_sides = 8192;  // of one dish in one view, twice what a round one of 1600 px has
   std::size_t max_outline_points = max_contour_sides / DishOutlineParams{}.block_sides;
   std::size_t max_height_cells = 180'000;  // of a dish's height map: 360 × 360 mm at 0.85 mm
-  // Of all height maps of a tray: a plate of 260 mm, bowls of 190 and 110 mm and three places beside them.
-  std::size_t max_tray_cells = 260'000;
+  // Of all height maps of a tray: a plate of 260 mm, three dishes of 160 mm and five places of 150 mm beside
+  // them.
+  std::size_t max_tray_cells = 360'000;
 };
 
 // The parameters of every stage, in the order in which they run.

@@ -172,11 +172,9 @@ Status measure_on_surface(const TrayAtWork& tray, const FoodSurface& surface, Ma
 
   tray.clock.enter(Stage::surface);
   if (workspace.surfaces.full()) return StatusCode::too_many_dishes;
-  HeightMapWorkspace maps = workspace.height_map;
-  maps.first =
-      workspace.cells.first(std::min(workspace.cells.size(), configuration.pipeline.max_height_cells));
   HeightMap map;
-  Status status = build_height_map(grids, inner, configuration.height_map, maps, map);
+  Status status =
+      build_height_map(grids, inner, configuration.height_map, workspace.cells, workspace.height_map, map);
   if (!status.ok()) return status;
   workspace.cells = workspace.cells.subspan(static_cast<std::size_t>(map.cells.width) *
                                             static_cast<std::size_t>(map.cells.height));

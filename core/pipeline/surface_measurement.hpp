@@ -23,7 +23,7 @@ struct SurfaceMeasurementWorkspace {
   HeightMapWorkspace height_map;
   LevelLiquidWorkspace liquid;
   HeightVolumeWorkspace volume;
-  std::span<HeightCell> cells;  // of the height maps of all surfaces
+  std::span<HeightCell> cells;  // for the height maps of all surfaces: those that are left
   BoundedList<MeasuredSurface> surfaces;
   BoundedList<ItemResult> items;
 
@@ -36,12 +36,13 @@ struct SurfaceMeasurementWorkspace {
   template <class Allocator>
   constexpr void allocate(Allocator& arena, const Configuration& configuration) {
     const DenseStereoParams& params = configuration.surface;
-    surface.allocate(arena, params);
-    round_body.allocate(arena, params.rectification.max_rows, params.max_columns);
-    height_map.allocate(arena, configuration.pipeline.max_height_cells,
-                        static_cast<std::size_t>(params.max_columns));
-    liquid.allocate(arena);
-    volume.allocate(arena);
+    surface.allocate(arena, params, [&] {
+      round_body.allocate(arena, params.rectification.max_rows, params.max_columns);
+      height_map.allocate(arena, configuration.pipeline.max_height_cells,
+                          static_cast<std::size_t>(params.max_columns));
+      liquid.allocate(arena);
+      volume.allocate(arena);
+    });
   }
 };
 

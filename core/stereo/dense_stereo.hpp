@@ -63,6 +63,11 @@ struct DenseStereoWorkspace {
 
   template <class Allocator>
   constexpr void allocate(Allocator& arena, const DenseStereoParams& params) {
+    allocate(arena, params, [] {});
+  }
+  // `later` takes from the same arena what works on the grids: it lies where the matching has lain.
+  template <class Allocator, class Later>
+  constexpr void allocate(Allocator& arena, const DenseStereoParams& params, const Later& later) {
     const auto samples = static_cast<std::size_t>(params.rectification.max_samples);
     std::size_t pyramid = 0;
     for (int level = 0; level < params.levels; ++level)
@@ -91,6 +96,7 @@ struct DenseStereoWorkspace {
         [&] { refinement.allocate(arena, params.max_columns, params.rectification.max_samples); },
         [&] {  // triangulation
           for (View& view : views) view.points = arena.template take<SurfacePoint>(samples);
+          later();
         });
   }
 };

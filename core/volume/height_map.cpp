@@ -65,12 +65,14 @@ HeightCell fuse(const HeightCell& a, const HeightCell& b, float disagreement_mm)
 }  // namespace
 
 Status build_height_map(std::span<const SurfaceGrid> views, const InnerSurface& dish,
-                        const HeightMapParams& params, HeightMapWorkspace& workspace, HeightMap& map) {
+                        const HeightMapParams& params, std::span<HeightCell> cells,
+                        HeightMapWorkspace& workspace, HeightMap& map) {
   map = {};
-  const Result<HeightMap> laid_out = lay_out(dish, params.cell_mm, workspace.first.size());
+  const Result<HeightMap> laid_out =
+      lay_out(dish, params.cell_mm, std::min(cells.size(), workspace.second.size()));
   if (!laid_out.ok()) return laid_out.status();
   map = *laid_out;
-  map.cells.data = workspace.first.data();
+  map.cells.data = cells.data();
   HeightMap other = map;
   other.cells.data = workspace.second.data();
   double steepest_sight = 0.0;

@@ -88,30 +88,29 @@ struct HeightMapWorkspace {
   };
   static constexpr std::size_t kCornerRows = 3;  // a row and its neighbours
 
-  std::span<HeightCell> first;
-  std::span<HeightCell> second;
-  std::span<Corner> corners;  // of the samples' rows at work
-  std::span<Source> sources;  // in the memory of `second`, which is fused by then
+  std::span<HeightCell> second;  // what the second view sees
+  std::span<Corner> corners;     // of the samples' rows at work
+  std::span<Source> sources;     // in the memory of `second`, which is fused by then
 
   template <class Allocator>
   constexpr void allocate(Allocator& arena, std::size_t max_cells, std::size_t max_grid_width) {
     corners = arena.template take<Corner>(kCornerRows * max_grid_width);
     static_assert(sizeof(Source) <= sizeof(HeightCell));
-    first = arena.template take<HeightCell>(max_cells);
     arena.overlay([&] { sources = arena.template take<Source>(max_cells); },
                   [&] { second = arena.template take<HeightCell>(max_cells); });
   }
 };
 
-// The fused map in `workspace.first`: every cell of the dish's bounding box has the height and label of the
+// The fused map in `cells`: every cell of the dish's bounding box has the height and label of the
 // upper surface there. Where both views see it, their mean by weight; where one, its own. A patch between
 // samples whose line of sight grazes it is no surface, but nothing lies above it (space carving, Kutulakos &
 // Seitz 2000): under it a cell is hidden. A cell hidden from all views continues the item that hides it
 // (occluded_cells.hpp), or else what is seen at the sheet's foot, level. `kind` stays hidden for filled
-// cells. Grids without points count as no view. out_of_memory when the dish has more cells or a grid wider
-// rows than the workspace; too_little_depth when nothing is seen; invalid_configuration for a cell size that
-// is not positive; wrong_call for a dish without a finite place.
+// cells. Grids without points count as no view. out_of_memory when the dish has more cells than `cells` or
+// the workspace, or a grid wider rows; too_little_depth when nothing is seen; invalid_configuration for a
+// cell size that is not positive; wrong_call for a dish without a finite place.
 Status build_height_map(std::span<const SurfaceGrid> views, const InnerSurface& dish,
-                        const HeightMapParams& params, HeightMapWorkspace& workspace, HeightMap& map);
+                        const HeightMapParams& params, std::span<HeightCell> cells,
+                        HeightMapWorkspace& workspace, HeightMap& map);
 
 }  // namespace traygauge

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <span>
+#include <vector>
 
 #include "tests/core/stereo/solid_scene.hpp"
 #include "tests/support/allocated.hpp"
@@ -47,6 +49,7 @@ std::array<test::TrueGrid, 2> views_from_both_sides(const test::SolidScene& scen
 
 TEST(HeightMap, HoldsTheVolumesOfConeCapAndBox) {
   constexpr double kBottomMm = 3.0;
+  std::vector<HeightCell> cells(std::size_t{300 * 300});
   test::Allocated<HeightMapWorkspace> space(std::size_t{300 * 300}, std::size_t{1024});
   test::SolidScene scene;
   scene.dish = round_tile(90.0, kBottomMm);
@@ -57,11 +60,11 @@ TEST(HeightMap, HoldsTheVolumesOfConeCapAndBox) {
     const std::array<test::TrueGrid, 2> grids = views_from_both_sides(scene);
     const std::array<SurfaceGrid, 2> views = {grids[0].view(), grids[1].view()};
     HeightMap map;
-    ASSERT_TRUE(build_height_map(views, scene.dish, {}, *space, map).ok());
+    ASSERT_TRUE(build_height_map(views, scene.dish, {}, cells, *space, map).ok());
     EXPECT_NEAR(item_ml(map, kBottomMm), truth_ml, 0.015 * truth_ml) << solid.name;
     const std::array<SurfaceGrid, 2> swapped = {views[1], views[0]};
     HeightMap turned;
-    ASSERT_TRUE(build_height_map(swapped, scene.dish, {}, *space, turned).ok());
+    ASSERT_TRUE(build_height_map(swapped, scene.dish, {}, cells, *space, turned).ok());
     EXPECT_NEAR(item_ml(turned, kBottomMm), truth_ml, 0.015 * truth_ml) << solid.name;
   };
   expect_ml(test::cone(kMapItem, centre, 40.0, kBottomMm, 30.0),
@@ -88,12 +91,13 @@ test::TrueGrid level_grid(double z_mm, const Vec3& camera_mm) {
 }
 
 float middle_mm(const test::TrueGrid& a, const test::TrueGrid& b, double disagreement_mm) {
+  std::vector<HeightCell> cells(std::size_t{100 * 100});
   test::Allocated<HeightMapWorkspace> space(std::size_t{100 * 100}, std::size_t{64});
   HeightMapParams params;
   params.disagreement_mm = disagreement_mm;
   HeightMap map;
   const std::array<SurfaceGrid, 2> views = {a.view(), b.view()};
-  EXPECT_TRUE(build_height_map(views, round_tile(20.0, 0.0), params, *space, map).ok());
+  EXPECT_TRUE(build_height_map(views, round_tile(20.0, 0.0), params, cells, *space, map).ok());
   return map.cells.at(map.cells.width / 2, map.cells.height / 2).z_mm;
 }
 
@@ -115,11 +119,12 @@ TEST(HeightMap, CoversATurnedOvalWhole) {
   ASSERT_TRUE(oval.profile.set(model).ok());
   const test::TrueGrid grid = level_grid(10.0, Vec3(0.0, 0.0, 400.0));
   const std::array<SurfaceGrid, 1> views = {grid.view()};
+  std::vector<HeightCell> cells(std::size_t{200 * 200});
   test::Allocated<HeightMapWorkspace> space(std::size_t{200 * 200}, std::size_t{64});
   for (const double turn : {0.0, 0.4, 1.2, 2.5}) {
     oval.place = {Vec2(5.0, 7.0), Vec2(std::cos(turn), std::sin(turn))};
     HeightMap map;
-    ASSERT_TRUE(build_height_map(views, oval, {}, *space, map).ok());
+    ASSERT_TRUE(build_height_map(views, oval, {}, cells, *space, map).ok());
     double left = 1e9;
     double right = -1e9;
     double top = 1e9;
@@ -149,10 +154,11 @@ TEST(HeightMap, RefusesWhatItCannotHold) {
   const std::array<SurfaceGrid, 1> views = {grid.view()};
   InnerSurface tile = round_tile(20.0, 0.0);
   HeightMap map;
+  std::vector<HeightCell> cells(std::size_t{40 * 40});
   const auto run = [&](const InnerSurface& dish, HeightMapWorkspace& space, double cell_mm) {
     HeightMapParams params;
     params.cell_mm = cell_mm;
-    return build_height_map(views, dish, params, space, map).code();
+    return build_height_map(views, dish, params, cells, space, map).code();
   };
   test::Allocated<HeightMapWorkspace> space(std::size_t{40 * 40}, std::size_t{60});
   test::Allocated<HeightMapWorkspace> few_cells(std::size_t{40 * 40 - 1}, std::size_t{60});
@@ -160,13 +166,17 @@ TEST(HeightMap, RefusesWhatItCannotHold) {
   EXPECT_EQ(run(tile, *space, 1.0), StatusCode::ok);
   EXPECT_EQ(run(tile, *few_cells, 1.0), StatusCode::out_of_memory);
   EXPECT_EQ(run(tile, *narrow, 1.0), StatusCode::out_of_memory);
+  const auto short_of_one = std::span(cells).first(cells.size() - 1);
+  EXPECT_EQ(build_height_map(views, tile, {.cell_mm = 1.0}, short_of_one, *space, map).code(),
+            StatusCode::out_of_memory);
   constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
   for (const double cell_mm : {0.0, -1.0, kNan})
     EXPECT_EQ(run(tile, *space, cell_mm), StatusCode::invalid_configuration) << cell_mm;
   EXPECT_EQ(run(tile, *space, 1e-6), StatusCode::out_of_memory);
-  EXPECT_EQ(build_height_map({}, tile, {.cell_mm = 1.0}, *space, map).code(), StatusCode::too_little_depth);
+  EXPECT_EQ(build_height_map({}, tile, {.cell_mm = 1.0}, cells, *space, map).code(),
+            StatusCode::too_little_depth);
   const std::array<SurfaceGrid, 2> empty{};
-  EXPECT_EQ(build_height_map(empty, tile, {.cell_mm = 1.0}, *space, map).code(),
+  EXPECT_EQ(build_height_map(empty, tile, {.cell_mm = 1.0}, cells, *space, map).code(),
             StatusCode::too_little_depth);
   tile.place.centre_mm.x() = kNan;
   EXPECT_EQ(run(tile, *space, 1.0), StatusCode::wrong_call);

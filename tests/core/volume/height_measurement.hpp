@@ -15,6 +15,7 @@ struct HeightMeasurement {
   static constexpr std::size_t kMaxCells = 400 * 400;
   static constexpr std::size_t kMaxGridWidth = 1024;
 
+  std::vector<HeightCell> cells = std::vector<HeightCell>(kMaxCells);
   Allocated<HeightMapWorkspace> map_space{kMaxCells, kMaxGridWidth};
   Allocated<HeightVolumeWorkspace> volume_space;
   Allocated<LevelLiquidWorkspace> liquid_space;
@@ -27,7 +28,7 @@ struct HeightMeasurement {
 
   Status run(std::span<const SurfaceGrid> views, const InnerSurface& dish,
              const HeightMapParams& params = {.hidden_steepness = 1.0}) {
-    const Status built = build_height_map(views, dish, params, *map_space, map);
+    const Status built = build_height_map(views, dish, params, cells, *map_space, map);
     if (!built.ok()) return built;
     liquid = level_liquid(views, dish, {}, *liquid_space, map);
     const Status integrated = integrate_height_map(map, dish, {}, *volume_space);
