@@ -50,7 +50,8 @@ CheckValues read_check_values(std::string_view document) {
   const Json json = Json::parse(document, nullptr, false);
   if (!json.is_object()) return values;
   if (const auto checks = json.find("checks"); checks != json.end() && checks->is_array()) {
-    for (const auto check : {WatchedCheck::scale_percent, WatchedCheck::dish_height_mm})
+    for (const auto check :
+         {WatchedCheck::scale_percent, WatchedCheck::dish_height_mm, WatchedCheck::glaze_height_mm})
       values[static_cast<std::size_t>(check)] = median_of_check(*checks, check);
   }
   if (const auto blurs = json.find("blur_px"); blurs != json.end() && blurs->is_array())

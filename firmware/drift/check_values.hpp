@@ -10,12 +10,13 @@
 namespace traygauge {
 
 enum class WatchedCheck : std::uint8_t {
-  scale_percent,   // by how much the card makes everything too large
-  dish_height_mm,  // how far the edges of dishes lie over where card and description put them
-  blur_px,         // how blurred the pictures are
+  scale_percent,    // by how much the card makes everything too large
+  dish_height_mm,   // how far the edges of dishes lie over where card and description put them
+  glaze_height_mm,  // how far bare glaze inside of dishes lies over where their descriptions put it
+  blur_px,          // how blurred the pictures are
 };
 inline constexpr auto kWatchedCheckNames =
-    std::to_array<const char*>({"scale_percent", "dish_height_mm", "blur_px"});
+    std::to_array<const char*>({"scale_percent", "dish_height_mm", "glaze_height_mm", "blur_px"});
 inline constexpr std::size_t kWatchedChecks = kWatchedCheckNames.size();
 inline const char* name(WatchedCheck check) {
   return kWatchedCheckNames[static_cast<std::size_t>(check)];

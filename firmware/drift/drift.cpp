@@ -25,6 +25,8 @@ bool is_drift(WatchedCheck check, const MedianEstimate& last, const std::optiona
       return is_beyond(last, params.max_scale_percent, params);
     case WatchedCheck::dish_height_mm:
       return is_beyond(last, params.max_dish_height_mm, params);
+    case WatchedCheck::glaze_height_mm:
+      return is_beyond(last, params.max_glaze_height_mm, params);
     case WatchedCheck::blur_px:
       break;
   }
@@ -37,10 +39,21 @@ std::string scale_sentence(const MedianEstimate& last) {
          " %). Measure the card with a caliper, and look whether it is worn or another lies there.";
 }
 
+// "0.31 mm above where the card puts them (± 0.04 mm)"
+std::string height_against(const MedianEstimate& last, const char* ruler) {
+  return fixed(std::abs(last.value), 2) + " mm " + (last.value > 0.0 ? "above" : "below") + " where " +
+         ruler + " (± " + fixed(last.sigma, 2) + " mm)";
+}
+
 std::string height_sentence(const MedianEstimate& last) {
-  return "the edges of the dishes came out " + fixed(std::abs(last.value), 2) + " mm " +
-         (last.value > 0.0 ? "above" : "below") + " where the card puts them (± " + fixed(last.sigma, 2) +
-         " mm). Look whether the card lies flat on what the dishes stand on, and measure its thickness.";
+  return "the edges of the dishes came out " + height_against(last, "the card puts them") +
+         ". Look whether the card lies flat on what the dishes stand on, and measure its thickness.";
+}
+
+std::string glaze_sentence(const MedianEstimate& last) {
+  return "bare glaze inside of the dishes came out " + height_against(last, "their descriptions put it") +
+         ". Look whether they are the dishes that are described, and learn those in use anew with "
+         "traygauge enrol-dish.";
 }
 
 std::string blur_sentence(const MedianEstimate& last, const MedianEstimate& first) {
@@ -64,6 +77,8 @@ std::string drift_sentence(const CheckTrend& trend) {
       return begin + scale_sentence(trend.last);
     case WatchedCheck::dish_height_mm:
       return begin + height_sentence(trend.last);
+    case WatchedCheck::glaze_height_mm:
+      return begin + glaze_sentence(trend.last);
     case WatchedCheck::blur_px:
       break;
   }

@@ -3,7 +3,7 @@ import { element } from './elements.js';
 import { format_number } from './numbers.js';
 import { word, word_of } from './words.js';
 
-const kChecks = [['scale_percent', '%'], ['dish_height_mm', 'mm'], ['blur_px', 'px']];
+const kChecks = [['scale_percent', '%'], ['dish_height_mm', 'mm'], ['glaze_height_mm', 'mm'], ['blur_px', 'px']];
 
 // Null before the first tray that has one of them.
 export function drift_figures(figures, station) {

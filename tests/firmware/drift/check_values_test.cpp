@@ -24,6 +24,14 @@ TEST(CheckValues, AreReadFromAStationsDocument) {
   EXPECT_EQ(values[kBlur], 1.0);
 }
 
+TEST(CheckValues, OfGlazeAreOfDishesWhoseGlazeTellsItsHeight) {
+  constexpr auto kGlaze = static_cast<std::size_t>(WatchedCheck::glaze_height_mm);
+  EXPECT_EQ(read_check_values(R"({"checks":[{"name":"glaze_height_mm","label":1,"value":1.5},
+                                            {"name":"glaze_height_mm","label":201,"value":0.5}]})")[kGlaze],
+            1.0);
+  EXPECT_EQ(read_check_values(R"({"checks":[{"name":"dish_height_mm","value":0.1}]})")[kGlaze], std::nullopt);
+}
+
 TEST(CheckValues, AnEarlierProgramsDocumentHasNone) {
   SampleScan scan;
   scan.has_checks = false;

@@ -24,6 +24,7 @@ TEST(Drift, TheParametersAreThoseThatWereAgreed) {
   EXPECT_EQ(kParams.min_values, 20U);
   EXPECT_EQ(kParams.max_scale_percent, 0.3);
   EXPECT_EQ(kParams.max_dish_height_mm, 0.2);
+  EXPECT_EQ(kParams.max_glaze_height_mm, 0.4);
   EXPECT_EQ(kParams.max_blur_ratio, 1.3);
   EXPECT_EQ(kParams.sigmas, 3.0);
 }
@@ -34,6 +35,8 @@ TEST(Drift, OfScaleAndHeightBeginsBeyondTheLimit) {
     EXPECT_TRUE(drifts(WatchedCheck::scale_percent, {sign * above(0.3), 0.01, 50}));
     EXPECT_FALSE(drifts(WatchedCheck::dish_height_mm, {sign * 0.2, 0.01, 50}));
     EXPECT_TRUE(drifts(WatchedCheck::dish_height_mm, {sign * above(0.2), 0.01, 50}));
+    EXPECT_FALSE(drifts(WatchedCheck::glaze_height_mm, {sign * 0.4, 0.01, 50}));
+    EXPECT_TRUE(drifts(WatchedCheck::glaze_height_mm, {sign * above(0.4), 0.01, 50}));
   }
 }
 
@@ -43,6 +46,8 @@ TEST(Drift, BeginsBeyondThreeStandardErrors) {
     EXPECT_TRUE(drifts(WatchedCheck::scale_percent, {sign * above(0.75), 0.25, 50}));
     EXPECT_FALSE(drifts(WatchedCheck::dish_height_mm, {sign * 0.75, 0.25, 50}));
     EXPECT_TRUE(drifts(WatchedCheck::dish_height_mm, {sign * above(0.75), 0.25, 50}));
+    EXPECT_FALSE(drifts(WatchedCheck::glaze_height_mm, {sign * 0.75, 0.25, 50}));
+    EXPECT_TRUE(drifts(WatchedCheck::glaze_height_mm, {sign * above(0.75), 0.25, 50}));
   }
   EXPECT_TRUE(drifts(WatchedCheck::scale_percent, {0.5, 0.0, 50}));
 }
@@ -52,11 +57,13 @@ TEST(Drift, NeedsTwentyValues) {
   for (const std::size_t count : {std::size_t{0}, std::size_t{19}}) {
     EXPECT_FALSE(drifts(WatchedCheck::scale_percent, {0.5, 0.01, count}));
     EXPECT_FALSE(drifts(WatchedCheck::dish_height_mm, {0.5, 0.01, count}));
+    EXPECT_FALSE(drifts(WatchedCheck::glaze_height_mm, {0.5, 0.01, count}));
     EXPECT_FALSE(drifts(WatchedCheck::blur_px, {2.0, 0.01, count}, sharp));
     EXPECT_FALSE(drifts(WatchedCheck::blur_px, {2.0, 0.01, 50}, MedianEstimate{0.8, 0.01, count}));
   }
   EXPECT_TRUE(drifts(WatchedCheck::scale_percent, {0.5, 0.01, 20}));
   EXPECT_TRUE(drifts(WatchedCheck::dish_height_mm, {0.5, 0.01, 20}));
+  EXPECT_TRUE(drifts(WatchedCheck::glaze_height_mm, {0.5, 0.01, 20}));
   EXPECT_TRUE(drifts(WatchedCheck::blur_px, {2.0, 0.01, 20}, sharp));
 }
 
@@ -88,6 +95,10 @@ TEST(Drift, SaysWhatWasFoundAndWhatToDo) {
             std::string::npos);
   EXPECT_NE(sentence(WatchedCheck::dish_height_mm, {-0.31, 0.04, 50}).find("0.31 mm below"),
             std::string::npos);
+  EXPECT_EQ(sentence(WatchedCheck::glaze_height_mm, {1.02, 0.2, 23}),
+            "In the last 23 trays bare glaze inside of the dishes came out 1.02 mm above where their "
+            "descriptions put it (± 0.20 mm). Look whether they are the dishes that are described, and learn "
+            "those in use anew with traygauge enrol-dish.");
   EXPECT_NE(
       sentence(WatchedCheck::blur_px, {1.2, 0.02, 50}, MedianEstimate{0.8, 0.01, 50})
           .find(

@@ -52,6 +52,7 @@ OrderedJson sample_checks(const SampleScan& scan) {
     checks.push_back(sample_check("scale_percent", 1, *scan.scale_percent, 1.0));
     checks.push_back(sample_check("dish_height_mm", 1, scan.dish_height_mm, 1.0));
   }
+  if (scan.glaze_height_mm) checks.push_back(sample_check("glaze_height_mm", 1, *scan.glaze_height_mm, 1.0));
   for (std::size_t i = 0; i < scan.foods.size(); ++i) {
     checks.push_back(sample_check("item_slip_mm", i + 2, 0.0812345678901234, 0.25));
     checks.push_back(sample_check("item_foot_mm", i + 2, 1.2312345678901234, 0.75));

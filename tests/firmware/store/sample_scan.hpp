@@ -25,6 +25,7 @@ struct SampleScan {
   bool has_checks = true;  // false: an earlier program measured it, which told neither checks nor blur
   std::optional<double> scale_percent = 0.1234567890123456;  // none: no dish was checked
   double dish_height_mm = 0.0456789012345678;
+  std::optional<double> glaze_height_mm;  // none: the glaze shows nothing, as most does
   std::array<std::optional<double>, 2> blur_px = {0.8712345678901234, 0.9112345678901234};
 };
 
