@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <vector>
 
@@ -15,7 +16,7 @@
 namespace traygauge {
 namespace {
 
-constexpr std::size_t kBudgetBytes = std::size_t{32} << 20U;  // at 1600 × 1200, the default
+constexpr std::size_t kBudgetBytes = std::size_t{28} << 20U;  // at 1600 × 1200, the default
 constexpr std::byte kGuard{0x5C};
 constexpr double kDoubtedScale = 1.02;  // between what is warned of and what is refused
 
@@ -278,6 +279,16 @@ TEST(TrayEstimatorMemory, ABlockThatIsTooSmallIsOutOfMemory) {
     estimator.reset();
     EXPECT_EQ(estimator.used_bytes(), 0U);
   }
+}
+
+TEST(TrayEstimatorMemory, HoldsTheHeightMapsOfAFullTray) {
+  const Configuration configuration;
+  const auto cells_of = [&](double side_mm) {
+    const auto side = static_cast<std::size_t>(std::ceil(side_mm / configuration.height_map.cell_mm));
+    return side * side;
+  };
+  EXPECT_LE(cells_of(260.0) + 3 * cells_of(160.0) + kMaxTrayPlaces * cells_of(150.0),
+            configuration.pipeline.max_tray_cells);
 }
 
 // Wrong numbers that a person gives.
