@@ -8,7 +8,7 @@
 namespace traygauge {
 namespace {
 
-constexpr std::size_t kColours = 3;
+constexpr std::size_t kColours = bytes_per_pixel(PixelFormat::rgb8);
 
 // A target edge lies at edge · source / target of the source: whole pixels, and a rest in 1 / target pixels.
 // Everything stays an integer, so that the average is exact.

@@ -30,7 +30,7 @@ struct DriftParams {
   double max_scale_percent = 0.3;
   // Over a dish 25 mm deep, 0.8 % of a volume.
   double max_dish_height_mm = 0.2;
-  // Twice as much, because the description of an inner surface is a fit.
+  // Twice that of an edge: an inner surface is described by a curve that was fitted to it.
   double max_glaze_height_mm = 0.4;
   // Of the blur at first. Good pictures have 0.80 to 0.96 px, so that other trays alone make no such ratio;
   // from 1.17 px it is a third to the 1.5 px from which volumes suffer.

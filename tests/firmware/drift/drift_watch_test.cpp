@@ -33,6 +33,7 @@ class Watched : public testing::Test {
     SampleScan scan;
     scan.id.number = number;
     scan.scale_percent = scale_percent;
+    scan.glaze_height_mm = 0.1;
     return scan;
   }
   void put(const SampleScan& scan) {
@@ -124,7 +125,7 @@ TEST_F(Watched, TheLastFiftyCount) {
   ASSERT_EQ(stations.size(), 1U);
   EXPECT_EQ(stations[0].station, "kitchen");
   EXPECT_EQ(stations[0].last_received_ms, kMorningMs + 60);
-  ASSERT_EQ(stations[0].trends.size(), 3U) << "no glaze told its height";
+  ASSERT_EQ(stations[0].trends.size(), kWatchedChecks);
   EXPECT_EQ(stations[0].trends[0].last.count, 50U);
   EXPECT_EQ(stations[0].trends[0].last.value, 0.5);
   EXPECT_EQ(stations[0].trends[0].last.sigma, 0.0) << "none of the first ten is left";
