@@ -79,6 +79,8 @@ void examine_state(const std::string& station, const Json& state, std::vector<He
     parts.push_back({"disk of " + station, HealthState::failing, state["disk"].get<std::string>()});
   if (const std::string problem = json_text(state, "configuration"); !problem.empty())
     parts.push_back({"configuration of " + station, HealthState::warning, problem});
+  if (const std::string dirt = json_text(state, "lens"); !dirt.empty())
+    parts.push_back({"lens of " + station, HealthState::warning, dirt});
   examine_board(station, state, parts);
   examine_queue(station, state, parts);
 }

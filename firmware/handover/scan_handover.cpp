@@ -40,7 +40,10 @@ Delivery ScanHandover::deliver(const ScanResult& result) {
   }
   ScanIdentity identity{*id, pressed_at_, std::nullopt, board_};
   if (result.repeats_last) identity.supersedes = last_id_;
-  if (result.measurement != nullptr) last_id_ = *id;
+  if (result.measurement != nullptr) {
+    last_id_ = *id;
+    lens_problem_ = result.lens_spot ? lens_sentence(*result.lens_spot) : std::string();
+  }
   const std::string document = scan_json(result, &identity);
   const std::string text = scan_id_text(*id);
   shape_ = result.measurement != nullptr ? compose_shape(*result.measurement, text) : std::string();
@@ -194,6 +197,7 @@ void ScanHandover::tell_state() {
       {"queue_stands_s", queue_stands_s()},
       {"disk", disk_problem_.empty() ? Json() : Json(disk_problem_)},
       {"devices", params_.facts.devices},
+      {"lens", lens_problem_.empty() ? Json() : Json(lens_problem_)},
       {"faults", faults},
       {"temperature_c", value_or_null<Json>(board_.temperature_c)},
       {"under_voltage", value_or_null<Json>(board_.under_voltage)},

@@ -85,6 +85,7 @@ class ScanHandover final : public ResultSink {
     std::string message;  // for people
   };
   std::map<std::string, Fault, std::less<>> faults_;  // by device
+  std::string lens_problem_;                          // dirt that the last trays showed; may be empty
   std::string hub_problem_;                           // empty while the hub takes what it is given
   std::string disk_problem_;                          // empty while results can be kept
   bool is_full_ = false;                              // which is what disk_problem_ tells

@@ -9,8 +9,8 @@ const kMarks = { ok: 'good', warning: 'warning', failing: 'fault' };
 // The hub's own parts have the names of a station's parts, but no station.
 const kHubParts = { disk: 'hub_disk', configuration: 'hub_configuration' };
 
-// The hub's names: "disk", "clock", "station NAME", "disk of NAME", "queue of NAME", "drift of NAME", "DEVICE of NAME",
-// where a device is such as "camera /dev/video0".
+// The hub's names: "disk", "clock", "station NAME", "disk of NAME", "queue of NAME", "drift of NAME", "lens of NAME",
+// "DEVICE of NAME", where a device is such as "camera /dev/video0".
 function split_name(name) {
   if (name.startsWith('station ')) return { kind: 'station', station: name.slice('station '.length) };
   const at = name.lastIndexOf(' of ');
@@ -31,8 +31,8 @@ function sentence_of(part) {
   if (part.status === 'ok') return word('health.ok');
   const ours = word_of('health_bad', kind);
   if (ours === null || language === 'en') return part.message ? hub_text(part.message) : word('health.bad');
-  // What drifts, and by how much, stands in the hub's sentence alone.
-  return kind === 'drift' && part.message ? [ours, ' ', hub_text(`(${part.message})`)] : ours;
+  // What drifts, by how much, and where the dirt is stands in the hub's sentence alone.
+  return (kind === 'drift' || kind === 'lens') && part.message ? [ours, ' ', hub_text(`(${part.message})`)] : ours;
 }
 
 function line(part) {

@@ -21,6 +21,7 @@ class BackgroundMeasurer final : public Measurer {
   const Measurement* await_measurement(Nanoseconds timeout) override;
   bool can_guide() const override { return measurer_.can_guide(); }
   std::optional<double> turned_deg(const FrameView& live) override { return measurer_.turned_deg(live); }
+  std::optional<LensSpot> lens_spot() const override { return measurer_.lens_spot(); }
   std::string_view tray_name() const override { return measurer_.tray_name(); }
 
  private:

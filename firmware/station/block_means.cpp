@@ -7,32 +7,32 @@
 namespace traygauge {
 namespace {
 
-constexpr int blocks_along(int pixels) {
-  return (pixels + BlockMeans::kBlockPx - 1) / BlockMeans::kBlockPx;
+constexpr int blocks_along(int pixels, int block_px) {
+  return (pixels + block_px - 1) / block_px;
 }
 
 }  // namespace
 
 void BlockMeans::reserve(int width, int height) {
-  means_.reserve(static_cast<std::size_t>(blocks_along(width)) *
-                 static_cast<std::size_t>(blocks_along(height)));
-  sums_.reserve(static_cast<std::size_t>(blocks_along(width)));
+  means_.reserve(static_cast<std::size_t>(blocks_along(width, block_px_)) *
+                 static_cast<std::size_t>(blocks_along(height, block_px_)));
+  sums_.reserve(static_cast<std::size_t>(blocks_along(width, block_px_)));
 }
 
 void BlockMeans::compute(const FrameView& frame) {
   width_ = frame.width;
   height_ = frame.height;
-  columns_ = blocks_along(width_);
-  rows_ = blocks_along(height_);
+  columns_ = blocks_along(width_, block_px_);
+  rows_ = blocks_along(height_, block_px_);
   means_.clear();
   const int pixel_bytes = bytes_per_pixel(frame.format);
-  for (int top = 0; top < height_; top += kBlockPx) {
+  for (int top = 0; top < height_; top += block_px_) {
     sums_.assign(static_cast<std::size_t>(columns_), 0);
-    const int bottom = std::min(top + kBlockPx, height_);
+    const int bottom = std::min(top + block_px_, height_);
     for (int y = top; y < bottom; ++y) {
       const std::uint8_t* pixel = frame.data + y * frame.stride_bytes;
       for (int column = 0; column < columns_; ++column) {
-        const int bytes = pixel_bytes * std::min(kBlockPx, width_ - column * kBlockPx);
+        const int bytes = pixel_bytes * std::min(block_px_, width_ - column * block_px_);
         std::uint32_t sum = 0;
         for (int i = 0; i < bytes; ++i) sum += pixel[i];
         sums_[static_cast<std::size_t>(column)] += sum;
@@ -40,7 +40,7 @@ void BlockMeans::compute(const FrameView& frame) {
       }
     }
     for (int column = 0; column < columns_; ++column) {
-      const int pixels = std::min(kBlockPx, width_ - column * kBlockPx) * (bottom - top);
+      const int pixels = std::min(block_px_, width_ - column * block_px_) * (bottom - top);
       means_.push_back(static_cast<std::uint8_t>(sums_[static_cast<std::size_t>(column)] /
                                                  static_cast<std::uint32_t>(pixels * pixel_bytes)));
     }

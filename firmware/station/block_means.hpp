@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "core/image_view/image_view.hpp"
@@ -17,17 +18,19 @@ struct SteadinessParams {
 
 class BlockMeans {
  public:
-  static constexpr int kBlockPx = 16;
-
   // Takes the memory for pictures of this size at most.
   void reserve(int width, int height);
+  // Blocks are so wide and high from the next picture on.
+  void set_block_px(int block_px) { block_px_ = block_px; }
   void compute(const FrameView& frame);
   void clear() { columns_ = rows_ = 0; }
   bool empty() const { return columns_ == 0; }
+  std::span<const std::uint8_t> means() const { return means_; }  // row by row
   // Same size, same scene.
   bool agrees_with(const BlockMeans& other, const SteadinessParams& params) const;
 
  private:
+  int block_px_ = 16;
   std::vector<std::uint8_t> means_;
   std::vector<std::uint32_t> sums_;  // of one row of blocks
   int width_ = 0;

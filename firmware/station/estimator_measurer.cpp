@@ -33,6 +33,7 @@ void EstimatorMeasurer::begin_scan(const TrayHint& hint) {
   status_ = estimator_ ? expect(*configuration, hint) : Status(StatusCode::wrong_call);
   configured_with_ = configuration;
   first_view_.reset();
+  view_count_ = 0;
 }
 
 Status EstimatorMeasurer::expect(const Configuration& configuration, const TrayHint& hint) {
@@ -44,6 +45,7 @@ Status EstimatorMeasurer::add_view(const StationView& view) {
   if (!status_.ok()) return status_;
   const ViewInput input = scene_.describe(view);
   if (!first_view_) first_view_ = input;
+  if (view_count_ < views_.size()) views_[view_count_++] = view;
   return estimator_->add_view(input);
 }
 
@@ -59,9 +61,19 @@ std::optional<double> EstimatorMeasurer::turned_deg(const FrameView& live) {
 }
 
 const Measurement& EstimatorMeasurer::measure() {
-  if (status_.ok()) return estimator_->estimate(seed_);
-  unmeasured_.status = status_;
-  return unmeasured_;
+  if (!status_.ok()) {
+    unmeasured_.status = status_;
+    return unmeasured_;
+  }
+  const Measurement& measurement = estimator_->estimate(seed_);
+  if (is_measured(measurement)) watch_lens();
+  return measurement;
+}
+
+// Two cameras have a lens each: what is at the same place of both pictures is on neither.
+void EstimatorMeasurer::watch_lens() {
+  if (view_count_ < 2 || views_[1].is_of_second_camera) return;
+  lens_watch_.add({{{views_[0].frame, estimator_->labels(0)}, {views_[1].frame, estimator_->labels(1)}}});
 }
 
 }  // namespace traygauge

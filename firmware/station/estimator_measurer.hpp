@@ -1,6 +1,7 @@
 // The measurement that the station runs: core's estimator, fed with what is known of the tray.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -45,9 +46,11 @@ class EstimatorMeasurer final : public Measurer {
   const Measurement& measure() override;
   bool can_guide() const override { return true; }
   std::optional<double> turned_deg(const FrameView& live) override;
+  std::optional<LensSpot> lens_spot() const override { return lens_watch_.spot(); }
   std::string_view tray_name() const override { return scene_.tray_name(); }
 
  private:
+  void watch_lens();
   Status expect(const Configuration& configuration, const TrayHint& hint);
 
   Scene& scene_;
@@ -59,6 +62,9 @@ class EstimatorMeasurer final : public Measurer {
   Status status_ = StatusCode::wrong_call;  // whether it can measure this tray
   Measurement unmeasured_;                  // where it cannot
   CardGuide guide_;
+  std::array<StationView, 2> views_;  // of this scan
+  std::size_t view_count_ = 0;
+  LensWatch lens_watch_;
   std::optional<ViewInput> first_view_;  // until guide_ knows it
 };
 

@@ -8,6 +8,7 @@
 #include "core/base/status.hpp"
 #include "core/image_view/image_view.hpp"
 #include "drivers/clock.hpp"
+#include "firmware/station/lens_watch.hpp"
 #include "firmware/station/tray_hint.hpp"
 
 namespace traygauge {
@@ -19,6 +20,7 @@ struct StationView {
   FrameView frame;
   std::uint64_t sequence = 0;           // the camera's number of the frame
   std::optional<double> arm_angle_deg;  // where the arm stood, 0 at home; none without an arm
+  bool is_of_second_camera = false;
 };
 
 // begin_scan, add_view up to twice, measure. Called by one thread.
@@ -45,6 +47,8 @@ class Measurer {
   // After the first view: by how many degrees the line of sight to the tray has turned since, in a picture
   // taken on the way; none where that is not seen. The picture is not kept.
   virtual std::optional<double> turned_deg(const FrameView& /*live*/) { return std::nullopt; }
+  // What the last trays showed on the lens, the one just measured among them.
+  virtual std::optional<LensSpot> lens_spot() const { return std::nullopt; }
   // What is known to lie there, for people; empty when nothing is.
   virtual std::string_view tray_name() const = 0;
 };

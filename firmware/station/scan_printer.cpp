@@ -52,7 +52,19 @@ void add_identity(const ScanIdentity& identity, Json& json) {
                    {"under_voltage", value_or_null(board.under_voltage)}};
 }
 
-void add_measurement(const Measurement& measurement, Json& json) {
+std::vector<ReportedWarning> warnings_of(const ScanResult& result) {
+  std::vector<ReportedWarning> warnings = list_warnings(*result.measurement, {});
+  if (result.lens_spot) warnings.push_back({"lens_spot", lens_sentence(*result.lens_spot)});
+  return warnings;
+}
+
+Json lens_document(const std::optional<LensSpot>& spot) {
+  if (!spot) return nullptr;
+  return {{"x_px", spot->x_px}, {"y_px", spot->y_px}, {"width_px", spot->width_px}};
+}
+
+void add_measurement(const ScanResult& result, Json& json) {
+  const Measurement& measurement = *result.measurement;
   for (const ItemResult& item : measurement.items) json["items"].push_back(item_document(item));
   if (measurement.has_pose) json["relative_angle_deg"] = measurement.relative_angle_deg;
   Json timing = Json::object();
@@ -64,10 +76,21 @@ void add_measurement(const Measurement& measurement, Json& json) {
   json["timing_ms"] = timing;
   json["checks"] = check_documents(measurement.checks);
   json["blur_px"] = blur_document(measurement.report.pictures);
-  json["warnings"] = warning_documents(list_warnings(measurement, {}));
+  json["lens_spot"] = lens_document(result.lens_spot);
+  json["warnings"] = warning_documents(warnings_of(result));
 }
 
 }  // namespace
+
+std::string lens_sentence(const LensSpot& spot) {
+  std::array<char, 200> text{};
+  std::snprintf(
+      text.data(), text.size(),
+      "On all of the last trays both pictures were dark at x = %.0f, y = %.0f, some %.0f pixels wide, "
+      "as behind dirt on the lens; clean it, and the window before it.",
+      spot.x_px, spot.y_px, spot.width_px);
+  return text.data();
+}
 
 std::string failure_text(const DeviceFailure& failure) {
   std::string text = std::string(failure.device) + ": " + sentence(failure.status.code());
@@ -95,7 +118,7 @@ std::string scan_text(const ScanResult& result) {
     text += measured ? ". " + message(result) : message(result);
   }
   if (result.measurement != nullptr) {
-    for (const ReportedWarning& warning : list_warnings(*result.measurement, {})) {
+    for (const ReportedWarning& warning : warnings_of(result)) {
       text += (text.back() == '.' ? " Warning: " : ". Warning: ") + describe(warning);
     }
   }
@@ -115,8 +138,9 @@ std::string scan_json(const ScanResult& result, const ScanIdentity* identity) {
                {"timing_ms", nullptr},
                {"checks", Json::array()},
                {"blur_px", {nullptr, nullptr}},
+               {"lens_spot", nullptr},
                {"warnings", Json::array()}});
-  if (result.measurement != nullptr) add_measurement(*result.measurement, json);
+  if (result.measurement != nullptr) add_measurement(result, json);
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 

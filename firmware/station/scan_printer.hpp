@@ -17,6 +17,9 @@ std::string scan_json(const ScanResult& result, const ScanIdentity* identity = n
 // "button: The device reported an error. (detail)"
 std::string failure_text(const DeviceFailure& failure);
 
+// Where the dirt is and what to do, for people.
+std::string lens_sentence(const LensSpot& spot);
+
 // Results go to `out`, what is wrong with devices to `log`; neither is buffered.
 class ScanPrinter final : public ResultSink {
  public:

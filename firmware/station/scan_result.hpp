@@ -11,6 +11,7 @@
 #include "firmware/base/board_state.hpp"
 #include "firmware/base/scan_id.hpp"
 #include "firmware/base/wall_clock.hpp"
+#include "firmware/station/lens_watch.hpp"
 #include "firmware/station/tray_hint.hpp"
 
 namespace traygauge {
@@ -37,6 +38,7 @@ struct ScanResult {
   ScanOutcome outcome = ScanOutcome::measured;
   const Measurement* measurement = nullptr;  // set when measured or not_measurable
   FrameView picture;                         // the first view, with a measurement; valid during the call
+  std::optional<LensSpot> lens_spot;         // dirt that the last trays showed
   DeviceFailure failure;                     // set when device_failed
   bool was_held = false;                     // the button, which cancelled the scan
   bool repeats_last = false;                 // pressed again soon after the last result, for the same tray

@@ -187,7 +187,8 @@ StationState Station::take_second_view() {
   if (!status.ok()) return fail_scan(second_camera(), status);
   second_means_ = means_[1];
   // What goes wrong in the measurement, measure() says too.
-  static_cast<void>(measurer_.add_view({second_.frame.view, second_.frame.sequence, angle_deg}));
+  static_cast<void>(measurer_.add_view(
+      {second_.frame.view, second_.frame.sequence, angle_deg, devices_.second_camera != nullptr}));
   return StationState::measuring;
 }
 
@@ -206,6 +207,7 @@ StationState Station::measure() {
   result.outcome = measured ? ScanOutcome::measured : ScanOutcome::not_measurable;
   result.measurement = &measurement;
   result.picture = first_.frame.view;
+  result.lens_spot = measurer_.lens_spot();
   if (stood_elsewhere) {
     result.outcome = ScanOutcome::device_failed;
     result.measurement = nullptr;

@@ -31,11 +31,14 @@ class HealthTest(PageCase):
     def test_devices_power_and_calibration_are_told_in_both_languages(self):
         fault = {"device": "arm /dev/ttyUSB0", "status": "stalled", "message": "The arm did not arrive."}
         state = {"devices": ["camera usb-1", "arm /dev/ttyUSB0", "button 17", "lamp"], "temperature_c": 82.4,
-                 "under_voltage": True, "calibration": {"grade_percent": 0.31, "calibrated_on": "2026-01-31"}}
+                 "under_voltage": True, "lens": "Dark at x = 812.",
+                 "calibration": {"grade_percent": 0.31, "calibrated_on": "2026-01-31"}}
         told = {"en": ("Camera works", "Arm does not work", "Arm of station kitchen", "Power of station kitchen",
+                       "Lens of station kitchen", "Dark at x = 812.",
                        "stronger power supply", "82.4 °C", "0.31 %", "Jan 31, 2026"),
                 "de": ("Kamera in Ordnung", "Arm funktioniert nicht", "Arm /dev/ttyUSB0: ", "Arm der Station kitchen",
-                       "Strom der Station kitchen", "stärkeres Netzteil", "82,4 °C", "0,31 %", "31.01.2026")}
+                       "Strom der Station kitchen",
+                       "Objektiv der Station kitchen", "Auf dem Objektiv ist Schmutz", "Dark at x = 812.", "stärkeres Netzteil", "82,4 °C", "0,31 %", "31.01.2026")}
         for language, texts in told.items():
             self.station.tell_state(**state)
             self.show("#devices", language)

@@ -236,6 +236,10 @@ TEST(Api, HealthTellsOfABoardThatIsHotOrHasTooLittlePower) {
   EXPECT_NE(ill.find("take a stronger power supply"), std::string::npos) << ill;
   EXPECT_NE(ill.find(R"("temperature of kitchen","status":"warning")"), std::string::npos) << ill;
   EXPECT_NE(ill.find("The board has 82 °C"), std::string::npos) << ill;
+  const std::string dirty = parts_with(R"({"lens":"Both pictures were dark there."})");
+  EXPECT_NE(dirty.find(R"("message":"Both pictures were dark there.","name":"lens of kitchen")"),
+            std::string::npos)
+      << dirty;
 }
 
 // What a station says of itself is passed on; parts that make no sense say nothing.
@@ -245,7 +249,7 @@ TEST(Api, HealthStandsAStrangeStation) {
        {R"({"faults":[{"device":5,"message":[]}]})", R"({"faults":[7]})", R"({"faults":7,"disk":7})",
         R"({"waiting_results":-1})", R"({"waiting_results":"many"})",
         R"({"waiting_results":2,"queue_stands_s":"long"})", R"({"under_voltage":7,"temperature_c":"hot"})",
-        "{}"}) {
+        R"({"lens":[7]})", "{}"}) {
     rig.station().tell({MessageType::state, state, {}});
     rig.store(1, 100.0);
     EXPECT_NE(rig.get("/health").status, 500) << state;

@@ -338,6 +338,24 @@ TEST_F(Handover, TellsTheHubOfDevicesBoardAndCalibration) {
   EXPECT_EQ(state["temperature_c"], 51.234);
   EXPECT_TRUE(state["under_voltage"].is_null());
   EXPECT_EQ(state["calibration"], (Json{{"grade_percent", 0.31}, {"calibrated_on", "2025-01-31"}}));
+  EXPECT_TRUE(state["lens"].is_null());
+}
+
+TEST_F(Handover, TellsDirtOnTheLensUntilAScanShowsNone) {
+  const FakeHub hub(socket(), store_all);
+  Run run(folder_.path(), out_, log_);
+  run.params.heartbeat = Milliseconds(0);
+  ScanHandover sink(run.printer, run.link, run.kept, log_, run.params);
+  const auto told = [&] {
+    sink.deliver(result_);
+    sink.attend();
+    sink.deliver(result_);  // its answer comes after the state was read
+    return Json::parse(hub.received(MessageType::state).back().text)["lens"];
+  };
+  result_.lens_spot = LensSpot{812.0, 344.0, 60.0};
+  EXPECT_EQ(told(), lens_sentence(*result_.lens_spot));
+  result_.lens_spot.reset();
+  EXPECT_TRUE(told().is_null());
 }
 
 }  // namespace

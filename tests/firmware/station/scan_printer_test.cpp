@@ -72,6 +72,18 @@ TEST_F(Printed, JsonTellsChecksAndBlur) {
   EXPECT_EQ(json["blur_px"], nlohmann::json::parse("[0.875,null]"));
 }
 
+TEST_F(Printed, DirtOnTheLensIsToldWithItsPlace) {
+  EXPECT_TRUE(nlohmann::json::parse(scan_json(result_))["lens_spot"].is_null());
+  result_.lens_spot = LensSpot{812.0, 344.5, 60.0};
+  const auto json = nlohmann::json::parse(scan_json(result_));
+  EXPECT_EQ(json["lens_spot"], nlohmann::json::parse(R"({"x_px":812.0,"y_px":344.5,"width_px":60.0})"));
+  const auto& warning = json["warnings"].back();
+  EXPECT_EQ(warning["code"], "lens_spot");
+  EXPECT_TRUE(warning["label"].is_null());
+  EXPECT_NE(warning["message"].get<std::string>().find("x = 812"), std::string::npos);
+  EXPECT_NE(scan_text(result_).find("dirt on the lens"), std::string::npos);
+}
+
 // A result has to fit into the station's journal: with all that a tray of sixteen items may say, and each
 // number as long as it can be.
 TEST_F(Printed, TheLongestResultOfSixteenItemsFitsIntoTheJournal) {
@@ -90,6 +102,7 @@ TEST_F(Printed, TheLongestResultOfSixteenItemsFitsIntoTheJournal) {
     measurement_.checks.add({CheckKind::dish_height_mm, 255, kLong, kLong, kLong, Verdict::refused});
   measurement_.items = items;
   measurement_.report.pictures.blur_px = {-kLong, -kLong};
+  result_.lens_spot = LensSpot{kLong, kLong, kLong};
   const ScanIdentity identity{
       {std::string(32, 'k'), std::numeric_limits<std::uint64_t>::max()}, {}, {}, {kLong, false}};
   const std::string document = scan_json(result_, &identity);
