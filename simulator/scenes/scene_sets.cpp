@@ -12,7 +12,7 @@
 #include "simulator/scenes/scene_series.hpp"
 #include "simulator/scenes/scene_views.hpp"
 #include "simulator/scenes/training_set.hpp"
-#include "simulator/scenes/tray_layout.hpp"
+#include "simulator/scenes/tray_sets.hpp"
 
 namespace traygauge {
 namespace {
@@ -27,6 +27,7 @@ constexpr auto kSets = std::to_array<SceneSet>({
     {"moved-4", "4 trays, each moved under a still camera"},
     {"slips-10", "10 meals and trays whose card, dish or food slips by 0.5 to 15 mm between two pictures"},
     {"cards-8", "8 meals whose card leans by 0.5 to 4 degrees, or is bent up by 1 to 8 mm at one edge"},
+    {"station-40", "40 trays at one station: other food on the same dishes, seen from the same two places"},
     {"training-24",
      "24 meals, small dishes and trays, four views each, to train on: pale foods, colours, hands, cups"},
 });
@@ -68,7 +69,7 @@ std::vector<SceneDescription> make_angles(std::uint64_t seed) {
   return make_each(13, "a", "angles-13", seed, [&](std::size_t i, const std::string& name, Draws& draws) {
     const auto kinds = menu.deal(2 + i % 2);
     SceneDescription scene = lay_meal(name, draws, kPlates[i % 2 == 0 ? 0 : 2], 1.0, kinds, kTables);
-    draw_arm_views(scene, draws, 500.0);
+    draw_arm_views(scene, draws, 500.0, 7);
     return scene;
   });
 }
@@ -109,50 +110,6 @@ std::vector<SceneDescription> make_other_meals(std::uint64_t seed) {
     SceneDescription scene =
         lay_meal(name, draws, kPlates[i % 3], draws.between(0.92, 1.08), kinds, kOtherTables);
     draw_views(scene, draws, 3, {});
-    return scene;
-  });
-}
-
-// A plate with a meal, a bowl or plate with soup and, on some, a dessert.
-SceneDescription lay_tray(const std::string& name, Draws draws, bool has_dessert,
-                          std::span<const FoodKind* const> meal, Menu& soups, Menu& desserts) {
-  SceneDescription scene = empty_scene(name, draws);
-  draw_camera(scene, draws, kWideFocalPx);
-  draw_tray(scene, draws);
-  const DishStyle plate = draws.chance(0.5) ? DishStyle::oval : DishStyle::dinner;
-  const bool is_deep_plate = draws.chance(0.4);
-  const double plate_scale = plate == DishStyle::oval ? 0.92 : 0.95;
-  scene.dishes = {
-      draw_dish(draws, plate, plate_scale, 1),
-      draw_dish(draws, is_deep_plate ? DishStyle::soup : DishStyle::bowl, is_deep_plate ? 0.85 : 1.0, 201)};
-  if (has_dessert) scene.dishes.push_back(draw_dish(draws, DishStyle::dessert_bowl, 1.0, 202));
-  scene.card.thickness_mm = draws.chance(0.5) ? 0.8 : 0.2;
-  scene.card.design = draws.seed();
-  lay_out_tray(scene, draws);
-  draw_foods(scene, draws, 0, plate, plate_scale, meal);
-  draw_filling(scene, draws, 1, *soups.deal(),
-               is_deep_plate ? draws.between(0.45, 0.62) : draws.between(0.55, 0.78));
-  if (has_dessert) draw_filling(scene, draws, 2, *desserts.deal(), draws.between(0.68, 0.85));
-  return scene;
-}
-
-// Turning a tray shows it from another side only to a camera that looks at a slant.
-constexpr ViewLimits kMovedViews{500.0, 720.0, 42.0, 8.0, 28.0};
-
-std::vector<SceneDescription> make_trays(std::uint64_t seed, const std::string& set, const char* letter,
-                                         std::size_t count, bool is_moved) {
-  Draws menu_draws(seed, set + " menu");
-  Menu menu(menu_draws, {FoodGroup::canteen}, FoodServing::solid);
-  Menu soups(menu_draws, {FoodGroup::canteen}, FoodServing::soup);
-  Menu desserts(menu_draws, {FoodGroup::canteen}, FoodServing::dessert);
-  return make_each(count, letter, set, seed, [&](std::size_t i, const std::string& name, Draws& draws) {
-    const auto meal = menu.deal(2 + i % 2);
-    SceneDescription scene = lay_tray(name, draws, !is_moved && i % 2 == 0, meal, soups, desserts);
-    if (is_moved) {
-      draw_moved_views(scene, draws, kMovedViews);
-    } else {
-      draw_views(scene, draws, 3, kTrayViews);
-    }
     return scene;
   });
 }
@@ -268,6 +225,9 @@ std::vector<SceneDescription> make_scenes(std::string_view set, std::uint64_t se
   } else if (set == "cards-8") {
     scenes = make_spoilt_cards(seed);
     reduced_count = 8;
+  } else if (set == "station-40") {
+    scenes = make_station(seed);
+    reduced_count = 24;
   } else if (set == "training-24") {
     scenes = make_training_scenes(seed);
     reduced_count = 6;

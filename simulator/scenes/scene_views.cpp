@@ -139,15 +139,14 @@ void draw_views(SceneDescription& scene, Draws& draws, int count, const ViewLimi
   }
 }
 
-void draw_arm_views(SceneDescription& scene, Draws& draws, double distance_mm) {
-  constexpr int kSteps = 7;
+void draw_arm_views(SceneDescription& scene, Draws& draws, double distance_mm, int steps) {
   constexpr double kStepDeg = 5.0;
   const Eigen::Vector3d target_mm = target_of(scene);
   for (int tries = 0; tries < kViewTries; ++tries) {
     const double start_deg = draws.between(-25.0, -10.0);
     const int sense = draws.chance(0.5) ? 1 : -1;
     scene.views.clear();
-    for (int i = 0; i <= kSteps; ++i) {
+    for (int i = 0; i <= steps; ++i) {
       const double arm = radians(sense * (start_deg + kStepDeg * i));
       const Eigen::Vector3d middle = middle_of(scene);
       const Eigen::Vector3d out = Eigen::AngleAxisd(arm, Eigen::Vector3d::UnitX()) * Eigen::Vector3d::UnitZ();
@@ -163,7 +162,7 @@ void draw_arm_views(SceneDescription& scene, Draws& draws, double distance_mm) {
     }
     const auto is_seen = [&](const Photograph& view) { return shows_all(scene, view); };
     if (!std::all_of(scene.views.begin(), scene.views.end(), is_seen)) continue;
-    for (int i = 1; i <= kSteps; ++i) scene.pairs.push_back({0, i});
+    for (int i = 1; i <= steps; ++i) scene.pairs.push_back({0, i});
     return;
   }
   throw std::invalid_argument(scene.name + ": no views found");

@@ -26,8 +26,8 @@ struct ViewLimits {
 void draw_views(SceneDescription& scene, Draws& draws, int count, const ViewLimits& limits);
 
 // A first view and further ones by an arm that turns about the world's x through the dish's middle, in steps
-// of 5° up to 35°; pairs of the first with each.
-void draw_arm_views(SceneDescription& scene, Draws& draws, double distance_mm);
+// of 5°; pairs of the first with each. Throws as draw_views() does.
+void draw_arm_views(SceneDescription& scene, Draws& draws, double distance_mm, int steps);
 
 // One view, and one of the tray turned and shifted under the still camera.
 void draw_moved_views(SceneDescription& scene, Draws& draws, const ViewLimits& limits);
