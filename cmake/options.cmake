@@ -49,16 +49,6 @@ if(TRAYGAUGE_SANITIZERS)
   endif()
 endif()
 
-# traygauge_fast_loops(TARGET source… [OPTIONS …]): sources whose loops are written for the vectoriser, which -O2 holds back.
-# Sanitizers do without, so that these sources are merged like all others.
-function(traygauge_fast_loops target)
-  cmake_parse_arguments(arg "" "" "OPTIONS" ${ARGN})
-  if(NOT TRAYGAUGE_SANITIZERS)
-    set_source_files_properties(${arg_UNPARSED_ARGUMENTS}
-      TARGET_DIRECTORY ${target} PROPERTIES COMPILE_OPTIONS "-O3;${arg_OPTIONS}" SKIP_PRECOMPILE_HEADERS ON)
-  endif()
-endfunction()
-
 # traygauge_precompile(TARGET header…): what libraries declare is parsed once for all sources. Where sources are edited, it would
 # hide which of them forgets an include.
 function(traygauge_precompile target)
