@@ -3,6 +3,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace traygauge {
 namespace {
@@ -22,9 +23,9 @@ double explain(const Evidence& evidence, const EvidenceMatrix& information, cons
   return amount;
 }
 
-// Both views together, whose cameras may both be off.
+// Both views together, whose cameras may both be off, and of a dish that leans by itself.
 void find_lean(const std::array<DishSighting, 2>& sightings, const TableCameras& cameras,
-               const CamerasMatrix& covariance, DishConsistency& result) {
+               const CamerasMatrix& covariance, double own_lean_rad, DishConsistency& result) {
   Eigen::Matrix2d information = Eigen::Matrix2d::Zero();
   Vec2 weighted = Vec2::Zero();
   Eigen::Matrix<double, 2, kCameraParameters> by_cameras;
@@ -40,7 +41,8 @@ void find_lean(const std::array<DishSighting, 2>& sightings, const TableCameras&
   const Eigen::Matrix2d inverse = information.inverse();
   const Eigen::Matrix<double, 2, kCameraParameters> by_camera_errors = by_cameras.lazyProduct(covariance);
   const Eigen::Matrix2d of_cameras = by_camera_errors.lazyProduct(by_cameras.transpose());
-  const Eigen::Matrix2d spread = inverse + inverse * of_cameras * inverse;
+  const Eigen::Matrix2d spread =
+      inverse + inverse * of_cameras * inverse + own_lean_rad * own_lean_rad * Eigen::Matrix2d::Identity();
   const Vec2 lean = inverse * weighted;
   result.lean_rad = lean.norm();
   const Vec2 along = result.lean_rad > 0.0 ? Vec2(lean / result.lean_rad) : Vec2::UnitX();
@@ -103,7 +105,8 @@ DishConsistency compare_sightings(const std::array<DishSighting, 2>& sightings, 
   const Vec2 along = slip_mm > 0.0 ? Vec2(result.slip_mm / slip_mm) : Vec2::UnitX();
   result.slip_sigma_mm = std::sqrt(along.dot(slip_covariance * along));
   result.turn_rad = second[kPlaceAzimuth] - first[kPlaceAzimuth];
-  find_lean(sightings, cameras, covariance, result);
+  const double own_lean_rad = std::numbers::sqrt2 * params.edge_sigma_mm / size_mm;
+  find_lean(sightings, cameras, covariance, own_lean_rad, result);
   return result;
 }
 
