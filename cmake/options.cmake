@@ -11,6 +11,7 @@ endif()
 option(TRAYGAUGE_PAPER "Build profile paper, the method as published; without it --profile paper is refused" ON)
 option(TRAYGAUGE_PRECOMPILED_HEADERS "Parse the headers of libraries once for all sources; OFF shows which source forgets an include" ON)
 option(TRAYGAUGE_WERROR "Warnings are errors; the presets switch it on" OFF)
+option(TRAYGAUGE_LINT "Compile commands for clang-tidy, which does not read all of GCC's flags" OFF)
 set(TRAYGAUGE_SANITIZERS "" CACHE STRING "Sanitizers for all targets, e.g. address,undefined or thread")
 
 # Third-party headers are SYSTEM includes, so warnings spare them.

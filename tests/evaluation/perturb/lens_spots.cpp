@@ -65,8 +65,8 @@ void darken(Picture& picture, const Spot& spot) {
       const double light = 1.0 - (1.0 - spot.light) * inside * inside * (3.0 - 2.0 * inside);
       const int channels = bytes_per_pixel(frame.format);
       for (int c = 0; c < channels; ++c) {
-        std::uint8_t& value =
-            picture.pixels[static_cast<std::size_t>(y * frame.stride_bytes + x * channels + c)];
+        std::uint8_t& value = picture.pixels[static_cast<std::size_t>(
+            y * frame.stride_bytes + static_cast<std::ptrdiff_t>(x) * channels + c)];
         value = static_cast<std::uint8_t>(std::lround(value * std::pow(light, 1.0 / 2.2)));
       }
     }
