@@ -23,7 +23,7 @@ double explain(const Evidence& evidence, const EvidenceMatrix& information, cons
   return amount;
 }
 
-// Both views together, whose cameras may both be off, and of a dish that leans by itself.
+// Both views together. Their cameras may be off, and the dish may lean by itself, with sigma own_lean_rad.
 void find_lean(const std::array<DishSighting, 2>& sightings, const TableCameras& cameras,
                const CamerasMatrix& covariance, double own_lean_rad, DishConsistency& result) {
   Eigen::Matrix2d information = Eigen::Matrix2d::Zero();

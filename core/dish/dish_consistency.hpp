@@ -12,9 +12,8 @@ struct DishConsistencyParams {
   // What a dish of a known kind may differ by (see DishPoseParams): glaze, firing, feet, an uneven table.
   double size_sigma_mm = 0.5;
   double height_sigma_mm = 0.5;
-  // And the height of its edge from one side to the other: warped, or on uneven feet. Chosen: a bowl of 104
-  // mm that leans by 0.7 degrees in the pictures of one station on every tray is not told, plates of 230 mm
-  // are.
+  // Height of its edge on each side beside a level edge: warped, or on uneven feet. Chosen on one station and
+  // on cards that lean (tests/evaluation/experiments.md, "A card that is bent or leans").
   double edge_sigma_mm = 0.3;
 };
 

@@ -5,13 +5,6 @@
 #include <cstdlib>
 
 namespace traygauge {
-namespace {
-
-constexpr int blocks_along(int pixels, int block_px) {
-  return (pixels + block_px - 1) / block_px;
-}
-
-}  // namespace
 
 void BlockMeans::reserve(int width, int height) {
   means_.reserve(static_cast<std::size_t>(blocks_along(width, block_px_)) *

@@ -16,6 +16,11 @@ struct SteadinessParams {
   double max_different_fraction = 0.002;  // of the blocks; an insect or a reflex is no other scene
 };
 
+// Of so many pixels; the last block may be cut.
+constexpr int blocks_along(int pixels, int block_px) {
+  return (pixels + block_px - 1) / block_px;
+}
+
 class BlockMeans {
  public:
   // Takes the memory for pictures of this size at most.

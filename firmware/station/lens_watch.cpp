@@ -40,10 +40,10 @@ LensWatch::LensWatch(const LensWatchParams& params) : params_(params) {
 void LensWatch::begin(const FrameView& frame) {
   width_ = frame.width;
   height_ = frame.height;
-  block_px_ = (std::max(width_, height_) + params_.blocks_across - 1) / params_.blocks_across;
+  block_px_ = blocks_along(std::max(width_, height_), params_.blocks_across);
   means_.set_block_px(block_px_);
-  columns_ = (width_ + block_px_ - 1) / block_px_;
-  rows_ = (height_ + block_px_ - 1) / block_px_;
+  columns_ = blocks_along(width_, block_px_);
+  rows_ = blocks_along(height_, block_px_);
   trays_ = 0;
   is_known_ = false;
   clear(current_);

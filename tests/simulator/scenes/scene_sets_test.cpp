@@ -15,7 +15,6 @@
 #include <vector>
 
 #include "simulator/scenes/capture_documents.hpp"
-#include "simulator/scenes/dish_shell.hpp"
 #include "simulator/scenes/food_kinds.hpp"
 #include "simulator/scenes/laid_scene.hpp"
 #include "simulator/scenes/mesh_tools.hpp"
@@ -135,51 +134,6 @@ TEST(SceneSets, FoodBesideThePlateLiesOnTheTray) {
     }
     // Nothing describes the ground.
     EXPECT_TRUE(compose_capture(scene).contains("dish")) << scene.name;
-  }
-}
-
-TEST(SceneSets, AStationKeepsCameraDishesAndPlacesFromTrayToTray) {
-  for (std::uint64_t seed = kSeed; seed < kSeed + 10; ++seed) {
-    const auto scenes = make_scenes("station-40", seed, SetSize::full);
-    ASSERT_EQ(scenes.size(), 40U) << seed;
-    const SceneDescription& first = scenes.front();
-    std::set<std::vector<std::string>> meals;
-    for (const SceneDescription& scene : scenes) {
-      EXPECT_EQ(scene.dishes.size(), first.dishes.size()) << scene.name;
-      EXPECT_EQ(scene.dishes.back().centre_mm, first.dishes.back().centre_mm) << scene.name;
-      ASSERT_EQ(scene.views.size(), 2U) << scene.name;
-      for (std::size_t i = 0; i < 2; ++i) {
-        EXPECT_EQ(scene.views[i].azimuth_deg, first.views[i].azimuth_deg) << scene.name;
-        EXPECT_TRUE(is_all_in_picture(scene, scene.views[i])) << scene.name << ", seed " << seed;
-        EXPECT_EQ(scene.views[i].tray_shift_mm, scene.views[0].tray_shift_mm) << scene.name;
-      }
-      std::vector<std::string> foods;
-      for (const LaidFood& food : scene.foods) foods.push_back(food.name);
-      meals.insert(foods);
-    }
-    EXPECT_GT(meals.size(), 35U) << seed;
-  }
-}
-
-TEST(SceneSets, TraysHoldTheirDishesApart) {
-  for (const char* name : {"trays-8", "moved-4", "beside-8", "station-40"}) {
-    for (const SceneDescription& scene : make_scenes(name, kSeed, SetSize::full)) {
-      EXPECT_GE(scene.dishes.size(), 2U);
-      for (std::size_t i = 0; i < scene.dishes.size(); ++i) {
-        for (std::size_t k = 0; k < i; ++k) {
-          const DishShell shell(scene.dishes[k].dish);
-          const Eigen::Isometry3d to_other =
-              world_from_dish(scene.dishes[k]).inverse() * world_from_dish(scene.dishes[i]);
-          for (double angle = 0.0; angle < 6.28; angle += 0.1) {
-            const Eigen::Vector3d at =
-                to_other * Eigen::Vector3d(0.5 * scene.dishes[i].dish.outer_size_mm[0] * std::cos(angle),
-                                           0.5 * scene.dishes[i].dish.outer_size_mm[1] * std::sin(angle),
-                                           0.0);
-            EXPECT_FALSE(shell.contains(at.x(), at.y(), 0.0)) << scene.name;
-          }
-        }
-      }
-    }
   }
 }
 
