@@ -25,6 +25,11 @@ class BoundedList {
     size_ = 0;
     dropped_ = 0;
   }
+  // Of these, what does not fit is dropped and counted.
+  constexpr void assign(std::span<const T> values) {
+    clear();
+    for (const T& value : values) push_back(value);
+  }
   // Takes in elements that were written behind the end of the list, in its storage.
   constexpr void extend(std::size_t count) {
     size_ = size_ + count < storage_.size() ? size_ + count : storage_.size();

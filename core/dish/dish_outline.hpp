@@ -24,6 +24,12 @@ struct DishOutlineParams {
   int search_step = 4;  // px between the rows, and columns, that are searched for the dish
 };
 
+// The same in a picture that nobody labelled: the edge that it shows along the rim of a dish that was found.
+struct SeenRim {
+  std::uint8_t label = kBackgroundLabel;  // where no single edge shows
+  BoundedList<Vec2> rays;
+};
+
 struct DishOutlineWorkspace {
   DishContour contour;
 

@@ -100,7 +100,8 @@ struct DishSearchWorkspace {
   std::span<Vec2> angles;                         // cosine and sine
   std::span<RimShift> shifts;                     // by angle
   std::span<float> steps;                         // over offsets from the rim, for each angle of both views
-  std::array<BoundedList<Vec2>, 2> outlines;
+  std::array<BoundedList<Vec2>, 2> outlines;      // of the last trace
+  std::array<BoundedList<Vec2>, 2> rims;          // of the dish that was sighted last
 
   template <class Allocator>
   constexpr void allocate(Allocator& arena, const DishSearchParams& params) {
@@ -112,7 +113,9 @@ struct DishSearchWorkspace {
     angles = arena.template take<Vec2>(points);
     shifts = arena.template take<RimShift>(points);
     steps = arena.template take<float>(2 * points * kMaxRimOffsets);
-    for (BoundedList<Vec2>& list : outlines) list = BoundedList<Vec2>(arena.template take<Vec2>(points));
+    for (auto* const lists : {&outlines, &rims}) {
+      for (BoundedList<Vec2>& list : *lists) list = BoundedList<Vec2>(arena.template take<Vec2>(points));
+    }
   }
 };
 

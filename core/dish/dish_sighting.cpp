@@ -148,14 +148,16 @@ namespace {
 class FoundRim {
  public:
   FoundRim(RimTracer& tracer, const DishSearchView& view, std::size_t index, const FoundDish& found,
-           const DishSearchParams& search, const DishSightingParams& params, BoundedList<Vec2>& rays)
+           const DishSearchParams& search, const DishSightingParams& params, BoundedList<Vec2>& rays,
+           BoundedList<Vec2>& kept)
       : tracer_(tracer),
         view_(view),
         index_(index),
         found_(found),
         search_(search),
         params_(params),
-        rays_(rays) {}
+        rays_(rays),
+        kept_(kept) {}
 
   // The better of what shows about where both views have the dish, and about where this one alone wants it:
   // bands of a decoration draw the second place aside, a slip between the pictures the first.
@@ -164,9 +166,12 @@ class FoundRim {
     tracer_.shift_to_edges(std::array{index_}, found_.inside_sign, own);
     trace(found_.place);
     const DishSighting sighting = sight_dish(found_.place, params_);
+    if (sighting.is_known) keep_rays();
     trace(own);
     const DishSighting own_sighting = sight_dish(own, params_);
-    return own_sighting.points > sighting.points ? own_sighting : sighting;
+    if (own_sighting.points <= sighting.points) return sighting;
+    keep_rays();
+    return own_sighting;
   }
 
   // Of a rim that is larger than described nearly all has to show: parts are the edges of other things.
@@ -191,6 +196,9 @@ class FoundRim {
     return sighting;
   }
 
+  // Of the sighting that was made last.
+  void keep_rays() { kept_.assign(rays_.items()); }
+
  private:
   RimTrace trace(const DishPose& about) {
     return tracer_.trace(index_, about, found_.inside_sign, search_.min_step, RimChoice::nearest, rays_);
@@ -206,7 +214,8 @@ class FoundRim {
   const FoundDish& found_;
   const DishSearchParams& search_;
   const DishSightingParams& params_;
-  BoundedList<Vec2>& rays_;
+  BoundedList<Vec2>& rays_;  // of the last trace
+  BoundedList<Vec2>& kept_;
 };
 
 }  // namespace
@@ -219,15 +228,20 @@ std::array<DishSighting, 2> sight_found_dish(const DishSearchViews& views, const
   RimTracer tracer(views, wide, workspace);
   std::array<DishSighting, 2> sightings;
   for (std::size_t v = 0; v < 2; ++v) {
-    FoundRim rim(tracer, views[v], v, found, search, params, workspace.outlines[v]);
+    workspace.rims[v].clear();
+    FoundRim rim(tracer, views[v], v, found, search, params, workspace.outlines[v], workspace.rims[v]);
     sightings[v] = rim.sight();
     // Of several edges around a dish its own is the outermost.
     for (const double size : params.larger_sizes) {
       const DishSighting larger = rim.sight_larger(size);
       const double least = sightings[v].place[kSightedSize] + params.least_larger;
-      if (larger.is_known && (!sightings[v].is_known || larger.place[kSightedSize] > least))
-        sightings[v] = larger;
+      if (!larger.is_known || (sightings[v].is_known && larger.place[kSightedSize] <= least)) continue;
+      sightings[v] = larger;
+      rim.keep_rays();
     }
+  }
+  if (!sightings[0].is_known || !sightings[1].is_known) {
+    for (BoundedList<Vec2>& rays : workspace.rims) rays.clear();
   }
   return sightings;
 }

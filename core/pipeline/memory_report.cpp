@@ -23,7 +23,7 @@ std::array<MemoryRow, kMemoryRowCount> describe_memory(const Configuration& conf
   const SegmenterParams& segmentation = configuration.segmentation;
   const auto view = bytes_of([&](ArenaPlan& plan) { memory.views[0].allocate(plan, configuration.limits); });
   const auto labels = bytes_of([&](ArenaPlan& plan) {
-    if (configuration.network != nullptr) memory.allocate_labels(plan, configuration.limits);
+    if (configuration.network != nullptr) memory.allocate_found(plan, configuration);
   });
   return {{
       {"state", estimator_state_bytes(), false},
@@ -33,7 +33,7 @@ std::array<MemoryRow, kMemoryRowCount> describe_memory(const Configuration& conf
        false},
       {"first view", view, false},
       {"second view", view, false},
-      {"labels found", labels, false},
+      {"labels and rims found", labels, false},
       {"cameras and dishes", bytes_of([](ArenaPlan& plan) { plan.take<SceneGeometry>(1); }), false},
       {"height maps and items",
        bytes_of([&](ArenaPlan& plan) { memory.dish.allocate_kept(plan, configuration); }), false},

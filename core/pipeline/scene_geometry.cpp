@@ -61,6 +61,11 @@ BundleInput join(const ViewPair& views, const ReferenceCard& card, const SceneGe
   return input;
 }
 
+std::span<const Vec2> seen_rim(const TrayView& view, std::uint8_t label) {
+  const auto rim = std::ranges::find(view.rims, label, &SeenRim::label);
+  return rim == view.rims.end() ? std::span<const Vec2>() : rim->rays.items();
+}
+
 // Into the workspace's outlines.
 Status trace_outlines(const ViewPair& views, const Configuration& configuration,
                       SceneGeometryWorkspace& workspace, const SceneGeometry& geometry) {
@@ -69,6 +74,10 @@ Status trace_outlines(const ViewPair& views, const Configuration& configuration,
     for (std::size_t v = 0; v < 2; ++v) {
       workspace.outlines[d][v].clear();
       if (views[v]->regions().pixels[region.dish] == 0) continue;
+      if (const std::span<const Vec2> seen = seen_rim(*views[v], region.dish); !seen.empty()) {
+        workspace.outlines[d][v].assign(seen);
+        continue;
+      }
       const Status status =
           trace_dish_outline(views[v]->labels, views[v]->lens, region, configuration.outline,
                              workspace.outline, workspace.outlines[d][v]);

@@ -129,6 +129,9 @@ Status Segmenter::find_dishes() {
   std::size_t taken_count = 0;
   std::size_t found_count = 0;
   std::span<const DishModel> rest = configuration_.dishes;
+  for (const SegmentedView& view : views_) {
+    for (SeenRim& rim : view.rims) rim.label = kBackgroundLabel;
+  }
   while (!rest.empty()) {
     const std::uint8_t label = rest.front().label;
     const auto end = std::find_if_not(rest.begin(), rest.end(),
@@ -147,6 +150,7 @@ Status Segmenter::find_dishes() {
     taken[taken_count++] = dish.found;
     dish.sightings =
         sight_found_dish(cameras_, dish.found, params_.dish, configuration_.checks.sighting, memory_.dish);
+    keep_rims(result_.dish_count - 1);
     for (const DishSearchView& camera : cameras_) {
       if (!is_within(camera.frame, rim_outline(dish.found.place, camera, 0.0, 0.0)))
         dish.status = StatusCode::dish_cut_off;
@@ -155,6 +159,17 @@ Status Segmenter::find_dishes() {
   }
   if (found_count > 0) return StatusCode::ok;
   return taken_count > 0 ? StatusCode::dish_cut_off : StatusCode::rim_not_found;
+}
+
+// An outline that is drawn where the card's pose puts the dish only repeats the error of that pose; the edge
+// itself does not have it.
+void Segmenter::keep_rims(std::size_t dish) const {
+  for (std::size_t v = 0; v < 2; ++v) {
+    if (memory_.dish.rims[v].empty()) continue;
+    SeenRim& rim = views_[v].rims[dish];
+    rim.label = result_.dishes[dish].label;
+    rim.rays.assign(memory_.dish.rims[v].items());
+  }
 }
 
 void Segmenter::draw_dishes() const {

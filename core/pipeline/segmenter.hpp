@@ -11,6 +11,7 @@
 #include "core/base/bounded_list.hpp"
 #include "core/base/status.hpp"
 #include "core/base/units.hpp"
+#include "core/dish/dish_outline.hpp"
 #include "core/pipeline/configuration.hpp"
 #include "core/pipeline/segmentation.hpp"
 #include "core/pipeline/segmenter_memory.hpp"
@@ -23,6 +24,7 @@ struct SegmentedView {
   FrameView frame;
   ImageView<std::uint8_t> labels;
   ImageView<std::uint8_t> gray;  // the picture's grey values, which a measurement needs as well
+  std::span<SeenRim> rims;       // of the dishes sought, in their order, which a measurement needs as well
   LensModel lens;
 };
 
@@ -57,6 +59,7 @@ class Segmenter {
   Status check_view(const SegmentedView& view, const LensModel& lens) const;
   Status find_card(const SegmentedView& view, const LensModel& lens, std::size_t index);
   Status find_dishes();
+  void keep_rims(std::size_t dish) const;
   void follow_own_motion();
   void draw_dishes() const;
   void read_pictures();

@@ -46,6 +46,8 @@ Status prepare(EstimatorState& state, std::size_t index, const GivenPicture& pic
   view.arm_angle_deg = input.arm_angle_deg;
   view.labels = labels;
   view.are_outlines_found = state.is_finding_labels;
+  view.rims = {};
+  if (state.is_finding_labels) view.rims = state.memory.seen_rims[index];
   if (const Status status = validate(view.lens); !status.ok()) return status;
   const Status status = prepare_tray_view(picture, state.configuration, state.memory.pattern,
                                           state.memory.preparation, clock, view);
@@ -63,6 +65,7 @@ SegmentedView segmented_view(EstimatorState& state, std::size_t index) {
   if (input.frame.width > limits.max_frame_width || input.frame.height > limits.max_frame_height) return view;
   view.labels = of_size(state.memory.found_labels[index], input.frame);
   view.gray = of_size(state.memory.views[index].gray_storage, input.frame);
+  view.rims = state.memory.seen_rims[index];
   return view;
 }
 

@@ -21,6 +21,7 @@ struct TrayMemory {
   std::array<TrayView, 2> views;
   std::array<ImageView<std::uint8_t>, 2>
       found_labels;  // memory for the largest frame; none: labels are given
+  std::array<std::array<SeenRim, kMaxPlacedDishes>, 2> seen_rims;  // the same
   SurfaceMeasurementWorkspace dish;
   std::span<SceneGeometry> scene;  // one
   TrayViewWorkspace preparation;
@@ -32,14 +33,19 @@ struct TrayMemory {
   constexpr void allocate_kept(Allocator& arena, const Configuration& configuration) {
     pattern.allocate(arena, configuration.card_alignment.pattern);
     for (TrayView& view : views) view.allocate(arena, configuration.limits);
-    if (configuration.network != nullptr) allocate_labels(arena, configuration.limits);
+    if (configuration.network != nullptr) allocate_found(arena, configuration);
     scene = arena.template take<SceneGeometry>(1);
     dish.allocate_kept(arena, configuration);
   }
   template <class Allocator>
-  constexpr void allocate_labels(Allocator& arena, const FrameLimits& limits) {
+  constexpr void allocate_found(Allocator& arena, const Configuration& configuration) {
+    const FrameLimits& limits = configuration.limits;
     for (auto& labels : found_labels)
       labels = arena.template take_image<std::uint8_t>(limits.max_frame_width, limits.max_frame_height);
+    const auto points = static_cast<std::size_t>(configuration.segmentation.dish.outline_points);
+    for (auto& rims : seen_rims) {
+      for (SeenRim& rim : rims) rim.rays = BoundedList<Vec2>(arena.template take<Vec2>(points));
+    }
   }
   // The tracks are still read while dishes are measured.
   template <class Allocator>

@@ -9,6 +9,7 @@
 #include "core/base/arena.hpp"
 #include "core/base/status.hpp"
 #include "core/card/card_alignment.hpp"
+#include "core/dish/dish_outline.hpp"
 #include "core/geometry/camera.hpp"
 #include "core/image/gray_pyramid.hpp"
 #include "core/image_view/image_view.hpp"
@@ -25,6 +26,7 @@ struct TrayView {
   std::optional<double> arm_angle_deg;
   ImageView<const std::uint8_t> labels;    // of the stored picture, the caller's
   bool are_outlines_found = false;         // not drawn by a person
+  std::span<const SeenRim> rims;           // of the dishes that were found, if they were
   std::span<LabelRegions> region_storage;  // one
   FrameView frame;                         // the caller's
   GrayPyramid gray;

@@ -4,7 +4,9 @@
 
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <filesystem>
+#include <nlohmann/json.hpp>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -14,6 +16,7 @@
 #include "simulator/scenes/capture_writer.hpp"
 #include "simulator/scenes/scene_sets.hpp"
 #include "tests/evaluation/tables/tables_command.hpp"
+#include "tests/firmware/command_runner.hpp"
 #include "tests/simulator/capture/temporary_capture.hpp"
 
 namespace traygauge {
@@ -23,8 +26,9 @@ constexpr std::size_t kAsMeasured = 0;
 constexpr std::size_t kAllTrue = kStageVariants - 1;
 
 // The first two views of one of a set's reduced scenes.
-void render_pair(const char* set, const char* name, const std::filesystem::path& folder) {
-  for (SceneDescription& scene : make_scenes(set, 1, SetSize::reduced)) {
+void render_pair(const char* set, const char* name, const std::filesystem::path& folder,
+                 std::uint64_t seed = 1) {
+  for (SceneDescription& scene : make_scenes(set, seed, SetSize::reduced)) {
     if (scene.name != name) continue;
     scene.views.resize(2);
     scene.pairs = {{0, 1}};
@@ -84,6 +88,25 @@ TEST(RenderedMeal, IsMeasuredAndItsTruthFitsItsPictures) {
   expect_within(runs.variants[kAsMeasured], kAsMeasuredBounds, "as measured");
   expect_within(runs.variants[kAllTrue], kAllTrueBounds, "all stages true");
   expect_tables(folder.path().string(), cache.path().string());
+}
+
+// The small picture of a card tells the table's slope roughly: where it says that the dishes lie, one would
+// be 2.2 mm too high. Their rims, read in the same pictures, know better.
+TEST(RenderedTray, DishesThatWereFoundStandAsHighAsDescribed) {
+  constexpr double kMostOff_mm = 0.8;
+  const TemporaryFolder folder;
+  render_pair("station-40", "k02", folder.path(), 108);
+  const CommandResult result =
+      run({"measure", (folder.path() / "k02").string(), "--labels", "auto", "--json"});
+  ASSERT_EQ(result.status, 0) << result.error;
+  int dishes = 0;
+  const nlohmann::json document = nlohmann::json::parse(result.out);
+  for (const nlohmann::json& check : document.at("checks")) {
+    if (check.at("name").get<std::string>() != "dish_height_mm") continue;
+    ++dishes;
+    EXPECT_LE(std::abs(check.at("value").get<double>()), kMostOff_mm) << check;
+  }
+  EXPECT_EQ(dishes, 2);
 }
 
 }  // namespace

@@ -64,6 +64,9 @@ class DrawnTable {
   std::array<DishSighting, 2> sight(const FoundDish& found) {
     return sight_found_dish(views_, found, params_, DishSightingParams{}, *memory_);
   }
+  // Of the dish that was sighted last.
+  std::span<const Vec2> rim(std::size_t view) { return (*memory_).rims[view].items(); }
+  const DishSearchView& view(std::size_t index) const { return views_[index]; }
 
  private:
   // White, with a dark band 6 to 9 mm inside the edge.

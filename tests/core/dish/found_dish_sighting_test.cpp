@@ -34,6 +34,31 @@ TEST(FoundDishSighting, SaysHowMuchLargerTheDishLooks) {
   }
 }
 
+// The places are those of the edge that is drawn, not of a rim as it is described.
+TEST(FoundDishSighting, LeavesTheEdgeThatItSaw) {
+  const DishModel described = dish_of(240.0, 240.0, 25.0);
+  for (const double size : {1.0, 1.02}) {
+    const DishPose drawn =
+        place_of(dish_of(size * 240.0, size * 240.0, described.rim_height_mm), {10.0, -15.0}, 0.0);
+    DrawnTable table({drawn});
+    const Result<FoundDish> found = table.search({&described, 1}, {});
+    ASSERT_TRUE(found.ok());
+    table.sight(*found);
+    for (std::size_t v = 0; v < 2; ++v) {
+      const DishSearchView& view = table.view(v);
+      const RimProjection rim(drawn, view.camera_from_table, view.lens.pinhole.mean_focal_px());
+      int near = 0;
+      for (const Vec2& ray : table.rim(v)) {
+        double residual_px = 0.0;
+        ASSERT_TRUE(rim.residual(ray, residual_px));
+        near += std::abs(residual_px) < 0.7 ? 1 : 0;
+      }
+      EXPECT_GT(table.rim(v).size(), 100U) << size;
+      EXPECT_GT(near, 0.92 * static_cast<double>(table.rim(v).size())) << size;
+    }
+  }
+}
+
 // The drawn dish has a band inside its edge, which a smaller rim would be taken for.
 TEST(FoundDishSighting, SaysNothingWrongOfADishThatLooksSmaller) {
   for (const double size : {0.97, 0.98, 0.99}) {
