@@ -17,14 +17,24 @@ bool is_beyond(const MedianEstimate& last, double limit, const DriftParams& para
   return std::abs(last.value) > limit && std::abs(last.value) > params.sigmas * last.sigma;
 }
 
+// What came nearer to zero was mended.
+bool is_changed(const MedianEstimate& last, const std::optional<MedianEstimate>& first, double limit,
+                const DriftParams& params) {
+  if (!first || first->count < params.min_values || !is_beyond(last, limit, params)) return false;
+  const double change = std::abs(last.value - first->value);
+  return change > limit && change > params.sigmas * std::hypot(last.sigma, first->sigma);
+}
+
 bool is_drift(WatchedCheck check, const MedianEstimate& last, const std::optional<MedianEstimate>& first,
               const DriftParams& params) {
   if (last.count < params.min_values) return false;
   switch (check) {
     case WatchedCheck::scale_percent:
-      return is_beyond(last, params.max_scale_percent, params);
+      return is_beyond(last, params.max_scale_percent, params) ||
+             is_changed(last, first, params.max_scale_change_percent, params);
     case WatchedCheck::dish_height_mm:
-      return is_beyond(last, params.max_dish_height_mm, params);
+      return is_beyond(last, params.max_dish_height_mm, params) ||
+             is_changed(last, first, params.max_dish_height_change_mm, params);
     case WatchedCheck::glaze_height_mm:
       return is_beyond(last, params.max_glaze_height_mm, params);
     case WatchedCheck::blur_px:
@@ -33,20 +43,37 @@ bool is_drift(WatchedCheck check, const MedianEstimate& last, const std::optiona
   return first && is_too_blurred(last, *first, params);
 }
 
-std::string scale_sentence(const MedianEstimate& last) {
-  return "the card made everything " + fixed(std::abs(last.value), 2) + " % " +
-         (last.value > 0.0 ? "larger" : "smaller") + " than the dishes say (± " + fixed(last.sigma, 2) +
-         " %). Measure the card with a caliper, and look whether it is worn or another lies there.";
+// "0.42 % larger"
+std::string scale_against(double percent) {
+  return fixed(std::abs(percent), 2) + " % " + (percent > 0.0 ? "larger" : "smaller");
+}
+
+// "0.31 mm above"
+std::string height_beside(double mm) {
+  return fixed(std::abs(mm), 2) + " mm " + (mm > 0.0 ? "above" : "below");
+}
+
+// ", after 0.31 mm above in the first 50 that are stored"
+std::string after_first(const std::optional<MedianEstimate>& first, std::string (*words)(double)) {
+  if (!first || first->count == 0) return "";
+  return ", after " + words(first->value) + " in the first " + std::to_string(first->count) +
+         " that are stored";
+}
+
+std::string scale_sentence(const MedianEstimate& last, const std::optional<MedianEstimate>& first) {
+  return "the card made everything " + scale_against(last.value) + " than the dishes say (± " +
+         fixed(last.sigma, 2) + " %)" + after_first(first, scale_against) +
+         ". Measure the card with a caliper, and look whether it is worn or another lies there.";
 }
 
 // "0.31 mm above where the card puts them (± 0.04 mm)"
 std::string height_against(const MedianEstimate& last, const char* ruler) {
-  return fixed(std::abs(last.value), 2) + " mm " + (last.value > 0.0 ? "above" : "below") + " where " +
-         ruler + " (± " + fixed(last.sigma, 2) + " mm)";
+  return height_beside(last.value) + " where " + ruler + " (± " + fixed(last.sigma, 2) + " mm)";
 }
 
-std::string height_sentence(const MedianEstimate& last) {
+std::string height_sentence(const MedianEstimate& last, const std::optional<MedianEstimate>& first) {
   return "the edges of the dishes came out " + height_against(last, "the card puts them") +
+         after_first(first, height_beside) +
          ". Look whether the card lies flat on what the dishes stand on, and measure its thickness.";
 }
 
@@ -74,9 +101,9 @@ std::string drift_sentence(const CheckTrend& trend) {
   const std::string begin = "In the last " + std::to_string(trend.last.count) + " trays ";
   switch (trend.check) {
     case WatchedCheck::scale_percent:
-      return begin + scale_sentence(trend.last);
+      return begin + scale_sentence(trend.last, trend.first);
     case WatchedCheck::dish_height_mm:
-      return begin + height_sentence(trend.last);
+      return begin + height_sentence(trend.last, trend.first);
     case WatchedCheck::glaze_height_mm:
       return begin + glaze_sentence(trend.last);
     case WatchedCheck::blur_px:

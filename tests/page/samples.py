@@ -45,7 +45,7 @@ def unchecked(number):
 def drifting(number):
     """Its card makes everything too large, and its plates are deeper than described, but by too little to be refused."""
     glaze = check("glaze_height_mm", 1, 0.62, 0.2, 1.0)
-    return meal(number, checks=[*checks(scale_percent=0.42 + 0.01 * (number % 5)), glaze])
+    return meal(number, checks=[*checks(scale_percent=0.72 + 0.01 * (number % 5)), glaze])
 
 
 def forty_items(number):

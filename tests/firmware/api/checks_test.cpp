@@ -70,15 +70,15 @@ TEST(ApiChecks, AScanOfAnEarlierProgramHasNone) {
 
 TEST(ApiChecks, HealthTellsOfADriftAndDoesNotFail) {
   HubRig rig;
-  store_scans(rig, 1, 19, 0.42);
+  store_scans(rig, 1, 19, 0.72);
   EXPECT_TRUE(drift_part(rig).is_null()) << "too few scans";
-  store_scans(rig, 20, 20, 0.42);
+  store_scans(rig, 20, 20, 0.72);
   const Answer health = rig.get("/health");
   EXPECT_EQ(health.status, 200);
   EXPECT_EQ(health.json()["status"], "warning");
   const Json part = drift_part(rig);
   EXPECT_EQ(part["status"], "warning");
-  EXPECT_NE(part["message"].get<std::string>().find("In the last 20 trays the card made everything 0.42 % "
+  EXPECT_NE(part["message"].get<std::string>().find("In the last 20 trays the card made everything 0.72 % "
                                                     "larger than the dishes say (± 0.00 %). Measure"),
             std::string::npos)
       << part;
@@ -91,23 +91,23 @@ TEST(ApiChecks, HealthTellsOfADriftAndDoesNotFail) {
 TEST(ApiChecks, HealthTellsOfAllThatDrifts) {
   HubRig rig;
   SampleScan scan;
-  scan.scale_percent = -0.5;
-  scan.dish_height_mm = 0.5;
+  scan.scale_percent = -0.7;
+  scan.dish_height_mm = 1.2;
   for (scan.id.number = 1; scan.id.number <= 100; ++scan.id.number) {
     scan.blur_px = {scan.id.number <= 50 ? 0.8 : 1.2, std::nullopt};
     rig.store(scan);
   }
   const std::string message = drift_part(rig)["message"];
-  EXPECT_NE(message.find("0.50 % smaller"), std::string::npos) << message;
-  EXPECT_NE(message.find("0.50 mm above"), std::string::npos) << message;
+  EXPECT_NE(message.find("0.70 % smaller"), std::string::npos) << message;
+  EXPECT_NE(message.find("1.20 mm above"), std::string::npos) << message;
   EXPECT_NE(message.find("1.50 times as blurred"), std::string::npos) << message;
 }
 
 TEST(ApiChecks, MetricsTellTheMedians) {
   HubRig rig;
-  store_scans(rig, 1, 25, 0.42);
+  store_scans(rig, 1, 25, 0.72);
   EXPECT_EQ(check_figures(rig),
-            "traygauge_check_median{station=\"kitchen\",check=\"scale_percent\"} 0.420\n"
+            "traygauge_check_median{station=\"kitchen\",check=\"scale_percent\"} 0.720\n"
             "traygauge_check_median{station=\"kitchen\",check=\"dish_height_mm\"} 0.046\n"
             "traygauge_check_median{station=\"kitchen\",check=\"blur_px\"} 0.891\n"
             "traygauge_check_median_error{station=\"kitchen\",check=\"scale_percent\"} 0.004\n"
@@ -123,7 +123,7 @@ TEST(ApiChecks, MetricsTellTheMedians) {
 
 TEST(ApiChecks, AHubThatWasStartedAnewSaysTheSame) {
   HubRig rig;
-  store_scans(rig, 1, 60, 0.42);
+  store_scans(rig, 1, 60, 0.72);
   ASSERT_EQ(
       rig.post("/api/v1/scans/kitchen-60/corrections", R"({"action":"scan_wrong","author":"ann"})").status,
       201);
@@ -146,7 +146,7 @@ TEST(ApiChecks, AHubThatWasStartedAnewSaysTheSame) {
 // The correction is answered before the next scan comes: it counts at once.
 TEST(ApiChecks, AScanThatIsMarkedAsWrongDoesNotCount) {
   HubRig rig;
-  store_scans(rig, 1, 20, 0.42);
+  store_scans(rig, 1, 20, 0.72);
   ASSERT_FALSE(drift_part(rig).is_null());
   const std::string target = "/api/v1/scans/kitchen-7/corrections";
   ASSERT_EQ(rig.post(target, R"({"action":"scan_wrong","author":"ann"})").status, 201);

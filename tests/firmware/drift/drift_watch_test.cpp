@@ -120,14 +120,14 @@ TEST_F(Watched, NothingIsSaidOfAnEmptyStore) {
 }
 
 TEST_F(Watched, TheLastFiftyCount) {
-  for (std::uint64_t number = 1; number <= 60; ++number) put(sample(number, number <= 10 ? 100.0 : 0.5));
+  for (std::uint64_t number = 1; number <= 60; ++number) put(sample(number, number <= 10 ? 100.0 : 0.7));
   const std::vector<StationTrends> stations = read_anew(store_, {});
   ASSERT_EQ(stations.size(), 1U);
   EXPECT_EQ(stations[0].station, "kitchen");
   EXPECT_EQ(stations[0].last_received_ms, kMorningMs + 60);
   ASSERT_EQ(stations[0].trends.size(), kWatchedChecks);
   EXPECT_EQ(stations[0].trends[0].last.count, 50U);
-  EXPECT_EQ(stations[0].trends[0].last.value, 0.5);
+  EXPECT_EQ(stations[0].trends[0].last.value, 0.7);
   EXPECT_EQ(stations[0].trends[0].last.sigma, 0.0) << "none of the first ten is left";
   EXPECT_TRUE(stations[0].trends[0].drifts);
 }

@@ -74,16 +74,16 @@ class Inbox : public ::testing::Test {
 TEST_F(Inbox, TellsADriftToWhoAsks) {
   HubLink link = link_of("kitchen");
   SampleScan scan;
-  scan.scale_percent = -0.5;
+  scan.scale_percent = -0.7;
   for (scan.id.number = 1; scan.id.number <= 20; ++scan.id.number)
     ASSERT_EQ(link.deliver(scan_id_text(scan.id), sample_document(scan)).answer, HubAnswer::stored);
   const auto told = ask_drift(folder_.path() / "hub", "kitchen", Milliseconds(5000));
   ASSERT_TRUE(told.ok()) << told.failure();
   ASSERT_EQ(told->size(), 3U);
   EXPECT_EQ(told->front().check, "scale_percent");
-  EXPECT_EQ(told->front().median, -0.5);
+  EXPECT_EQ(told->front().median, -0.7);
   EXPECT_EQ(told->front().scans, 20U);
-  EXPECT_NE(told->front().drift.find("0.50 % smaller"), std::string::npos) << told->front().drift;
+  EXPECT_NE(told->front().drift.find("0.70 % smaller"), std::string::npos) << told->front().drift;
   EXPECT_EQ(told->back().drift, "");
   const auto of_nobody = ask_drift(folder_.path() / "hub", "buffet", Milliseconds(5000));
   ASSERT_TRUE(of_nobody.ok()) << of_nobody.failure();
