@@ -165,10 +165,10 @@ class FoundRim {
     DishPose own = found_.place;
     tracer_.shift_to_edges(std::array{index_}, found_.inside_sign, own);
     trace(found_.place);
-    const DishSighting sighting = sight_dish(found_.place, params_);
+    DishSighting sighting = sight_dish(found_.place, params_);
     if (sighting.is_known) keep_rays();
     trace(own);
-    const DishSighting own_sighting = sight_dish(own, params_);
+    DishSighting own_sighting = sight_dish(own, params_);
     if (own_sighting.points <= sighting.points) return sighting;
     keep_rays();
     return own_sighting;
