@@ -21,7 +21,8 @@ struct TrayMemory {
   std::array<TrayView, 2> views;
   std::array<ImageView<std::uint8_t>, 2>
       found_labels;  // memory for the largest frame; none: labels are given
-  std::array<std::array<SeenRim, kMaxPlacedDishes>, 2> seen_rims;  // the same
+  std::array<std::array<SeenRim, kMaxPlacedDishes>, 2>
+      seen_rims;  // of the same views: none where labels are given
   SurfaceMeasurementWorkspace dish;
   std::span<SceneGeometry> scene;  // one
   TrayViewWorkspace preparation;
