@@ -74,7 +74,8 @@ DishSighting sight_dish(std::span<const Vec2> outline, const Pose& camera_from_t
                         const DishPose& about, const DishSightingParams& params);
 
 // Of a dish that was found, by its rim in each view alone; it may have slipped between the views. Leaves the
-// rays that the sightings were made of in the workspace's rims, none unless both are known.
+// rays that the sightings were made of in the workspace's rims, none unless both are known:
+// an edge that is seen in one view contradicts what is drawn in the other.
 std::array<DishSighting, 2> sight_found_dish(const DishSearchViews& views, const FoundDish& found,
                                              const DishSearchParams& search, const DishSightingParams& params,
                                              DishSearchWorkspace& workspace);

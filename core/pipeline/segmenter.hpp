@@ -1,6 +1,7 @@
 // Draws the label pictures of a pair that nobody outlined: card, dishes and food, in the manner of J. Dehais,
 // M. Anthimopoulos, S. Mougiakakou, Dish Detection and Segmentation for Dietary Assessment on Smartphones
-// (ICIAP workshops 2015). What it draws is then measured as if a person had drawn it.
+// (ICIAP workshops 2015). What it draws is then measured as if a person had drawn
+// it, but the rims of the dishes are read in the pictures.
 #pragma once
 
 #include <array>

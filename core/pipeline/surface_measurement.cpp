@@ -57,7 +57,7 @@ void for_each_item(const ViewPair& views, const LabelSet& labels, Action&& actio
 // On the tray nothing but the pictures says where food ends, and next to what is smooth they do not: a napkin
 // in the colour of food passes for it.
 bool has_open_outline(const TrayAtWork& tray, const FoodSurface& surface, std::uint8_t label) {
-  return is_tray_place(surface.dish) && tray.views[0]->are_outlines_found &&
+  return is_tray_place(surface.dish) && tray.views[0]->are_outlines_found() &&
          tray.measurement.warnings.holds(Warning::little_texture, label);
 }
 
@@ -108,7 +108,7 @@ ItemResult measure_item(const TrayAtWork& tray, const ItemsAtWork& work, std::ui
                                work.height_per_sample_mm,
                                work.matched.dense.column_step_mm,
                                work.round.contains(label),
-                               tray.views[0]->are_outlines_found,
+                               tray.views[0]->are_outlines_found(),
                                surface.shape_sigma_mm};
   item.sigma_ml = estimate_sigma_ml(input, geometry.bundle.camera_from_table, geometry.bundle.covariance,
                                     configuration.uncertainty);

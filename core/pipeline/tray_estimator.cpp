@@ -45,7 +45,6 @@ Status prepare(EstimatorState& state, std::size_t index, const GivenPicture& pic
   view.lens = input.lens.value_or(state.configuration.lens);
   view.arm_angle_deg = input.arm_angle_deg;
   view.labels = labels;
-  view.are_outlines_found = state.is_finding_labels;
   view.rims = {};
   if (state.is_finding_labels) view.rims = state.memory.seen_rims[index];
   if (const Status status = validate(view.lens); !status.ok()) return status;

@@ -66,7 +66,7 @@ Status measure_place(const TrayAtWork& tray, const TableRectangle& place, const 
 
 // What was found may lie in a dish that nobody described: a soup is as level as this, and as high.
 bool may_fill_a_bowl(const TrayAtWork& tray, std::uint8_t label) {
-  return tray.views[0]->are_outlines_found &&
+  return tray.views[0]->are_outlines_found() &&
          find_standing_object(tray.views, tray.geometry, tray.configuration.card.size(),
                               tray.configuration.checks.standing, label)
              .is_seen;

@@ -25,8 +25,7 @@ struct TrayView {
   LensModel lens;
   std::optional<double> arm_angle_deg;
   ImageView<const std::uint8_t> labels;    // of the stored picture, the caller's
-  bool are_outlines_found = false;         // not drawn by a person
-  std::span<const SeenRim> rims;           // of the dishes that were found, if they were
+  std::span<const SeenRim> rims;           // where dishes were found; none where a person outlined them
   std::span<LabelRegions> region_storage;  // one
   FrameView frame;                         // the caller's
   GrayPyramid gray;
@@ -36,6 +35,7 @@ struct TrayView {
   std::span<ViewQuality> quality_storage;  // one
   std::span<CardAlignment> card_storage;   // one
 
+  bool are_outlines_found() const { return !rims.empty(); }
   const LabelRegions& regions() const { return region_storage.front(); }
   const ViewQuality& quality() const { return quality_storage.front(); }
   const CardAlignment& card() const { return card_storage.front(); }

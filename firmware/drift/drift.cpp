@@ -7,10 +7,15 @@
 namespace traygauge {
 namespace {
 
-bool is_too_blurred(const MedianEstimate& last, const MedianEstimate& first, const DriftParams& params) {
-  const double sigma = std::hypot(last.sigma, first.sigma);
-  return first.count >= params.min_values && last.value > params.max_blur_ratio * first.value &&
-         last.value - first.value > params.sigmas * sigma;
+// By more than their errors.
+bool do_differ(const MedianEstimate& last, const MedianEstimate& first, const DriftParams& params) {
+  return first.count >= params.min_values &&
+         std::abs(last.value - first.value) > params.sigmas * std::hypot(last.sigma, first.sigma);
+}
+
+bool is_too_blurred(const MedianEstimate& last, const std::optional<MedianEstimate>& first,
+                    const DriftParams& params) {
+  return first && do_differ(last, *first, params) && last.value > params.max_blur_ratio * first->value;
 }
 
 bool is_beyond(const MedianEstimate& last, double limit, const DriftParams& params) {
@@ -20,9 +25,8 @@ bool is_beyond(const MedianEstimate& last, double limit, const DriftParams& para
 // What came nearer to zero was mended.
 bool is_changed(const MedianEstimate& last, const std::optional<MedianEstimate>& first, double limit,
                 const DriftParams& params) {
-  if (!first || first->count < params.min_values || !is_beyond(last, limit, params)) return false;
-  const double change = std::abs(last.value - first->value);
-  return change > limit && change > params.sigmas * std::hypot(last.sigma, first->sigma);
+  return first && do_differ(last, *first, params) && std::abs(last.value - first->value) > limit &&
+         is_beyond(last, limit, params);
 }
 
 bool is_drift(WatchedCheck check, const MedianEstimate& last, const std::optional<MedianEstimate>& first,
@@ -40,7 +44,7 @@ bool is_drift(WatchedCheck check, const MedianEstimate& last, const std::optiona
     case WatchedCheck::blur_px:
       break;
   }
-  return first && is_too_blurred(last, *first, params);
+  return is_too_blurred(last, first, params);
 }
 
 // "0.42 % larger"
@@ -55,7 +59,7 @@ std::string height_beside(double mm) {
 
 // ", after 0.31 mm above in the first 50 that are stored"
 std::string after_first(const std::optional<MedianEstimate>& first, std::string (*words)(double)) {
-  if (!first || first->count == 0) return "";
+  if (!first) return "";
   return ", after " + words(first->value) + " in the first " + std::to_string(first->count) +
          " that are stored";
 }

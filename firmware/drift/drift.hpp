@@ -26,7 +26,8 @@ struct DriftParams {
   // Where ten values are watched, one is by chance beyond two of its standard errors in a third of the time,
   // beyond three in 3 % of it.
   double sigmas = 3.0;
-  // Since the first scans. In a volume three times as much: half of the mean error of a good capture.
+  // Of a change since the first scans. In a volume three times as much: half of the mean error of a good
+  // capture.
   double max_scale_change_percent = 0.3;
   // Over a dish 25 mm deep, 0.8 % of a volume.
   double max_dish_height_change_mm = 0.2;
@@ -53,7 +54,7 @@ struct CheckTrend {
 };
 
 // Scale and heights are compared with zero, because two rulers should agree; scale, edges and blur with
-// `first`, which tells less of a change.
+// `first`, against which a smaller change is told.
 CheckTrend judge_trend(WatchedCheck check, const MedianEstimate& last,
                        const std::optional<MedianEstimate>& first, const DriftParams& params);
 
